@@ -1,0 +1,182 @@
+"""Drawing: what a vector file holds, as exact segments in absolute coordinates, all transforms applied."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from importers.problems import Problem
+
+# One segment of a subpath, in the words of SVG path data, always absolute:
+#   ("M", x, y)                                      start; only ever the first of a subpath
+#   ("L", x, y)                                      line
+#   ("Q", x1, y1, x, y)                              quadratic Bezier curve
+#   ("C", x1, y1, x2, y2, x, y)                      cubic Bezier curve
+#   ("A", rx, ry, rotation, large, sweep, x, y)      elliptic arc; rotation in degrees, large and sweep 0 or 1,
+#                                                    rx, ry > 0 and large enough to reach (never scaled up later)
+Segment = tuple[Any, ...]
+
+YAxis = Literal["up", "down"]
+FillRule = Literal["nonzero", "evenodd"]
+
+
+@dataclass(slots=True)
+class Subpath:
+    """One pen stroke: a start point and the segments from it.
+
+    Attributes:
+        segments: ``("M", x, y)`` first, then any of L, Q, C and A. A closing edge is not repeated: a closed
+            triangle is M L L with ``closed`` true. Where the file itself draws back to the start and closes
+            as well, the last segment is kept as written.
+        closed: the file closes it (``Z``, a closing paint operator, a shape that is closed by nature).
+    """
+
+    segments: list[Segment]
+    closed: bool
+
+
+@dataclass(slots=True)
+class DrawnPath:
+    """One painted object of the file: its subpaths share fill, stroke and marks.
+
+    Attributes:
+        subpaths: in the file's order.
+        name: the object's name (SVG label or id, decoded; Illustrator's object name), or ``""``.
+        layer: name of the innermost layer it is on, or ``""``.
+        groups: names of the groups around it, outermost first; unnamed groups are ``""``.
+        visible: the file's own application would show it.
+        locked: it, a group around it or its layer is locked.
+        guide: a guide of the drawing program, not art.
+        clip: it clips other art and is not painted itself.
+        fill: colour as ``"#rrggbb"``, another paint's name (``"pattern"``, ``"gradient"``), None when not filled.
+        stroke: the same for the outline.
+        stroke_width: in the drawing's units, transforms applied (geometric mean of the two scales); None
+            when not stroked.
+        fill_rule: ``"nonzero"`` or ``"evenodd"``.
+        line: line in the file where it begins, from 1; None where lines mean nothing.
+        tags: free words the file carries for it (``data-*`` attributes, notes), by name.
+    """
+
+    subpaths: list[Subpath]
+    name: str = ""
+    layer: str = ""
+    groups: tuple[str, ...] = ()
+    visible: bool = True
+    locked: bool = False
+    guide: bool = False
+    clip: bool = False
+    fill: str | None = None
+    stroke: str | None = None
+    stroke_width: float | None = None
+    fill_rule: FillRule = "nonzero"
+    line: int | None = None
+    tags: dict[str, str] = field(default_factory=dict)
+
+    def to_json(self) -> dict[str, Any]:
+        """Give the path as the ``wallkit-drawing`` format has it."""
+        return {
+            "name": self.name,
+            "layer": self.layer,
+            "groups": list(self.groups),
+            "visible": self.visible,
+            "locked": self.locked,
+            "guide": self.guide,
+            "clip": self.clip,
+            "fill": self.fill,
+            "stroke": self.stroke,
+            "stroke_width": self.stroke_width,
+            "fill_rule": self.fill_rule,
+            "subpaths": [
+                {"closed": sub.closed, "segments": [list(segment) for segment in sub.segments]} for sub in self.subpaths
+            ],
+            "line": self.line,
+            "tags": dict(self.tags),
+        }
+
+
+@dataclass(slots=True)
+class Layer:
+    """A layer of the file.
+
+    Attributes:
+        name: as people see it in their program.
+        visible: shown.
+        locked: protected from editing.
+        printing: printed.
+    """
+
+    name: str
+    visible: bool = True
+    locked: bool = False
+    printing: bool = True
+
+    def to_json(self) -> dict[str, Any]:
+        """Give the layer as the ``wallkit-drawing`` format has it."""
+        return {
+            "name": self.name,
+            "visible": self.visible,
+            "locked": self.locked,
+            "printing": self.printing,
+        }
+
+
+@dataclass(slots=True)
+class Drawing:
+    """A vector file, read: layers, paths with exact segments, and what was left out and why.
+
+    Coordinates are those of the file with all transforms applied: Illustrator and PDF in points, y up, as
+    written; SVG in CSS px of the outermost viewport, y down, where a browser shows it.
+
+    Attributes:
+        units: ``"pt"`` or ``"px"``.
+        y_axis: ``"up"`` or ``"down"``.
+        layers: in the file's order (bottom first in SVG, as the file lists them in Illustrator).
+        paths: in the file's order, hidden ones included and marked.
+        problems: what a reader left out or could not read, with places.
+        kind: what the file turned out to be, for people, such as ``"Illustrator 8"`` or ``"SVG"``.
+        file: its name as given; ``"-"`` for standard input, ``""`` for text.
+        sha256: hex digest of the bytes that were read.
+    """
+
+    units: str
+    y_axis: YAxis
+    layers: list[Layer] = field(default_factory=list)
+    paths: list[DrawnPath] = field(default_factory=list)
+    problems: list[Problem] = field(default_factory=list)
+    kind: str = ""
+    file: str = ""
+    sha256: str = ""
+
+    def to_json(self) -> dict[str, Any]:
+        """Give the whole as the stable ``wallkit-drawing`` format, version 1."""
+        return {
+            "format": "wallkit-drawing",
+            "version": 1,
+            "kind": self.kind,
+            "units": self.units,
+            "y_axis": self.y_axis,
+            "layers": [layer.to_json() for layer in self.layers],
+            "paths": [path.to_json() for path in self.paths],
+            "problems": [problem.to_json() for problem in self.problems],
+        }
+
+    def control_box(self) -> tuple[float, float, float, float] | None:
+        """Give (x_min, y_min, x_max, y_max) over all end and control points; None without any.
+
+        An arc counts with its end points only. Hidden paths count: the box is of the file, not of a screen.
+        """
+        points = [point for path in self.paths for sub in path.subpaths for point in control_points(sub.segments)]
+        if not points:
+            return None
+        xs, ys = zip(*points, strict=True)
+        return min(xs), min(ys), max(xs), max(ys)
+
+
+def control_points(segments: Sequence[Segment]) -> list[tuple[float, float]]:
+    """List end and control points of segments in order (for an arc only its end)."""
+    points: list[tuple[float, float]] = []
+    for segment in segments:
+        numbers = segment[6:] if segment[0] == "A" else segment[1:]
+        points.extend(zip(numbers[0::2], numbers[1::2], strict=True))
+    return points

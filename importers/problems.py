@@ -1,0 +1,55 @@
+"""Problem: one thing about a drawing that its owner should know, with its place and what to do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+Severity = Literal["error", "warning", "info"]
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One finding. Readers and the wall builder return these; nothing is dropped without one.
+
+    Attributes:
+        code: a stable word for programs, such as ``"open-path"``; docs/problems.md lists them all.
+        severity: ``"error"`` (something is missing or wrong in the result), ``"warning"`` (the result is
+            complete, but probably not what was meant) or ``"info"`` (something was left out by rule).
+        message: what is the case, in one sentence.
+        fix: what to do about it.
+        layer: the layer's name, or ``""``.
+        name: the object's name, or ``""``.
+        line: line in the file, from 1, or None.
+        column: column in that line, from 1, or None.
+        x: place in the drawing, in its units and axes, or None.
+        y: the same for y.
+        excerpt: the line of the file that ``column`` points into (shortened), for the caret; or ``""``.
+    """
+
+    code: str
+    severity: Severity
+    message: str
+    fix: str = ""
+    layer: str = ""
+    name: str = ""
+    line: int | None = None
+    column: int | None = None
+    x: float | None = None
+    y: float | None = None
+    excerpt: str = ""
+
+    def to_json(self) -> dict[str, Any]:
+        """Give the finding as the JSON contracts have it (without the excerpt)."""
+        return {
+            "code": self.code,
+            "severity": self.severity,
+            "message": self.message,
+            "fix": self.fix,
+            "layer": self.layer,
+            "name": self.name,
+            "line": self.line,
+            "column": self.column,
+            "x": self.x,
+            "y": self.y,
+        }

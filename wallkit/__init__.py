@@ -1,0 +1,88 @@
+"""wallkit turns a drawing into walls that can be trusted and shoots balls at them with the exact answer, fast.
+
+The names below are all that others may rely on. Each is imported when it is first used, so that
+``import wallkit`` stays quick: numba, scipy and pikepdf are only loaded by what needs them.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+try:
+    from importers.errors import DrawingError, LimitError, WallkitError
+except ImportError as error:  # a user's own ``importers`` folder or an unrelated package stands before ours
+    import importers as _shadow
+
+    raise ImportError(
+        f"wallkit needs its own package 'importers', but {_shadow.__file__ or list(_shadow.__path__)} stands "
+        "before it on the import path; rename or move that one"
+    ) from error
+
+if TYPE_CHECKING:
+    from importers.read import read_drawing, read_drawing_text
+
+    from importers.drawing import Drawing, DrawnPath, Layer, Subpath
+    from importers.problems import Problem
+    from wallkit.run import Ending, Kind, Run
+    from wallkit.scene import Balls, Scene, SceneError
+    from wallkit.simulation import simulate
+    from wallkit.surveys import Totals, survey
+    from wallkit.walls import Material, Wall, Walls
+    from wallkit.walls.build import import_walls
+    from wallkit.world import World
+
+__version__ = "0.1.0"
+
+_HOMES = {
+    "importers.drawing": ("Drawing", "DrawnPath", "Layer", "Subpath"),
+    "importers.problems": ("Problem",),
+    "importers.read": ("read_drawing", "read_drawing_text"),
+    "wallkit.run": ("Ending", "Kind", "Run"),
+    "wallkit.scene": ("Balls", "Scene", "SceneError"),
+    "wallkit.simulation": ("simulate",),
+    "wallkit.surveys": ("Totals", "survey"),
+    "wallkit.walls": ("Material", "Wall", "Walls"),
+    "wallkit.walls.build": ("import_walls",),
+    "wallkit.world": ("World",),
+}
+_HOME = {name: module for module, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "Balls",
+    "Drawing",
+    "DrawingError",
+    "DrawnPath",
+    "Ending",
+    "Kind",
+    "Layer",
+    "LimitError",
+    "Material",
+    "Problem",
+    "Run",
+    "Scene",
+    "SceneError",
+    "Subpath",
+    "Totals",
+    "Wall",
+    "WallkitError",
+    "Walls",
+    "World",
+    "import_walls",
+    "read_drawing",
+    "read_drawing_text",
+    "simulate",
+    "survey",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'wallkit' has no attribute {name!r}")
+    value = getattr(importlib.import_module(_HOME[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOME})

@@ -1,0 +1,1 @@
+"""Speed against error: the report, the known answers, the horizon of a run."""

@@ -1,0 +1,1 @@
+"""The bounce core: floats and arrays in, floats and arrays out."""

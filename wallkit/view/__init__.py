@@ -1,0 +1,1 @@
+"""Pictures, replays, films and the page."""
