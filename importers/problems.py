@@ -24,7 +24,8 @@ class Problem:
         column: column in that line, from 1, or None.
         x: place in the drawing, in its units and axes, or None.
         y: the same for y.
-        excerpt: the line of the file that ``column`` points into (shortened), for the caret; or ``""``.
+        excerpt: the line of the file that ``column`` points into and a caret line under it, as
+            :func:`importers.excerpts.excerpt` makes them (the bare line will do where it is short); or ``""``.
     """
 
     code: str

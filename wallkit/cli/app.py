@@ -48,7 +48,9 @@ def main() -> None:
     try:
         app()
     except WallkitError as error:
-        typer.echo(f"wallkit: {error}", err=True)
+        from wallkit.cli.messages import show_error
+
+        show_error(error)
         sys.exit(error.exit_code)
     except KeyboardInterrupt:
         typer.echo("wallkit: interrupted", err=True)
