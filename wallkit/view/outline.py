@@ -1,0 +1,136 @@
+"""Walls as paths in pixels: arcs stay arcs, and every fill is told by nesting, not by winding."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.view.canvas import Command
+from wallkit.view.frame import Frame, flattened
+from wallkit.walls import Material, Walls
+
+FloatArray = NDArray[np.float64]
+
+
+def wall_path(walls: Walls, index: int, frame: Frame) -> list[Command]:
+    """Give one wall as path commands."""
+    span = slice(walls.offsets[index], walls.offsets[index + 1])
+    points, bulges, closed = frame.points(walls.vertices[span]), walls.bulges[span].tolist(), walls.closed[index]
+    ends = np.roll(points, -1, axis=0)
+    edges = [_edge(a, b, bulge, frame.up) for a, b, bulge in zip(points, ends, bulges, strict=True)]
+    start: Command = ("M", *points[0])
+    if not closed:
+        return [start, *edges[:-1]]
+    return [start, *(edges if bulges[-1] else edges[:-1]), ("Z",)]  # Z draws the last line itself
+
+
+def _edge(a: FloatArray, b: FloatArray, bulge: float, up: bool) -> Command:
+    if bulge == 0.0:
+        return ("L", *b)
+    # A chord c of an arc with bulge k has the radius c (1 + k^2) / (4 |k|). A left turn in the drawing stays one on
+    # the screen (sweep 0) when the y axis is turned over, and is clockwise there (sweep 1) when it is not.
+    radius = math.hypot(*(b - a)) * (1.0 + bulge * bulge) / (4.0 * abs(bulge))
+    return ("A", radius, radius, 0, int(abs(bulge) > 1.0), int((bulge > 0.0) != up), *b)
+
+
+def depths(walls: Walls) -> NDArray[np.int64]:
+    """Count the closed walls around each wall's first vertex, by even-odd crossings of a ray to the right.
+
+    ``walls.depth`` is not used: walls made of arrays do not carry it. Only a larger box can be around a smaller
+    one. A first vertex that lies exactly on another wall may be counted either way, a matter of colour only.
+    """
+    depth = np.zeros(len(walls), dtype=np.int64)
+    rings = [flattened(walls, index) for index in range(len(walls))]
+    size = np.array([float(np.ptp(ring, axis=0).prod()) for ring in rings])
+    first = walls.vertices[walls.offsets[:-1]]
+    for index in np.flatnonzero(walls.closed):
+        depth += contains(rings[index], first) & (size < size[index])
+    return depth
+
+
+def contains(ring: FloatArray, points: FloatArray) -> NDArray[np.bool_]:
+    """Tell for each of (n, 2) points whether a closed ring of points goes around it (even-odd)."""
+    low, high = ring.min(axis=0), ring.max(axis=0)
+    near = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
+    result = np.zeros(len(points), dtype=np.bool_)
+    a, b = ring, np.roll(ring, -1, axis=0)
+    rise = b[:, 1] - a[:, 1]
+    slope = np.divide(b[:, 0] - a[:, 0], rise, out=np.zeros_like(rise), where=rise != 0)
+    for index in near:
+        x, y = points[index]
+        spans = (a[:, 1] > y) != (b[:, 1] > y)
+        crossings = np.count_nonzero(spans & (a[:, 0] + (y - a[:, 1]) * slope > x))
+        result[index] = crossings % 2 == 1
+    return result
+
+
+def solid_areas(walls: Walls, free: FloatArray) -> list[tuple[Material, list[int], bool]]:
+    """Tell what is filled: groups of closed walls, each filled even-odd with one material.
+
+    Material is where the number of closed walls around is odd; but balls start where they can fly, so that with
+    ``free`` places of odd number (a room drawn as a plain outline) it is where that number is even.
+
+    Args:
+        walls: the walls.
+        free: (n, 2) places that are not material; the first decides.
+
+    Returns:
+        (material, wall indices, whether the frame's edge belongs to it as the outermost ring).
+    """
+    closed = np.flatnonzero(walls.closed)
+    if not len(closed):
+        return []
+    turned = _is_room(walls, free)
+    if len({walls.materials[index] for index in closed}) == 1:
+        return [(walls.materials[closed[0]], [int(index) for index in closed], turned)]
+    return _areas_by_material(walls, turned)
+
+
+def _is_room(walls: Walls, free: FloatArray) -> bool:
+    if not len(free):
+        return False
+    around = sum(int(contains(flattened(walls, int(i)), free[:1])[0]) for i in np.flatnonzero(walls.closed))
+    return around % 2 == 1
+
+
+def _areas_by_material(walls: Walls, turned: bool) -> list[tuple[Material, list[int], bool]]:
+    depth = depths(walls)
+    rings = {int(index): flattened(walls, int(index)) for index in np.flatnonzero(walls.closed)}
+    areas: list[tuple[Material, list[int], bool]] = []
+    if turned:  # each outermost room is cut out of the frame; they share the first one's material
+        rooms = [index for index in rings if depth[index] == 0]
+        areas.append((walls.materials[rooms[0]], rooms, True))
+    for index, ring in rings.items():
+        if depth[index] % 2 == int(turned):
+            inner = [other for other in rings if depth[other] == depth[index] + 1]
+            holes = [other for other in inner if contains(ring, rings[other][:1])[0]]
+            areas.append((walls.materials[index], [index, *holes], False))
+    return areas
+
+
+def tick_places(walls: Walls, frame: Frame, spacing: float = 26.0) -> list[tuple[float, float, float, float, bool]]:
+    """Choose where normals are shown: at edges' middles, at least about ``spacing`` pixels apart along a wall.
+
+    Returns:
+        (x, y, nx, ny, both sides) in pixels, n of length one.
+    """
+    places: list[tuple[float, float, float, float, bool]] = []
+    starts, ends = frame.points(walls.vertices[walls.edge_starts]), frame.points(walls.vertices[walls.edge_ends])
+    lengths = np.hypot(*(ends - starts).T)
+    normals = walls.normals * np.array([1.0, -1.0 if frame.up else 1.0])
+    # The top of an arc is half its bulge times the chord off the chord's middle, on the normal's side.
+    middles = (starts + ends) / 2 + normals * (walls.bulges[walls.edge_starts] * lengths / 2)[:, None]
+    offsets = walls.edge_offsets
+    for index in range(len(walls)):
+        both = not walls.closed[index] and walls.sides[index] == "both"
+        walked, last = 0.0, -spacing
+        for edge in range(offsets[index], offsets[index + 1]):
+            length = float(lengths[edge])
+            middle = walked + length / 2
+            if length > 0 and middle - last >= min(spacing, max(length, spacing / 2)):
+                last = middle
+                places.append((*middles[edge], *normals[edge], both))
+            walked += length
+    return places
