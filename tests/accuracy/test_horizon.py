@@ -1,0 +1,105 @@
+"""The promised horizon against runs that really depart: the same steps in 53 bits, and with as many as needed."""
+
+import math
+
+import numpy as np
+import pytest
+
+from wallkit import horizon
+from wallkit.accuracy import scenes
+from wallkit.accuracy.reference import Reference, sure_events
+from wallkit.run import CONTACT
+from wallkit.scene import Balls, Scene
+from wallkit.walls import Material, Walls
+
+BOUNCES = 160
+CASES = [(scene, radius) for scene in scenes.built_in() for radius in (0.0, scene.radius)]
+
+
+def as_contacts(scene, events):
+    rows = np.zeros(len(events), CONTACT)
+    for row, event in zip(rows, events, strict=True):
+        row["time"], row["x"], row["y"], row["vx"], row["vy"] = event.row()
+        row["nx"], row["ny"] = map(float, event.normal)
+        row["wall"], row["edge"], row["kind"] = event.wall, event.edge, event.edge < 0
+    return rows
+
+
+def in_doubles(scene, bounces):
+    """The reference's own steps, rounded to 53 bits each: a double-precision simulator that shares no code."""
+    runner = Reference(scene, 17)
+    runner.mp.prec = 53
+    return runner.run(bounces)
+
+
+def places(events):
+    return np.array([[float(v) for v in event.position] for event in events])
+
+
+@pytest.mark.parametrize(("built_in", "radius"), CASES, ids=[f"{s.name}-{r:g}" for s, r in CASES])
+def test_the_promise_holds_and_is_not_shy(built_in, radius):
+    scene = built_in.scene(radius=radius)
+    true = sure_events(scene, BOUNCES)
+    error = np.hypot(*(places(in_doubles(scene, BOUNCES)) - places(true)).T)
+    real = next((k for k, e in enumerate(error) if e > 1e-6), BOUNCES)
+    promised = horizon.trusted_until(scene, as_contacts(scene, true)).bounces
+    assert promised <= real <= 1.3 * promised
+
+
+def test_a_small_error_grows_as_two_runs_part():
+    # The derivative against a difference: runs 1e-30 apart at 80 digits, gravity, restitution, arcs and corners.
+    walls = Walls.from_polylines(
+        [[(-6, -4), (6, -4), (6, 8), (-6, 8)], [(-2.0, 0.0), (2.0, 0.5)]],
+        closed=[True, False],
+        bulges=[[0.3, 0.0, -0.1, 0.2], [0.4, 0.0]],
+        material=[Material(0.98, 0.97), Material(0.95, 1.0)],
+    )
+    start, aim, tiny = (0.3, 4.0), (2.0, 1.0), 1e-30
+    scene = Scene(walls, Balls([start], [aim], 0.5), gravity=(0.2, -3.0))
+    runner = Reference(scene, 80)
+    near = Reference(scene, 80)
+    near._vector = lambda pair: tuple(  # its start moved by tiny times the first error that `growth` carries
+        near.mp.mpf(float(v)) + tiny * d
+        for v, d in zip(pair, {start: (0.6, 0.3), aim: (0.2, 0.7)}.get(tuple(map(float, pair)), (0, 0)), strict=True)
+    )
+    events, neighbours = runner.run(12), near.run(12)
+    logs = horizon.growth(scene, as_contacts(scene, events))
+    # The neighbour's state at the run's own time of contact: it has bounced at another time, so it is flown there.
+    for k, (event, other) in enumerate(zip(events, neighbours, strict=True)):
+        position, velocity = near._fly(other.position, other.velocity, event.time - other.time)
+        apart = [p - q for p, q in zip((*position, *velocity), (*event.position, *event.velocity), strict=True)]
+        size = float(runner.mp.sqrt(sum(d * d for d in apart)) / tiny)
+        # each bounce of the prediction is in doubles: 1e-13 of it after a dozen of growth
+        assert math.log(size) == pytest.approx(logs[: k + 1].sum(), abs=1e-9)
+
+
+def test_a_hit_beside_a_corner_ends_trust():
+    # A point aimed 1e-12 beside the reflex corner of an L: a rounding decides after a few bounces of a box.
+    walls = scenes.room([(0, 0), (0, 2), (1, 2), (1, 1), (2, 1), (2, 0)])
+    scene = Scene(walls, Balls([(0.25, 0.5 + 1e-16)], [(3.0, 2.0)]))
+    events = Reference(scene, 60).run(60)
+    said = horizon.trusted_until(scene, as_contacts(scene, events), tolerance=1e-3)
+    assert said.reason == "corner"
+    assert not said.whole
+
+
+def test_sentences_are_for_people():
+    assert horizon.Horizon(1e-6, 152, 3.5, False, reason="growth").sentence() == (
+        "good to 1e-06 up to bounce 152; chaos after that"
+    )
+    assert horizon.Horizon(1e-6, 1000, 9.0, True).sentence() == "good to 1e-06 throughout (1000 bounces)"
+
+
+def test_flattened_walls_are_trusted_less_far():
+    built = next(scene for scene in scenes.built_in() if scene.name == "stadium")
+    walls = built.walls(0.001)
+    walls.measured_error = 0.001
+    scene = Scene(walls, Balls([built.position], [built.velocity]))
+    contacts = as_contacts(scene, sure_events(scene, 40))
+    rounding = horizon.trusted_until(scene, contacts, tolerance=0.1)
+    drawing = horizon.trusted_until(scene, contacts, tolerance=0.1, source="drawing")
+    exact = Reference(built.scene(radius=0.0), 60).run(40)
+    parted = np.hypot(*(places(exact) - places(sure_events(scene, 40))).T)
+    real = next(k for k, e in enumerate(parted) if e > 0.1)
+    assert drawing.bounces <= real
+    assert drawing.bounces < rounding.bounces

@@ -1,0 +1,449 @@
+"""How far a run can be trusted: a small error is carried along from contact to contact.
+
+Between contacts a small error of the state (dx, dv) grows as ``dx + dv t``; gravity is the same for both and
+drops out. At a contact with unit normal n and velocity v (v' after) the neighbour touches earlier or later by
+``dt = -dx.n / (v.n)``, at ``dx + v dt`` along the wall, where the normal is turned by ``dn = k (dx + v dt)``
+(k the curvature of the line that the ball's centre cannot cross: 0 beside a line, 1 / r about a corner,
+1 / (R + r) outside and -1 / (R - r) inside an arc). With the rule of the bounce
+``v' = T v - (T + R) (v.n) n`` and gravity g this gives the state just after, at the time of the run itself:
+
+    dx' = dx + (v - v') dt
+    dv' = T w - (T + R) ((w.n) n + (v.dn) n + (v.n) dn) - g dt,      w = dv + g dt
+
+(Dellago, Posch and Hoover, Phys. Rev. E 53, 1485 (1996), here with restitution and gravity). Each contact adds
+its own new error: roundings of the state, and the wall's own displacement and turn. Their covariance is
+carried (new errors count as independent), which gives the root mean square; each new error is taken at the
+largest that a rounding can be, about twice its own root mean square.
+
+Where the first order ends, trust ends: when the error reaches the distance by which the path passed a corner
+(points: the distance of a hit from a corner that turns), or the depth of a grazing hit.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.kernels.jit import kernel
+from wallkit.scene import Scene
+
+FloatArray = NDArray[np.float64]
+Source = Literal["rounding", "drawing"]
+ROUNDING = 2.0**-53
+SURE = 3.0  # promised is this many times the root mean square
+
+
+@dataclass(frozen=True, slots=True)
+class Horizon:
+    """Up to where one ball's run is good to a tolerance.
+
+    Attributes:
+        tolerance: of the place of a contact, in the drawing's units.
+        bounces: so many contacts, from the first, are good to it.
+        time: of the last of these; the run's end where all are good.
+        whole: nothing of the run is in doubt.
+        source: what the error comes from: the rounding of the arithmetic, or the drawing's own tolerance.
+        reason: why trust ends: ``"growth"``, ``"corner"`` (it may pass a corner on the other side), ``"graze"``
+            (it may miss what it grazed), or ``""``.
+    """
+
+    tolerance: float
+    bounces: int
+    time: float
+    whole: bool
+    source: Source = "rounding"
+    reason: str = ""
+
+    def sentence(self) -> str:
+        """Say it in one line, for people."""
+        if self.whole:
+            return f"good to {self.tolerance:g} throughout ({self.bounces} bounces)"
+        after = {"corner": "a corner decides after that", "graze": "a grazing hit decides after that"}
+        end = after.get(self.reason, "chaos after that")
+        return f"good to {self.tolerance:g} up to bounce {self.bounces}; {end}"
+
+
+def trusted_until(
+    scene: Scene,
+    contacts: Any,
+    ball: int = 0,
+    tolerance: float = 1e-6,
+    source: Source = "rounding",
+    end: float = math.nan,
+) -> Horizon:
+    """Say up to where a ball's contacts are good to ``tolerance``.
+
+    Args:
+        scene: what was run.
+        contacts: its contacts (the dtype ``wallkit.run.CONTACT``), of all balls, in order of time for each.
+        ball: which ball.
+        tolerance: of the place of a contact, in the drawing's units; above 0.
+        source: ``"rounding"``, or ``"drawing"``: walls that are off by their ``measured_error``.
+        end: the time at which the run ended, for a run that is good throughout.
+    """
+    own = contacts[contacts["ball"] == ball]
+    _rms, worst = predicted_errors(scene, own, ball, source)
+    bad = np.flatnonzero(~(worst <= tolerance))
+    limit = int(bad[0]) if len(bad) else len(own)
+    reason = "growth" if len(bad) else ""
+    doubt, why = _first_doubt(scene, own[:limit], ball, worst[:limit])
+    if doubt < limit:
+        limit, reason = doubt, why
+    whole = limit == len(own)
+    time = float(own["time"][limit - 1]) if limit else 0.0
+    return Horizon(tolerance, limit, end if whole and math.isfinite(end) else time, whole, source, reason)
+
+
+def predicted_errors(
+    scene: Scene, own: Any, ball: int = 0, source: Source = "rounding"
+) -> tuple[FloatArray, FloatArray]:
+    """Predict the error of the place of each contact of one ball: root mean square, and at worst.
+
+    Args:
+        scene: what was run.
+        own: (n,) contacts of that ball alone, in order.
+        ball: which ball.
+        source: see :func:`trusted_until`.
+
+    Returns:
+        Two arrays (n,), in the drawing's units; infinite once they exceed the scene a million times.
+    """
+    low_x, low_y, high_x, high_y = scene.walls.box()
+    size = math.hypot(high_x - low_x, high_y - low_y) / 2 or 1.0  # coordinates are kept from the middle
+    fresh, rounding = _new_errors(scene, own, source, size)
+    variance = np.full(len(own), np.inf)
+    _carry(*_course(scene, own, ball), fresh, np.array([rounding * size, rounding]), variance)
+    rms = np.sqrt(variance)
+    return rms, SURE * rms
+
+
+def growth(scene: Scene, own: Any, ball: int = 0) -> FloatArray:
+    """Carry one small error along; its mean per time is the largest Lyapunov exponent.
+
+    Args:
+        scene: what was run.
+        own: (n,) contacts of one ball alone, in order.
+        ball: which ball.
+
+    Returns:
+        (n,) natural logarithm of the growth from each contact to the next, of ``|(dx, dv)|`` with lengths and
+        speeds in the drawing's units.
+    """
+    logs = np.zeros(len(own))
+    _stretch(*_course(scene, own, ball), np.array([0.6, 0.3, 0.2, 0.7]), logs)
+    return logs
+
+
+def _course(scene: Scene, own: Any, ball: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+    """What the kernels need of one ball's run: first velocity, path, bends, restitutions, gravity."""
+    materials = scene.walls.materials
+    table = np.array([(m.tangential_restitution, m.restitution) for m in materials]).reshape(-1, 2)
+    path = np.stack([own[name].astype(np.float64) for name in ("time", "vx", "vy", "nx", "ny")], axis=1)
+    start = np.atleast_2d(np.asarray(scene.balls.velocity, dtype=np.float64))[ball]
+    gravity = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
+    return start, np.ascontiguousarray(path), _bends(scene, own, ball), table[own["wall"]], gravity
+
+
+def _new_errors(scene: Scene, own: Any, source: Source, size: float) -> tuple[FloatArray, float]:
+    """What each contact adds: (n, 2) displacement of the wall and turn of its normal (radians); the rounding."""
+    walls = scene.walls
+    if source == "rounding":
+        shift, turn, rounding = ROUNDING * size, ROUNDING, ROUNDING
+    elif walls.measured_normal_error is not None:
+        shift, turn, rounding = walls.measured_error, walls.measured_normal_error, 0.0
+    else:  # a chord of length c with the sagitta s is turned by at most 4 s / c from its arc
+        d = walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]
+        chord = np.maximum(np.hypot(d[:, 0], d[:, 1]), walls.measured_error or 1.0)
+        edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
+        turns = 4 * walls.measured_error / chord[edge]
+        return np.stack([np.full(len(own), walls.measured_error), turns], axis=1), 0.0
+    return np.tile([shift, turn], (len(own), 1)), rounding
+
+
+def _bends(scene: Scene, own: Any, ball: int) -> FloatArray:
+    """(n,) curvature at each contact of the line that the ball's centre cannot cross, positive when convex."""
+    walls = scene.walls
+    radius = _radius(scene, ball)
+    bends = np.zeros(len(own))
+    corner = own["edge"] < 0
+    if radius > 0:
+        bends[corner] = 1 / radius
+    if walls.has_arcs:
+        edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
+        start = walls.edge_starts[edge]
+        bulge = np.where(corner, 0.0, walls.bulges[start])
+        round_ = bulge != 0
+        centre, curve = _circles(walls.vertices[start], walls.vertices[walls.edge_ends[edge]], bulge)
+        facing = (own["x"] - centre[:, 0]) * own["nx"] + (own["y"] - centre[:, 1]) * own["ny"]
+        with np.errstate(divide="ignore"):
+            outside, inside = 1 / (curve + radius), -1 / (curve - radius)
+        bends[round_] = np.where(facing > 0, outside, inside)[round_]
+    return bends
+
+
+def _circles(a: FloatArray, b: FloatArray, bulge: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Centre and radius of the circles of arcs; of lines (bulge 0) something harmless."""
+    k = np.where(bulge == 0, 1.0, bulge)
+    d = b - a
+    length = np.hypot(d[:, 0], d[:, 1])
+    radius = length * (1 + k * k) / (4 * np.abs(k))
+    back = (1 - k * k) / (4 * k)  # from the middle of the chord, to the left, in chord lengths
+    centre = (a + b) / 2 + back[:, None] * np.stack([-d[:, 1], d[:, 0]], axis=1)
+    return centre, radius
+
+
+def _radius(scene: Scene, ball: int) -> float:
+    radii = np.asarray(scene.balls.radius, dtype=np.float64)
+    return float(radii if radii.ndim == 0 else radii[ball])
+
+
+@kernel
+def _derivative(
+    vx: float, vy: float, ux: float, uy: float, nx: float, ny: float, keep: Any, bend: float, g: Any
+) -> Any:
+    """Give the derivative of one bounce, as rows of 2 x 2 blocks; see the top of this module for the equations.
+
+    Args:
+        vx: velocity before, with vy; u is the velocity after, n the normal, v.n < 0.
+        vy: see vx.
+        ux: see vx.
+        uy: see vx.
+        nx: see vx.
+        ny: see vx.
+        keep: (T, R), tangential and normal restitution.
+        bend: curvature k.
+        g: (gx, gy).
+
+    Returns:
+        S = d(place along the wall)/dx, A = dx'/dx, B = dv'/dx, M = dv'/dv.
+    """
+    across = vx * nx + vy * ny
+    tx, ty = -nx / across, -ny / across  # dt/dx
+    s11, s12, s21, s22 = 1 + vx * tx, vx * ty, vy * tx, 1 + vy * ty
+    wx, wy = vx - ux, vy - uy
+    both = keep[0] + keep[1]
+    m11, m12, m22 = keep[0] - both * nx * nx, -both * nx * ny, keep[0] - both * ny * ny
+    jx, jy = (m11 - 1) * g[0] + m12 * g[1], m12 * g[0] + (m22 - 1) * g[1]
+    rx, ry = vx * s11 + vy * s21, vx * s12 + vy * s22
+    k = both * bend
+    return (
+        (s11, s12, s21, s22),
+        (1 + wx * tx, wx * ty, wy * tx, 1 + wy * ty),
+        (
+            jx * tx - k * (nx * rx + across * s11),
+            jx * ty - k * (nx * ry + across * s12),
+            jy * tx - k * (ny * rx + across * s21),
+            jy * ty - k * (ny * ry + across * s22),
+        ),
+        (m11, m12, m12, m22),
+    )
+
+
+@kernel
+def _times(m: Any, n: Any) -> Any:
+    """Multiply two 2 x 2 matrices, given by rows."""
+    return (
+        m[0] * n[0] + m[1] * n[2],
+        m[0] * n[1] + m[1] * n[3],
+        m[2] * n[0] + m[3] * n[2],
+        m[2] * n[1] + m[3] * n[3],
+    )
+
+
+@kernel
+def _times_turned(m: Any, n: Any) -> Any:
+    """Multiply a 2 x 2 matrix with another's transpose, m n^T."""
+    return _times(m, (n[0], n[2], n[1], n[3]))
+
+
+@kernel
+def _plus(m: Any, n: Any) -> Any:
+    return m[0] + n[0], m[1] + n[1], m[2] + n[2], m[3] + n[3]
+
+
+@kernel
+def _carry(start: Any, path: Any, bend: Any, keep: Any, g: Any, fresh: Any, blur: Any, variance: Any) -> None:
+    """Fill ``variance`` with that of the place of each contact.
+
+    Args:
+        start: (2,) velocity at time 0.
+        path: (n, 5) time, velocity after, normal of each contact.
+        bend: (n,) curvature.
+        keep: (n, 2) tangential and normal restitution.
+        g: (2,) gravity.
+        fresh: (n, 2) displacement and turn of the wall, new at each contact.
+        blur: (2,) rounding of the place, and of the velocity relative to the speed.
+        variance: (n,), filled; left as it is after the first that exceeds 1e300.
+    """
+    ux, uy = start[0], start[1]
+    # covariances of position, of position with velocity, of velocity; the start is exact: it is what was asked for
+    xx = xv = vv = (0.0, 0.0, 0.0, 0.0)
+    now = 0.0
+    for i in range(len(path)):
+        t = path[i, 0] - now
+        now = path[i, 0]
+        both = _plus(xv, (xv[0], xv[2], xv[1], xv[3]))
+        xx = _plus(
+            xx,
+            (
+                t * (both[0] + t * vv[0]),
+                t * (both[1] + t * vv[1]),
+                t * (both[2] + t * vv[2]),
+                t * (both[3] + t * vv[3]),
+            ),
+        )
+        xv = _plus(xv, (t * vv[0], t * vv[1], t * vv[2], t * vv[3]))
+        vx, vy = ux + g[0] * t, uy + g[1] * t
+        ux, uy, nx, ny = path[i, 1], path[i, 2], path[i, 3], path[i, 4]
+        across = vx * nx + vy * ny
+        if not across < 0:
+            break  # not a bounce that a neighbour shares (it began or slid in contact)
+        S, A, B, M = _derivative(vx, vy, ux, uy, nx, ny, (keep[i, 0], keep[i, 1]), bend[i], (g[0], g[1]))
+        place = _times_turned(_times(S, xx), S)
+        variance[i] = place[0] + place[3] + 2 * blur[0] * blur[0]
+        if not variance[i] < 1e300:
+            break
+        back = (xv[0], xv[2], xv[1], xv[3])
+        turned = _plus(_times(B, xx), _times(M, back))
+        vv = _plus(_times_turned(turned, B), _times_turned(_plus(_times(B, xv), _times(M, vv)), M))
+        xv = _plus(_times_turned(_times(A, xx), B), _times_turned(_times(A, xv), M))
+        xx = _times_turned(_times(A, xx), A)
+        # New here: the wall moved by `shift` along n moves the state by (v - v') shift / (v.n) ...
+        shift, turn = fresh[i, 0] / across, fresh[i, 1] * (keep[i, 0] + keep[i, 1])
+        p, q = (vx - ux) * shift, (vy - uy) * shift
+        rounded = blur[0] * blur[0]
+        xx = _plus(xx, (p * p + rounded, p * q, p * q, q * q + rounded))
+        # ... its normal turned by `turn` turns v', with dn = (ny, -nx) turn; and the state is rounded
+        slip = vx * ny - vy * nx
+        p, q = turn * (nx * slip + across * ny), turn * (ny * slip - across * nx)
+        rounded = blur[1] * blur[1] * (ux * ux + uy * uy)
+        vv = _plus(vv, (p * p + rounded, p * q, p * q, q * q + rounded))
+
+
+@kernel
+def _stretch(start: Any, path: Any, bend: Any, keep: Any, g: Any, error: Any, logs: Any) -> None:
+    """Carry one small error (dx, dv) along and fill ``logs`` with the logarithm of its growth at each bounce."""
+    ux, uy = start[0], start[1]
+    x, y, vx_, vy_ = error[0], error[1], error[2], error[3]
+    now = 0.0
+    for i in range(len(path)):
+        t = path[i, 0] - now
+        now = path[i, 0]
+        x, y = x + vx_ * t, y + vy_ * t
+        vx, vy = ux + g[0] * t, uy + g[1] * t
+        ux, uy = path[i, 1], path[i, 2]
+        _, A, B, M = _derivative(
+            vx, vy, ux, uy, path[i, 3], path[i, 4], (keep[i, 0], keep[i, 1]), bend[i], (g[0], g[1])
+        )
+        vx_, vy_, x, y = (
+            B[0] * x + B[1] * y + M[0] * vx_ + M[1] * vy_,
+            B[2] * x + B[3] * y + M[2] * vx_ + M[3] * vy_,
+            A[0] * x + A[1] * y,
+            A[2] * x + A[3] * y,
+        )
+        size = math.sqrt(x * x + y * y + vx_ * vx_ + vy_ * vy_)
+        logs[i] = math.log(size)
+        x, y, vx_, vy_ = x / size, y / size, vx_ / size, vy_ / size
+
+
+def _first_doubt(scene: Scene, own: Any, ball: int, worst: FloatArray) -> tuple[int, str]:
+    """Find the first contact whose flight, or hit, is so close to a corner or a graze that the error decides."""
+    if not len(own):
+        return 0, ""
+    radius = _radius(scene, ball)
+    doubts = np.zeros(len(own), dtype=np.int8)
+    grazing = _grazing_depth(scene, own, ball)
+    doubts[grazing <= worst] = 2
+    if scene.gravity is None:
+        start = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
+        ends = np.stack([own["x"], own["y"]], axis=1)
+        starts = np.concatenate([start[None], ends[:-1]])
+        for index, clear in _near_corners(scene, starts, ends, radius, float(worst.max())):
+            doubts[index[clear <= worst[index]]] = 1
+        for index, clear in _near_arcs(scene, starts, ends, radius):
+            doubts[index[clear <= worst[index]]] = 2
+    found = np.flatnonzero(doubts)
+    if not len(found):
+        return len(own), ""
+    return int(found[0]), "corner" if doubts[found[0]] == 1 else "graze"
+
+
+def _grazing_depth(scene: Scene, own: Any, ball: int) -> FloatArray:
+    """(n,) by how much a neighbour may be off before it misses the convex thing that was hit: rho (1 - sin)."""
+    bends = _bends(scene, own, ball)
+    speed = np.hypot(own["vx"], own["vy"])
+    cosine = np.divide(own["vx"] * own["nx"] + own["vy"] * own["ny"], speed, out=np.ones(len(own)), where=speed > 0)
+    lost = cosine**2 / (1 + np.sqrt(np.maximum(0.0, 1 - cosine**2)))
+    depth: FloatArray = np.divide(lost, bends, out=np.full(len(own), np.inf), where=bends > 0)
+    return depth
+
+
+def _near_corners(
+    scene: Scene, starts: FloatArray, ends: FloatArray, radius: float, reach: float
+) -> list[tuple[NDArray[np.int64], FloatArray]]:
+    """Pairs (flight, clearance) of straight flights that pass a corner by no more than ``reach``."""
+    import shapely
+
+    corners = _turning_corners(scene)
+    if not len(corners):
+        return []
+    flights = shapely.linestrings(np.stack([starts, ends], axis=1))
+    found, corner = shapely.STRtree(shapely.points(corners)).query(
+        flights, predicate="dwithin", distance=radius + reach
+    )
+    along, clear = _closest(starts[found], ends[found], corners[corner])
+    # A disc rolls from an edge on to its corner without a jump: only a corner passed in full flight decides.
+    # For a point the hit itself counts; where it started is the last flight's end and was judged there.
+    decides = (along > 0) & ((along < 1) | (radius == 0))
+    return [(found[decides], np.maximum(0.0, clear[decides] - radius))]
+
+
+def _turning_corners(scene: Scene) -> FloatArray:
+    """(m, 2) vertices where a wall ends, or turns: at the others a hit to the left or right is the same."""
+    walls = scene.walls
+    start, end = walls.edge_starts, walls.edge_ends
+    d = walls.vertices[end] - walls.vertices[start]
+    chord = np.arctan2(d[:, 1], d[:, 0])
+    half = 2 * np.arctan(walls.bulges[start])  # an arc leaves its chord by half its angle
+    leaving = np.full(len(walls.vertices), np.nan)
+    arriving = np.full(len(walls.vertices), np.nan)
+    leaving[start], arriving[end] = chord - half, chord + half
+    turn = leaving - arriving
+    straight = np.abs(np.remainder(turn + math.pi, math.tau) - math.pi) < 1e-12
+    return np.asarray(walls.vertices[~straight], dtype=np.float64)
+
+
+def _near_arcs(
+    scene: Scene, starts: FloatArray, ends: FloatArray, radius: float
+) -> list[tuple[NDArray[np.int64], FloatArray]]:
+    """Pairs (flight, clearance) of flights that pass the convex side of an arc."""
+    walls = scene.walls
+    edges = np.flatnonzero(walls.bulges[walls.edge_starts])
+    a, b = walls.vertices[walls.edge_starts[edges]], walls.vertices[walls.edge_ends[edges]]
+    bulge = walls.bulges[walls.edge_starts[edges]]
+    centres, curves = _circles(a, b, bulge)
+    chord = b - a
+    to_middle = np.sign(bulge)[:, None] * np.stack([chord[:, 1], -chord[:, 0]], axis=1)
+    to_middle /= np.maximum(np.hypot(to_middle[:, 0], to_middle[:, 1]), 1e-300)[:, None]
+    cos_half = np.cos(2 * np.arctan(np.abs(bulge)))
+    pairs = []
+    for centre, curve, middle, limit in zip(centres, curves, to_middle, cos_half, strict=True):
+        along, distance = _closest(starts, ends, np.broadcast_to(centre, starts.shape))
+        foot = starts + along[:, None] * (ends - starts) - centre
+        beside = (foot @ middle >= limit * np.maximum(distance, 1e-300)) & (along > 0) & (along < 1)
+        index = np.flatnonzero(beside & (distance >= curve + radius))
+        pairs.append((index, distance[index] - curve - radius))
+    return pairs
+
+
+def _closest(starts: FloatArray, ends: FloatArray, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Where along each segment (0 to 1) a point is closest, and how far it is from there."""
+    d = ends - starts
+    length2 = np.maximum((d * d).sum(axis=1), 1e-300)
+    along = np.clip(((points - starts) * d).sum(axis=1) / length2, 0.0, 1.0)
+    away = points - starts - along[:, None] * d
+    return along, np.hypot(away[:, 0], away[:, 1])
