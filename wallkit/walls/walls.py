@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from pathlib import Path
+from typing import IO, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -216,6 +217,37 @@ class Walls:
     def has_arcs(self) -> bool:
         """Some edge is an arc."""
         return bool(np.any(self.bulges))
+
+    def __eq__(self, other: object) -> bool:
+        """The same walls: every number bit for bit, every word, every problem."""
+        if not isinstance(other, Walls):
+            return NotImplemented
+        mine, others = (tuple(getattr(walls, name) for name in walls.__slots__) for walls in (self, other))
+        return all(
+            a.tobytes() == b.tobytes() if isinstance(a, np.ndarray) else a == b
+            for a, b in zip(mine, others, strict=True)
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def save(self, path: str | Path) -> None:
+        """Write the walls as JSON, see :func:`wallkit.walls.files.save`."""
+        from wallkit.walls.files import save
+
+        save(self, path)
+
+    @staticmethod
+    def load(source: str | Path | IO[bytes] | IO[str]) -> Walls:
+        """Read walls that :meth:`save` wrote, the same bits; see :func:`wallkit.walls.files.load`."""
+        from wallkit.walls.files import load
+
+        return load(source)
+
+    def to_shapely(self, tolerance: float | None = None) -> Any:
+        """Give the material and the open walls as shapely geometry, see :func:`wallkit.walls.shapes.to_shapely`."""
+        from wallkit.walls.shapes import to_shapely
+
+        return to_shapely(self, tolerance)
 
     def box(self) -> tuple[float, float, float, float]:
         """Give (x_min, y_min, x_max, y_max) of the vertices (arcs may bow beyond); zeros without any."""

@@ -1,0 +1,109 @@
+"""`wallkit import`: a drawing becomes walls; data on standard output, a summary on standard error."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TextIO
+
+import typer
+
+from wallkit.cli import import_options as options
+
+if TYPE_CHECKING:
+    from wallkit.walls import Walls
+
+
+def register(app: typer.Typer) -> None:
+    """Attach the command."""
+    app.command("import")(import_drawing)
+
+
+def import_drawing(
+    file: options.File,
+    out: Annotated[
+        str, typer.Option("-o", "--out", metavar="OUT", help="Where to write (.json); - is standard output.")
+    ] = "-",
+    preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls and all findings (.svg).")] = "",
+    tolerance: options.Tolerance = None,
+    curves: options.Curves = "lines",
+    layer: options.Layer = None,
+    hidden: options.Hidden = False,
+    arena: options.Arena = False,
+    sides: options.Sides = "both",
+    scale: options.Scale = 1.0,
+    flip_y: options.FlipY = False,
+) -> None:
+    """Turn a drawing into walls: closed and open polylines with outward normals."""
+    from wallkit.cli.messages import show_problems
+    from wallkit.walls.build import import_walls
+
+    _check_ending(out)
+    walls = import_walls(
+        source(file),
+        tolerance=tolerance,
+        curves=curves,
+        layers=layer or None,
+        hidden=hidden,
+        arena=arena,
+        sides=sides,
+        scale=scale,
+        flip_y=flip_y,
+    )
+    if preview:
+        draw(walls, preview)
+    walls.save(out)
+    show_problems(walls.problems, walls.source_file)
+    summarise(walls)
+
+
+def source(file: str) -> Any:
+    """Give what the reader takes: the path, or standard input for ``-``."""
+    return sys.stdin.buffer if file == "-" else file
+
+
+def _check_ending(out: str) -> None:
+    from wallkit.walls.walls import WallsError
+
+    if out != "-" and Path(out).suffix.lower() != ".json":
+        raise WallsError(
+            f"walls cannot be written as {Path(out).suffix or 'a file without an ending'}",
+            code="unknown-ending",
+            fix="use an ending of these: .json",
+            file=out,
+        )
+
+
+def draw(walls: Walls, picture: str) -> None:
+    """Write the picture of walls and their problems."""
+    from wallkit.files import write_whole
+    from wallkit.view.picture import walls_svg
+
+    write_whole(picture, walls_svg(walls, problems=walls.problems))
+
+
+def summarise(walls: Walls, stream: TextIO | None = None) -> None:
+    """Write what came of it: one line for the walls, one for how exact they are."""
+    stream = stream or sys.stderr
+    closed, edges = int(walls.closed.sum()), len(walls.edge_starts)
+    still_open = len(walls) - closed
+    parts = [f"{closed} closed", f"{still_open} open"] if still_open else [f"{closed} closed"]
+    print(
+        f"{len(walls)} {_plural('wall', len(walls))} ({', '.join(parts)}), {edges} {_edge_words(walls, edges)}",
+        file=stream,
+    )
+    exact = f"largest distance to the drawn curves {walls.measured_error:.3g} (tolerance {walls.tolerance:.3g})"
+    if walls.measured_normal_error is not None:
+        exact += f", largest error of a normal {walls.measured_normal_error:.3g} rad"
+    print(exact, file=stream)
+
+
+def _edge_words(walls: Walls, edges: int) -> str:
+    import numpy as np
+
+    arcs = int(np.count_nonzero(walls.bulges))
+    return _plural("edge", edges) + (f" ({arcs} {_plural('arc', arcs)})" if arcs else "")
+
+
+def _plural(word: str, count: int) -> str:
+    return word if count == 1 else word + "s"

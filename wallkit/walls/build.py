@@ -1,0 +1,159 @@
+"""From a drawing to walls: choose paths, make edges of curves, clean, nest, orient, report."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import IO, Literal
+
+import numpy as np
+
+from importers.drawing import Drawing, DrawnPath
+from importers.problems import Problem
+from wallkit.walls.clean import clean
+from wallkit.walls.flatten import Pieces, flatten
+from wallkit.walls.nesting import depths, orient, signed_areas
+from wallkit.walls.outlines import Outlines, assemble
+from wallkit.walls.select import choose
+from wallkit.walls.strokes import Strokes, gather
+from wallkit.walls.walls import Sides, Walls, WallsError
+
+Curves = Literal["lines", "arcs"]
+Source = str | Path | IO[bytes] | IO[str] | Drawing
+
+
+def import_walls(
+    source: Source,
+    *,
+    tolerance: float | None = None,
+    curves: Curves = "lines",
+    layers: Sequence[str] | None = None,
+    hidden: bool = False,
+    arena: bool = False,
+    sides: Sides = "both",
+    scale: float = 1.0,
+    flip_y: bool = False,
+) -> Walls:
+    """Turn a drawing into walls.
+
+    Args:
+        source: a path, a file object, or a Drawing.
+        tolerance: the largest distance between a curve and its edges, in the drawing's units; by default
+            0.1 % of the diagonal of what is taken, at most 0.1.
+        curves: ``"lines"`` or ``"arcs"``.
+        layers: globs on layer and group names; only these are taken.
+        hidden: take hidden paths too.
+        arena: the outermost closed walls are rooms: what is inside is free, material is outside.
+        sides: ``"both"`` or ``"outward"``, for closed walls; open ones are always two-sided.
+        scale: factor on all coordinates; the places of problems are scaled too.
+        flip_y: mirror the y axis (SVG's points down).
+
+    Returns:
+        Walls with everything noticed in ``problems``; nothing is left out without one.
+
+    Raises:
+        DrawingError: the source is not a drawing.
+        WallsError: an option is out of range, or a layer glob fits nothing.
+        LimitError: more than 2,000,000 vertices.
+    """
+    _check(tolerance, curves, sides, scale)
+    drawing = source if isinstance(source, Drawing) else _read(source)
+    chosen, problems = choose(drawing, layers, hidden)
+    chosen, pointless = _with_segments(chosen)
+    strokes = gather((sub for path in chosen for sub in path.subpaths), scale, flip_y)
+    within = default_tolerance(strokes) if tolerance is None else tolerance * abs(scale)
+    pieces = _edges(strokes, within, curves)
+    outlines = clean(assemble(strokes, pieces, chosen))
+    walls = oriented(outlines, sides, arena)
+    found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *problems, *pointless)]
+    return replace(
+        walls,
+        units=drawing.units if scale == 1 else "",
+        y_axis=_flipped(drawing.y_axis) if flip_y else drawing.y_axis,
+        tolerance=within,
+        measured_error=pieces.error,
+        measured_normal_error=pieces.normal_error,
+        source_file=drawing.file,
+        source_sha256=drawing.sha256,
+        problems=found + outlines.problems,
+    )
+
+
+def _read(source: str | Path | IO[bytes] | IO[str]) -> Drawing:
+    from importers.read import read_drawing  # late: it brings the readers of all formats
+
+    drawing: Drawing = read_drawing(source)
+    return drawing
+
+
+def _check(tolerance: float | None, curves: str, sides: str, scale: float) -> None:
+    if tolerance is not None and not (math.isfinite(tolerance) and tolerance > 0):
+        raise WallsError(f"tolerance is {tolerance!r}", code="bad-option", fix="give a number above 0")
+    if curves not in ("lines", "arcs"):
+        raise WallsError(f"curves is {curves!r}", code="bad-option", fix='give "lines" or "arcs"')
+    if sides not in ("both", "outward"):
+        raise WallsError(f"sides is {sides!r}", code="bad-option", fix='give "both" or "outward"')
+    if not (math.isfinite(scale) and scale > 0):
+        raise WallsError(f"scale is {scale!r}", code="bad-option", fix="give a number above 0")
+
+
+def default_tolerance(strokes: Strokes) -> float:
+    """0.1 % of the diagonal of the box of all end and control points, at most 0.1."""
+    points = np.concatenate([strokes.starts, strokes.ends, strokes.cubics.reshape(-1, 2)])
+    if not len(points):
+        return 0.1
+    diagonal = float(np.hypot(*(points.max(axis=0) - points.min(axis=0))))
+    return min(0.1, diagonal / 1000) or 0.1
+
+
+def _with_segments(paths: list[DrawnPath]) -> tuple[list[DrawnPath], list[Problem]]:
+    """Take away subpaths that only move the pen; each is a path of one point and reported as such."""
+    kept: list[DrawnPath] = []
+    problems: list[Problem] = []
+    for path in paths:
+        drawn = [sub for sub in path.subpaths if len(sub.segments) > 1]
+        points = (sub.segments[0] for sub in path.subpaths if len(sub.segments) == 1)
+        problems.extend(_one_point(path, x, y) for _, x, y in points)
+        if drawn:
+            kept.append(path if len(drawn) == len(path.subpaths) else replace(path, subpaths=drawn))
+    return kept, problems
+
+
+def _one_point(path: DrawnPath, x: float, y: float) -> Problem:
+    return Problem(
+        code="one-point-path",
+        severity="warning",
+        message="a path of a single point has no wall",
+        fix="delete the stray point, or draw a small circle if a ball should hit it",
+        layer=path.layer,
+        name=path.name,
+        line=path.line,
+        x=x,
+        y=y,
+    )
+
+
+def _edges(strokes: Strokes, tolerance: float, curves: Curves) -> Pieces:
+    return flatten(strokes, tolerance)
+
+
+def oriented(outlines: Outlines, sides: Sides, arena: bool) -> Walls:
+    """Nest and orient: even depth a solid, odd depth a hole; with ``arena`` the other way round."""
+    depth = depths(outlines.vertices, outlines.offsets, outlines.closed)
+    area = signed_areas(outlines.vertices, outlines.bulges, outlines.offsets)
+    material = depth + (1 if arena else 0)
+    turn = outlines.closed & ((area > 0) != (material % 2 == 0)) & (area != 0)
+    vertices, bulges = orient(outlines.vertices, outlines.bulges, outlines.offsets, turn)
+    return replace(replace(outlines, vertices=vertices, bulges=bulges).to_walls(sides), depth=material)
+
+
+def _flipped(axis: Literal["up", "down"]) -> Literal["up", "down"]:
+    return "down" if axis == "up" else "up"
+
+
+def _moved(problem: Problem, scale: float, flip_y: bool) -> Problem:
+    if problem.x is None or problem.y is None or (scale == 1 and not flip_y):
+        return problem
+    return replace(problem, x=problem.x * scale, y=problem.y * scale * (-1 if flip_y else 1))

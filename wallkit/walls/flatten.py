@@ -1,0 +1,370 @@
+"""Flattening: curves become lines that stay within a stated distance, a bound that is proven and an error measured.
+
+For a cubic piece with chord from P0 to P3 let d1, d2 be the signed distances of P1, P2 from the chord's line.
+The curve's own distance is f(t) = 3 t (1-t) ((1-t) d1 + t d2), whose largest value has a closed form. It is the
+distance to the chord itself when P1 and P2 project onto the chord, because then (convex hull) all of the curve
+does. Otherwise distance to a segment is convex, so f(t) <= 3 t (1-t) m <= 3/4 m, m the larger distance of P1, P2
+to the segment. The curve's projection covers the chord, so the bound holds from lines to curve as well.
+
+For an elliptic arc cut into equal angles the ellipse is the affine image of a circle, so the distance is at most
+R (1 - cos(step / 2)), R the larger half axis.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from importers.limits import MAX_VERTICES, limit_error
+from wallkit.walls.strokes import ARC, CUBIC, Arcs, FloatArray, IntArray, Strokes
+
+_DEEPEST = 40  # halvings: t is then below 1e-12, and rounding, not the curve, is what is left
+
+
+@dataclass(slots=True)
+class Pieces:
+    """Edges of many segments: segment ``i`` has ``counts[i]`` edges, at least one.
+
+    Attributes:
+        counts: (N,) int64.
+        ends: (sum of counts, 2) end point of each edge, in order.
+        bulges: (sum of counts,) bulge of each edge.
+        error: the largest measured distance between a segment and its edges.
+        normal_error: the largest measured angle between their normals in radians; None for lines.
+    """
+
+    counts: IntArray
+    ends: FloatArray
+    bulges: FloatArray
+    error: float
+    normal_error: float | None = None
+
+
+def flatten(strokes: Strokes, tolerance: float) -> Pieces:
+    """Turn every segment into lines within ``tolerance`` (> 0); end points of segments stay bit for bit.
+
+    Raises:
+        LimitError: the result would have more than 2,000,000 vertices.
+    """
+    cubic_id, cubic_t = _cubic_cuts(strokes.cubics, tolerance)
+    arc_id, arc_t = _arc_cuts(strokes.arcs, tolerance)
+    counts = np.ones(len(strokes.kinds), dtype=np.int64)
+    cubic_at, arc_at = np.flatnonzero(strokes.kinds == CUBIC), np.flatnonzero(strokes.kinds == ARC)
+    counts[cubic_at] += np.bincount(cubic_id, minlength=len(cubic_at))
+    counts[arc_at] += np.bincount(arc_id, minlength=len(arc_at))
+    within_limit(int(counts.sum()) + len(strokes.starts))
+    arcs = strokes.arcs.take(arc_id)
+    ends = place(
+        counts,
+        strokes.ends,
+        (cubic_at, cubic_id, evaluate(strokes.cubics[cubic_id], cubic_t)),
+        (arc_at, arc_id, arcs.points(arcs.start + arcs.turn * arc_t)),
+    )
+    error = max(_cubic_error(strokes.cubics, cubic_id, cubic_t), _arc_error(strokes.arcs, arc_id, arc_t))
+    return Pieces(counts, ends, np.zeros(len(ends)), error)
+
+
+def within_limit(vertices: int) -> None:
+    """Refuse more vertices than the stated limit."""
+    if vertices > MAX_VERTICES:
+        fix = "ask for a larger tolerance, fewer layers, or curves as arcs"
+        raise limit_error("vertices of all walls together", f"{MAX_VERTICES:,}", fix=fix)
+
+
+def place(counts: IntArray, ends: FloatArray, *inner: tuple[IntArray, IntArray, FloatArray]) -> FloatArray:
+    """Interleave the inner points of segments with the segments' end points.
+
+    Args:
+        counts: edges a segment.
+        ends: end point of each segment.
+        inner: groups of (segment of each curve, curve of each inner point in rising order, the points).
+    """
+    last = np.cumsum(counts) - 1
+    out = np.empty((int(counts.sum()), 2))
+    out[last] = ends
+    for segment_of, curve_of, points in inner:
+        if not len(points):
+            continue
+        first = np.searchsorted(curve_of, np.arange(len(segment_of)))
+        segment = segment_of[curve_of]
+        out[last[segment] - counts[segment] + 1 + np.arange(len(points)) - first[curve_of]] = points
+    return out
+
+
+def evaluate(cubics: FloatArray, t: FloatArray) -> FloatArray:
+    """Give the point of each cubic at its t: (n, 4, 2) and (n,) to (n, 2)."""
+    s, t = (1 - t)[:, None], t[:, None]
+    p0, p1, p2, p3 = (cubics[:, i] for i in range(4))
+    return s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3
+
+
+def split(cubics: FloatArray, t: FloatArray | float = 0.5) -> tuple[FloatArray, FloatArray]:
+    """Cut cubics (n, 4, 2) at t by de Casteljau: the two halves."""
+    t = np.broadcast_to(np.asarray(t, dtype=np.float64), len(cubics))[:, None, None]
+    first = cubics[:, :-1] + (cubics[:, 1:] - cubics[:, :-1]) * t
+    second = first[:, :-1] + (first[:, 1:] - first[:, :-1]) * t
+    third = second[:, :-1] + (second[:, 1:] - second[:, :-1]) * t
+    left = np.concatenate([cubics[:, :1], first[:, :1], second[:, :1], third], axis=1)
+    right = np.concatenate([third, second[:, 1:], first[:, 2:], cubics[:, 3:]], axis=1)
+    return left, right
+
+
+def cut_between(cubics: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    """Give the piece of each cubic from t = low to t = high, as a cubic (blossoming; exact up to rounding)."""
+    lo, hi = low[:, None], high[:, None]
+    p = [cubics[:, i] for i in range(4)]
+
+    def blossom(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+        q = [p[i] + (p[i + 1] - p[i]) * a for i in range(3)]
+        r = [q[i] + (q[i + 1] - q[i]) * b for i in range(2)]
+        return r[0] + (r[1] - r[0]) * c
+
+    return np.stack([blossom(lo, lo, lo), blossom(lo, lo, hi), blossom(lo, hi, hi), blossom(hi, hi, hi)], axis=1)
+
+
+def chord_bound(cubics: FloatArray) -> FloatArray:
+    """Bound the distance between each cubic and its chord (the module's first paragraph): (n,)."""
+    chord = cubics[:, 3] - cubics[:, 0]
+    length = np.hypot(chord[:, 0], chord[:, 1])
+    arms = cubics[:, 1:3] - cubics[:, :1]
+    safe = np.where(length > 0, length, 1.0)[:, None]
+    across = (chord[:, None, 0] * arms[..., 1] - chord[:, None, 1] * arms[..., 0]) / safe
+    along = (chord[:, None, 0] * arms[..., 0] + chord[:, None, 1] * arms[..., 1]) / safe
+    beyond = np.maximum(np.maximum(-along, along - length[:, None]), 0.0)
+    hull = 0.75 * np.hypot(across, beyond).max(axis=1)
+    hull = np.where(length > 0, hull, 0.75 * np.hypot(arms[..., 0], arms[..., 1]).max(axis=1))
+    exact: FloatArray = np.abs(_heights(across[:, 0], across[:, 1])).max(axis=0)
+    bound: FloatArray = np.where((length > 0) & (beyond.max(axis=1) == 0), exact, hull)
+    return bound
+
+
+def _heights(d1: FloatArray, d2: FloatArray) -> FloatArray:
+    """The extreme values of 3 t (1-t) ((1-t) d1 + t d2) on [0, 1]: (2, n), 0 where there is no root inside.
+
+    f'/3 = 3 (d1 - d2) t^2 + 2 (d2 - 2 d1) t + d1; the roots by the form without cancellation.
+    """
+    a, b, c = 3 * (d1 - d2), d2 - 2 * d1, d1  # a t^2 + 2 b t + c
+    q = -(b + np.copysign(np.sqrt(np.maximum(b * b - a * c, 0.0)), b))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t = np.stack([q / a, c / q])
+    t = np.where((t > 0) & (t < 1), t, 0.0)  # also turns the nan of 0 / 0 into 0
+    heights: FloatArray = 3 * t * (1 - t) * ((1 - t) * d1 + t * d2)
+    return heights
+
+
+def _cubic_cuts(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatArray]:
+    """Inner parameters of all cubics, by curve and rising: the fewest of halving, equal shares and equal steps."""
+    ids, ts = _halving(cubics, tolerance)
+    for cuts in (_even_cuts, _wang_cuts):
+        more_ids, more_ts, taken = cuts(cubics, np.bincount(ids, minlength=len(cubics)), tolerance)
+        keep = ~taken[ids]
+        ids, ts = np.concatenate([ids[keep], more_ids]), np.concatenate([ts[keep], more_ts])
+    order = np.lexsort((ts, ids))
+    return ids[order], ts[order]
+
+
+def _wang_cuts(cubics: FloatArray, best: IntArray, tolerance: float) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
+    """Wang's proven bound: n = ceil(sqrt(6 M / (8 tolerance))) equal steps, M the largest second difference."""
+    second = np.diff(cubics, n=2, axis=1)
+    largest = np.hypot(second[..., 0], second[..., 1]).max(axis=1, initial=0.0)
+    count = np.maximum(np.ceil(np.sqrt(0.75 * largest / tolerance)), 1)
+    taken = count - 1 < best
+    rows = np.flatnonzero(taken)
+    which, rank = numbered(count[rows].astype(np.int64) - 1)
+    return rows[which], (rank + 1) / count[rows][which], taken
+
+
+def numbered(counts: IntArray) -> tuple[IntArray, IntArray]:
+    """For rows of ``counts`` entries: the row of each entry, and its rank in the row from 0."""
+    which = np.repeat(np.arange(len(counts)), counts)
+    return which, np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
+
+
+def _halving(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatArray]:
+    """Halve every cubic until the bound holds for each piece."""
+    ids, piece = np.arange(len(cubics)), cubics
+    low, width = np.zeros(len(cubics)), 1.0
+    cut_ids: list[IntArray] = []
+    cut_ts: list[FloatArray] = []
+    total = 0
+    for _ in range(_DEEPEST):
+        wrong = chord_bound(piece) > tolerance
+        if not wrong.any():
+            break
+        ids, piece, low, width = ids[wrong], piece[wrong], low[wrong], width / 2
+        total += len(ids)
+        within_limit(total)
+        cut_ids.append(ids)
+        cut_ts.append(low + width)
+        left, right = split(piece)
+        ids, piece, low = np.tile(ids, 2), np.concatenate([left, right]), np.concatenate([low, low + width])
+    if not cut_ids:
+        return np.empty(0, dtype=np.int64), np.empty(0)
+    return np.concatenate(cut_ids), np.concatenate(cut_ts)
+
+
+_SAMPLES = 33  # where the turn is sampled; equal shares are only kept where the bound proves them
+
+
+def _even_cuts(
+    cubics: FloatArray, halved: IntArray, tolerance: float
+) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
+    """Cut at equal shares of the integral of sqrt(|P' x P''| / |P'|) dt, the density of the best polyline.
+
+    A chord over dt is off by |P' x P''| dt^2 / (8 |P'|) to leading order, so n = total / sqrt(8 tolerance).
+    Kept for a curve only where every piece passes the bound and there are fewer than by halving.
+
+    Returns:
+        Curve of each cut, its t, and which curves are taken.
+    """
+    taken = np.zeros(len(cubics), dtype=np.bool_)
+    rows = np.flatnonzero(halved >= 2)
+    none = np.empty(0, dtype=np.int64), np.empty(0), taken
+    if not len(rows):
+        return none
+    t, share = _shares(cubics[rows])
+    wanted = np.ceil(share[:, -1] / math.sqrt(8 * tolerance)).astype(np.int64)
+    found_ids: list[IntArray] = []
+    found_ts: list[FloatArray] = []
+    open_rows = np.ones(len(rows), dtype=np.bool_)
+    for extra in range(4):
+        count = np.maximum(wanted + extra, 1)
+        trial = np.flatnonzero(open_rows & (count <= halved[rows]))
+        if not len(trial):
+            break
+        which, cuts = _invert(t, share[trial], count[trial])
+        passed = _passes(cubics[rows[trial]], which, cuts, count[trial], tolerance)
+        open_rows[trial[passed]] = False
+        taken[rows[trial[passed]]] = True
+        keep = passed[which]
+        found_ids.append(rows[trial[which[keep]]])
+        found_ts.append(cuts[keep])
+    if not found_ids:
+        return none
+    return np.concatenate(found_ids), np.concatenate(found_ts), taken
+
+
+def _shares(cubics: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Sample parameters (k,) and the running integral of the density at them: (n, k)."""
+    t = np.linspace(0.0, 1.0, _SAMPLES)
+    middle = (t[1:] + t[:-1]) / 2
+    d = 3 * np.diff(cubics, axis=1)
+    dd = 2 * np.diff(d, axis=1)
+    s = 1 - middle
+    first = d[:, 0, :, None] * s**2 + 2 * d[:, 1, :, None] * s * middle + d[:, 2, :, None] * middle**2
+    second = dd[:, 0, :, None] * s + dd[:, 1, :, None] * middle
+    cross = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])
+    speed = np.hypot(first[:, 0], first[:, 1])
+    density = np.sqrt(np.divide(cross, speed, out=np.zeros_like(cross), where=speed > 0))
+    density += 1e-3 * density.max(axis=1, keepdims=True)  # so that the integral rises everywhere
+    share = np.concatenate([np.zeros((len(cubics), 1)), np.cumsum(density, axis=1)], axis=1) / (_SAMPLES - 1)
+    return t, share
+
+
+def _invert(t: FloatArray, share: FloatArray, count: IntArray) -> tuple[IntArray, FloatArray]:
+    """Inner parameters that cut each row's integral into ``count`` equal shares."""
+    which, rank = numbered(count - 1)
+    rank += 1
+    span = share[:, -1].max() * 2 + 1  # rows end to end on one axis, so that one search serves all
+    flat = (share + span * np.arange(len(share))[:, None]).ravel()
+    target = share[which, -1] * rank / count[which] + span * which
+    at = np.searchsorted(flat, target, side="right") - 1
+    row_at = np.clip(at - which * len(t), 0, len(t) - 2)
+    low = share[which, row_at]
+    part = (share[which, -1] * rank / count[which] - low) / np.maximum(share[which, row_at + 1] - low, 1e-300)
+    return which, t[row_at] + np.clip(part, 0.0, 1.0) * (t[1] - t[0])
+
+
+def _passes(
+    cubics: FloatArray, which: IntArray, cuts: FloatArray, count: IntArray, tolerance: float
+) -> NDArray[np.bool_]:
+    ids = np.repeat(np.arange(len(count)), count)
+    low, high = bounds_of(which, cuts, count)
+    bound = chord_bound(cut_between(cubics[ids], low, high))
+    failures = np.bincount(ids[bound > tolerance], minlength=len(count))
+    passed: NDArray[np.bool_] = failures == 0
+    return passed
+
+
+def bounds_of(which: IntArray, cuts: FloatArray, count: IntArray) -> tuple[FloatArray, FloatArray]:
+    """From inner parameters by row (rising) to the two ends of every piece; ``count`` pieces a row."""
+    total = int(count.sum())
+    first = np.cumsum(count) - count
+    low, high = np.zeros(total), np.ones(total)
+    rank = numbered(count - 1)[1]
+    low[first[which] + rank + 1] = cuts
+    high[first[which] + rank] = cuts
+    return low, high
+
+
+def _arc_cuts(arcs: Arcs, tolerance: float) -> tuple[IntArray, FloatArray]:
+    """Inner positions of all arcs, as a part of the turn: equal angles, never more than a quarter turn."""
+    radius = np.maximum(*arcs.radii)
+    with np.errstate(divide="ignore"):
+        step = 2 * np.arccos(np.maximum(1 - tolerance / radius, math.cos(math.pi / 4)))
+    step = np.where(step > 0, step, np.sqrt(8 * tolerance / np.maximum(radius, 1e-300)))  # 1 - tiny rounded to 1
+    count = np.maximum(np.ceil(np.abs(arcs.turn) / step * (1 - 1e-12)), 1)
+    within_limit(int(min(count.sum(), 2 * MAX_VERTICES)))
+    count = count.astype(np.int64)
+    which, rank = numbered(count - 1)
+    return which, (rank + 1) / count[which]
+
+
+_MEASURED_AT = np.linspace(0.0, 1.0, 17)[1:-1]
+_MEASURED_AGAIN = 16  # so many of the worst pieces are looked at closely
+
+
+def _cubic_error(cubics: FloatArray, which: IntArray, cuts: FloatArray) -> float:
+    """Measure the largest distance from the cubics to their chords, at the extremes and between."""
+    if not len(cubics):
+        return 0.0
+    count = np.bincount(which, minlength=len(cubics)) + 1
+    ids = np.repeat(np.arange(len(cubics)), count)
+    low, high = bounds_of(which, cuts, count)
+    piece = cut_between(cubics[ids], low, high)
+    a, b = piece[:, 0], piece[:, 3]
+    chord = b - a
+    d = [chord[:, 0] * (piece[:, i, 1] - a[:, 1]) - chord[:, 1] * (piece[:, i, 0] - a[:, 0]) for i in (1, 2)]
+    farthest = np.zeros(len(piece))
+    for t in (*extreme_parameters(d[0], d[1]), *(np.full(len(piece), t) for t in _MEASURED_AT)):
+        np.maximum(farthest, segment_distance(evaluate(piece, t), a, b), out=farthest)
+    for row in np.argsort(farthest)[-_MEASURED_AGAIN:]:  # a hook beyond the chord's end peaks elsewhere
+        t = np.linspace(0.0, 1.0, 2049)
+        points = evaluate(np.broadcast_to(piece[row], (len(t), 4, 2)), t)
+        farthest[row] = max(farthest[row], segment_distance(points, a[row], b[row]).max())
+    return float(farthest.max())
+
+
+def extreme_parameters(d1: FloatArray, d2: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Where 3 t (1-t) ((1-t) d1 + t d2) is extreme; 1/2 where that is nowhere inside."""
+    a, b, c = 3 * (d1 - d2), d2 - 2 * d1, d1
+    q = -(b + np.copysign(np.sqrt(np.maximum(b * b - a * c, 0.0)), b))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one, two = q / a, c / q
+    return np.where((one > 0) & (one < 1), one, 0.5), np.where((two > 0) & (two < 1), two, 0.5)
+
+
+def segment_distance(p: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
+    """Distance of points p from segments a to b, each (n, 2) or one of them (2,): (n,)."""
+    d, w = b - a, p - a
+    square = d[..., 0] ** 2 + d[..., 1] ** 2
+    t = np.clip((w[..., 0] * d[..., 0] + w[..., 1] * d[..., 1]) / np.where(square > 0, square, 1.0), 0.0, 1.0)
+    return np.hypot(w[..., 0] - t * d[..., 0], w[..., 1] - t * d[..., 1])
+
+
+def _arc_error(arcs: Arcs, which: IntArray, parts: FloatArray) -> float:
+    """Measure the largest distance from the arcs to their chords.
+
+    The tangent is parallel to the chord at the middle angle, so that is where an arc of at most half a turn
+    is farthest away.
+    """
+    if not len(arcs.turn):
+        return 0.0
+    count = np.bincount(which, minlength=len(arcs.turn)) + 1
+    arcs = arcs.take(np.repeat(np.arange(len(count)), count))
+    low, high = bounds_of(which, parts, count)
+    a, b = arcs.points(arcs.start + arcs.turn * low), arcs.points(arcs.start + arcs.turn * high)
+    return float(segment_distance(arcs.points(arcs.start + arcs.turn * (low + high) / 2), a, b).max())
