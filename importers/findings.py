@@ -1,0 +1,105 @@
+"""Findings: what a reader leaves out or cannot read, one Problem a kind with its count and its first place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from importers.problems import Problem, Severity
+from importers.sources import Source
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of finding.
+
+    Attributes:
+        code: the Problem's code.
+        severity: the Problem's severity.
+        one: what is the case when it is the case once; ``{what}`` stands for the detail.
+        many: the same for several; ``{count}`` stands for their number.
+        fix: what to do.
+    """
+
+    code: str
+    severity: Severity
+    one: str
+    many: str
+    fix: str
+
+
+@dataclass(slots=True)
+class _Entry:
+    """One kind's first case and how many there were."""
+
+    kind: Kind
+    position: int | None
+    what: str
+    layer: str
+    name: str
+    x: float | None
+    y: float | None
+    count: int = 1
+
+
+class Findings:
+    """Collects findings while a file is read; ``problems()`` gives them with their places."""
+
+    def __init__(self) -> None:
+        self._entries: dict[tuple[str, str], _Entry] = {}
+
+    def add(
+        self,
+        kind: Kind,
+        position: int | None,
+        *,
+        what: str = "",
+        apart: bool = False,
+        layer: str = "",
+        name: str = "",
+        at: tuple[float, float] | None = None,
+    ) -> None:
+        """Note one case.
+
+        Args:
+            kind: its kind.
+            position: byte position in the file, or None where there is none to tell.
+            what: a detail for the message.
+            apart: keep cases with another `what` as findings of their own.
+            layer: the layer's name.
+            name: the object's name.
+            at: place in the drawing.
+        """
+        key = (kind.code, what if apart else "")
+        entry = self._entries.get(key)
+        if entry is not None:
+            entry.count += 1
+            return
+        x, y = at if at is not None else (None, None)
+        self._entries[key] = _Entry(kind, position, what, layer, name, x, y)
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def problems(self, source: Source) -> list[Problem]:
+        """Give the findings in the order in which they were met first."""
+        return [self._problem(entry, source) for entry in self._entries.values()]
+
+    @staticmethod
+    def _problem(entry: _Entry, source: Source) -> Problem:
+        """Put one kind's cases into words."""
+        kind = entry.kind
+        text = kind.one if entry.count == 1 else kind.many
+        place = None if entry.position is None else source.place(entry.position)
+        return Problem(
+            code=kind.code,
+            severity=kind.severity,
+            message=text.format(what=entry.what, count=f"{entry.count:,}"),
+            fix=kind.fix,
+            layer=entry.layer,
+            name=entry.name,
+            line=None if place is None else place.line,
+            column=None if place is None else place.column,
+            x=entry.x,
+            y=entry.y,
+            excerpt="" if place is None else place.excerpt,
+        )

@@ -1,0 +1,529 @@
+"""The machine behind Illustrator's operators: paths, paint, groups and layers; a method an operator, no recursion.
+
+The path machine is PostScript's: a path is built from a current point, painted by one operator, and gone. What
+Illustrator adds (groups, layers, locks, hidden objects, notes, names after the object) is state around it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+from importers.drawing import DrawnPath, Layer, Segment, Subpath
+from importers.findings import Findings, Kind
+from importers.illustrator import findings
+from importers.illustrator.state import Group, Paint, colour_of
+from importers.illustrator.text import decode
+from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
+from importers.sources import Source
+
+Operands = list[Any]  # numbers as bytes or float, texts and names as Text
+Handler = Callable[[Operands], None]
+
+# How many numbers each path operator takes.
+PATH_OPERANDS = {
+    **dict.fromkeys((b"m", b"l", b"L"), 2),
+    **dict.fromkeys((b"v", b"V", b"y", b"Y"), 4),
+    **dict.fromkeys((b"c", b"C"), 6),
+}
+# What sets attributes that no wall depends on, and PostScript's own housekeeping: no word about these.
+_WITHOUT_GEOMETRY = (
+    b"O R D d i j J M Ap Ar AE Ae As Xd XW Xy XT Xs XS Np Xz XN Bn Bd BD Bm Bc Bh Bs Pb PB Pc Pn P_ Xm XP "
+    b"Tr Tf Tz Tt TA TC TW Ti Ta Tq Tl Tx TX TV Tv TK TS Tk TG Tg Th Ts TY Xb XB XQ TE TZ Tj TI Tb Td z a e o r t "
+    b"Z E TP XF XG XH Xh X= X+ ; , : / showpage gsave grestore annotatepage def bind load store begin end pop get "
+    b"put exec dict save restore initialize terminate userdict systemdict dup exch clear cleartomark mark currentdict "
+    b"cvx cvn closefile true false null"
+).split()
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A string operand (its bytes with escapes resolved), or a literal name."""
+
+    raw: bytes
+
+
+@dataclass(slots=True)
+class Compound:
+    """A compound path that is open: its members so far, shown and hidden, and their last paint."""
+
+    begin: int
+    depth: int = 1
+    shown: list[Subpath] = field(default_factory=list)
+    hidden: list[Subpath] = field(default_factory=list)
+    operator: str = "N"
+    clip: bool = False
+    guide: bool = False
+
+
+class Art:
+    """What the operators of one file have drawn so far.
+
+    Attributes:
+        layers: in the file's order.
+        paths: in the file's order; their groups are filled in by :meth:`finish`.
+        findings: what was left out or could not be read.
+        position: byte position of the operator at hand; its reader sets it.
+        named: what a name that follows in the file belongs to.
+        note: the note that the next objects carry.
+        handlers: what each operator does.
+    """
+
+    def __init__(self, source: Source, encoding: str, file: str = "") -> None:
+        self.source = source
+        self.encoding = encoding
+        self.file = file
+        self.layers: list[Layer] = []
+        self.paths: list[DrawnPath] = []
+        self.findings = Findings()
+        self.position = 0
+        self.named: DrawnPath | Group | None = None
+        self.note = ""
+        self._segments: list[Segment] = []  # of the subpath that is being drawn
+        self._subpaths: list[Subpath] = []  # of its path, without that one
+        self._begin = 0  # position of that path's first point
+        self._reopen: Segment | None = None  # where drawing goes on after `h`
+        self._cut = False  # the rest of the subpath is skipped: one of its operators could not be read
+        self._spoiled = False  # a coordinate of the path is none
+        self._clip = False
+        self._paint = Paint()
+        self._gradient = False
+        self._hidden = False
+        self._locked = False
+        self._text = False
+        self._objects = 0  # depth in `/Kind : ... ;`
+        self._compound: Compound | None = None
+        self._group = Group("root")
+        self._bare_layer = ""  # a layer's name that came without `Lb`
+        self._grouped: list[Group] = []  # the group of each path, since groups get their names last
+        self._count = 0
+        self.handlers: dict[bytes, Handler] = self._make_handlers()
+
+    def _make_handlers(self) -> dict[bytes, Handler]:
+        """List what each operator does."""
+        handlers: dict[bytes, Handler] = dict.fromkeys(_WITHOUT_GEOMETRY, self._ignore)
+        handlers.update({b"m": self._move, b"l": self._line, b"L": self._line, b"c": self._curve, b"C": self._curve})
+        handlers.update(dict.fromkeys((b"v", b"V"), self._curve_from_point))
+        handlers.update(dict.fromkeys((b"y", b"Y"), self._curve_to_point))
+        handlers.update({b"h": self._close, b"H": self._ignore, b"W": self._set_clip, b"*": self._guide})
+        handlers.update({name.encode(): partial(self._paint_path, name) for name in "nNfFsSbB"})
+        for name in ("g", "k", "x", "Xa", "Xx", "Xk"):
+            handlers[name.encode()] = partial(self._set_fill, name)
+        for name in ("G", "K", "X", "XA", "XX", "XK"):
+            handlers[name.encode()] = partial(self._set_stroke, name)
+        handlers.update({b"p": self._fill_pattern, b"P": self._stroke_pattern, b"w": self._set_width})
+        handlers.update({b"XR": self._set_fill_rule, b"Bb": self._begin_gradient, b"Bg": self._ignore})
+        handlers.update({b"BB": self._end_gradient, b"A": self._set_locked, b"Xw": self._set_hidden})
+        handlers.update({b"u": self._begin_group, b"U": self._end_group, b"q": self._begin_clip, b"Q": self._end_clip})
+        handlers.update({b"*u": self._begin_compound, b"*U": self._end_compound})
+        handlers.update({b"Lb": self._begin_layer, b"Ln": self._name_layer, b"LB": self._end_layer})
+        handlers.update({b"To": self._begin_text, b"Tp": self._ignore, b"TO": self._end_text, b"T": self._old_text})
+        handlers.update({b"XI": partial(self._leave_out, findings.RASTER), b"`": self._placed, b"~": self._ignore})
+        handlers.update({b":": self._begin_object, b";": self._end_object})
+        return handlers
+
+    # --- what the reader calls --------------------------------------------------------------------------
+
+    def check_count(self) -> None:
+        """Raise LimitError when there are too many segments, paths, groups and layers."""
+        if self._count + len(self._segments) + len(self._subpaths) > MAX_ELEMENTS:
+            line = self.source.line(self.position)
+            raise limit_error("segments, paths and groups of a drawing", f"{MAX_ELEMENTS:,}", file=self.file, line=line)
+
+    def failed(self, operator: bytes, operands: Operands) -> None:
+        """Deal with operands that an operator could not take."""
+        what = operator.decode("latin-1")
+        needed = PATH_OPERANDS.get(operator)
+        if needed is None:
+            self.find(findings.ATTRIBUTE, what=what)
+            return
+        if len(operands) > needed:
+            # Something before it left numbers over; PostScript too takes the last ones.
+            try:
+                self.handlers[operator](operands[-needed:])
+            except (ValueError, TypeError):
+                pass
+            else:
+                return
+        self.find(findings.OPERANDS, what=what)
+        if self._segments:
+            self._subpaths.append(Subpath(self._segments, closed=False))
+            self._segments = []
+        self._reopen = None
+        self._cut = operator != b"m"
+
+    def unknown(self, operator: bytes) -> None:
+        """Note an operator that is none of the format's."""
+        self.named = None
+        what = operator[:24].decode("latin-1")
+        self.findings.add(findings.UNKNOWN, self.position, what=what, layer=self._group.layer)
+
+    def find(self, kind: Kind, *, what: str = "", position: int | None = None) -> None:
+        """Note a finding at the operator at hand, or at `position`."""
+        point = self._segments[-1][-2:] if self._segments else None
+        place = self.position if position is None else position
+        self.findings.add(kind, place, what=what, layer=self._group.layer, at=point)
+
+    def set_name(self, name: str) -> None:
+        """Name the object that just ended."""
+        named = self.named
+        if named is None or named.name:
+            return
+        named.name = name
+        if isinstance(named, DrawnPath) and name == "<Slice>":
+            named.guide = True  # where a picture is cut for the web
+
+    def finish(self) -> None:
+        """End the file: close what is open, give each path the names of its groups.
+
+        Raises:
+            LimitError: so many paths in so deep groups that their names alone are too many.
+        """
+        self._flush()
+        if self._compound is not None:
+            self._compound.depth = 1
+            self._end_compound([])
+        names: dict[int, tuple[str, ...]] = {}
+        shared: dict[tuple[str, ...], tuple[str, ...]] = {}
+        total = 0
+        for path, group in zip(self.paths, self._grouped, strict=True):
+            found = names.get(id(group))
+            if found is None:
+                found = group.names()
+                if found not in shared:
+                    shared[found] = found
+                    total += len(found)
+                found = names[id(group)] = shared[found]
+                if total > 4 * MAX_ELEMENTS:
+                    raise limit_error("names of groups around paths", f"{4 * MAX_ELEMENTS:,}", file=self.file)
+            path.groups = found
+
+    # --- drawing ----------------------------------------------------------------------------------------
+
+    def _ignore(self, _operands: Operands) -> None:
+        """Do nothing: no geometry depends on it."""
+
+    def _move(self, operands: Operands) -> None:
+        x, y = map(float, operands)
+        if len(self._segments) > 1:
+            self._subpaths.append(Subpath(self._segments, closed=False))
+        elif not self._subpaths:
+            self._begin = self.position
+        if not (-MAX_COORDINATE <= x <= MAX_COORDINATE and -MAX_COORDINATE <= y <= MAX_COORDINATE):
+            self._spoiled = True
+        self._cut = False
+        self._segments = [("M", x, y)]
+
+    def _line(self, operands: Operands) -> None:
+        x, y = map(float, operands)
+        if not (-MAX_COORDINATE <= x <= MAX_COORDINATE and -MAX_COORDINATE <= y <= MAX_COORDINATE):
+            self._spoiled = True
+        if self._segments or self._has_point("l", x, y):
+            self._segments.append(("L", x, y))
+
+    def _curve(self, operands: Operands) -> None:
+        x1, y1, x2, y2, x, y = map(float, operands)
+        if not (
+            -MAX_COORDINATE <= x1 <= MAX_COORDINATE
+            and -MAX_COORDINATE <= y1 <= MAX_COORDINATE
+            and -MAX_COORDINATE <= x2 <= MAX_COORDINATE
+            and -MAX_COORDINATE <= y2 <= MAX_COORDINATE
+            and -MAX_COORDINATE <= x <= MAX_COORDINATE
+            and -MAX_COORDINATE <= y <= MAX_COORDINATE
+        ):
+            self._spoiled = True
+        if self._segments or self._has_point("c", x, y):
+            self._segments.append(("C", x1, y1, x2, y2, x, y))
+
+    def _curve_from_point(self, operands: Operands) -> None:
+        """``v``: the first control point is the current point."""
+        x2, y2, x, y = map(float, operands)
+        if self._segments or self._has_point("v", x, y):
+            self._curve([*self._segments[-1][-2:], x2, y2, x, y])
+
+    def _curve_to_point(self, operands: Operands) -> None:
+        """``y``: the second control point is the end."""
+        x1, y1, x, y = map(float, operands)
+        self._curve([x1, y1, x, y, x, y])
+
+    def _has_point(self, operator: str, x: float, y: float) -> bool:
+        """Find a current point when no subpath is open; without one, the subpath begins at x, y."""
+        if self._cut:
+            return False
+        if not self._subpaths:
+            self._begin = self.position
+        if self._reopen is not None:
+            self._segments = [self._reopen]
+            return True
+        self.find(findings.NO_POINT, what=operator)
+        self._segments = [("M", x, y)]
+        return False
+
+    def _close(self, _operands: Operands) -> None:
+        if self._segments:
+            self._subpaths.append(Subpath(self._segments, closed=True))
+            self._reopen = self._segments[0]
+            self._segments = []
+
+    # --- painting ---------------------------------------------------------------------------------------
+
+    def _paint_path(self, operator: str, _operands: Operands) -> None:
+        """``n f s b`` close the subpath first, ``N F S B`` leave it open."""
+        if self._segments:
+            self._subpaths.append(Subpath(self._segments, closed=operator.islower()))
+        self._take_path(operator)
+
+    def _guide(self, _operands: Operands) -> None:
+        """``(N) *``: the path is a guide."""
+        if self._segments:
+            self._subpaths.append(Subpath(self._segments, closed=False))
+        self._take_path("N", guide=True)
+
+    def _set_clip(self, _operands: Operands) -> None:
+        self._clip = True
+
+    def _take_path(self, operator: str, *, guide: bool = False) -> None:
+        """End the path that is being drawn: into the drawing, or into the compound path around it."""
+        subpaths, spoiled, clip = self._subpaths, self._spoiled, self._clip and operator in "nN"
+        self._segments, self._subpaths, self._reopen = [], [], None
+        self._cut = self._spoiled = self._clip = False
+        if not subpaths:
+            return
+        if spoiled:
+            self.find(findings.COORDINATE, position=self._begin)
+            return
+        compound = self._compound
+        if compound is None:
+            self._add_path(subpaths, operator, self._begin, hidden=self._hidden, clip=clip, guide=guide)
+            return
+        (compound.hidden if self._hidden else compound.shown).extend(subpaths)
+        compound.operator, compound.clip, compound.guide = operator, clip, guide
+        self._count += sum(len(subpath.segments) + 1 for subpath in subpaths)
+        self.named = None
+
+    def _add_path(
+        self, subpaths: list[Subpath], operator: str, begin: int, *, hidden: bool, clip: bool, guide: bool
+    ) -> None:
+        """Put a path into the drawing with the marks that are in force."""
+        group, paint, kind = self._group, self._paint, operator.lower()
+        fills, strokes = kind in "fb", kind in "sb"
+        framed = self._text or self._objects > 0
+        path = DrawnPath(
+            subpaths,
+            layer=group.layer or self._bare_layer,
+            visible=not (hidden or group.hidden or framed),
+            locked=self._locked or group.locked,
+            guide=guide,
+            clip=clip,
+            fill=("gradient" if self._gradient else paint.fill) if fills else None,
+            stroke=paint.stroke if strokes else None,
+            stroke_width=paint.width if strokes else None,
+            fill_rule=paint.fill_rule,
+            line=self.source.line(begin),
+        )
+        if self.note:
+            path.tags["note"] = self.note
+        if framed:
+            path.tags["text"] = "frame"
+        self.paths.append(path)
+        self._grouped.append(group)
+        self.named = path
+        self._count += 1 + sum(len(subpath.segments) + 1 for subpath in subpaths)
+
+    def _flush(self) -> None:
+        """End a path that nothing painted (pasted text): each of its subpaths is one."""
+        if len(self._segments) > 1 or (self._segments and not self._subpaths):
+            self._subpaths.append(Subpath(self._segments, closed=False))
+        self._segments = []
+        if not self._subpaths:
+            return
+        if self._compound is not None or self._spoiled or len(self._subpaths) == 1:
+            self._take_path("N")
+            return
+        subpaths = self._subpaths
+        for subpath in subpaths:
+            self._subpaths = [subpath]
+            self._take_path("N")
+
+    def _begin_compound(self, _operands: Operands) -> None:
+        self._flush()
+        if self._compound is None:
+            self._compound = Compound(self.position)
+        else:
+            self._compound.depth += 1
+
+    def _end_compound(self, _operands: Operands) -> None:
+        """``*U``: all members are one path, painted by the last paint operator."""
+        self._flush()
+        compound = self._compound
+        if compound is None:
+            self.find(findings.UNBALANCED, what="*U")
+            return
+        compound.depth -= 1
+        if compound.depth:
+            return
+        self._compound = None
+        marks = {"clip": compound.clip, "guide": compound.guide}
+        # Hidden members stay apart: they are no part of what is seen.
+        if compound.hidden:
+            self._add_path(compound.hidden, compound.operator, compound.begin, hidden=True, **marks)
+        if compound.shown:
+            self._add_path(compound.shown, compound.operator, compound.begin, hidden=False, **marks)
+
+    # --- paint ------------------------------------------------------------------------------------------
+
+    def _set_fill(self, operator: str, operands: Operands) -> None:
+        colour = colour_of(operator, [float(operand) for operand in operands if not isinstance(operand, Text)])
+        self._paint.fill = colour or self._paint.fill
+
+    def _set_stroke(self, operator: str, operands: Operands) -> None:
+        colour = colour_of(operator, [float(operand) for operand in operands if not isinstance(operand, Text)])
+        self._paint.stroke = colour or self._paint.stroke
+
+    def _fill_pattern(self, _operands: Operands) -> None:
+        self._paint.fill = "pattern"
+
+    def _stroke_pattern(self, _operands: Operands) -> None:
+        self._paint.stroke = "pattern"
+
+    def _set_width(self, operands: Operands) -> None:
+        self._paint.width = float(operands[-1]) if operands else self._paint.width
+
+    def _set_fill_rule(self, operands: Operands) -> None:
+        self._paint.fill_rule = "evenodd" if operands and float(operands[-1]) == 1 else "nonzero"
+
+    def _begin_gradient(self, _operands: Operands) -> None:
+        self._gradient = True
+
+    def _end_gradient(self, operands: Operands) -> None:
+        """``BB``: 1 strokes what the gradient filled, 2 closes and strokes it."""
+        self._gradient = False
+        if operands and float(operands[-1]) in (1, 2) and isinstance(self.named, DrawnPath):
+            self.named.stroke, self.named.stroke_width = self._paint.stroke, self._paint.width
+
+    # --- marks, groups, layers --------------------------------------------------------------------------
+
+    def _set_locked(self, operands: Operands) -> None:
+        self._locked = bool(operands) and float(operands[-1]) == 1
+
+    def _set_hidden(self, operands: Operands) -> None:
+        self._hidden = bool(operands) and float(operands[-1]) == 1
+
+    def _open(self, group: Group) -> None:
+        """Go into a group, clip group or layer."""
+        self._flush()
+        if group.depth > MAX_DEPTH:
+            line = self.source.line(self.position)
+            raise limit_error("groups and layers in each other", str(MAX_DEPTH), file=self.file, line=line)
+        self._group = group
+        self._count += 1
+        self.named = None
+
+    def _begin_group(self, _operands: Operands) -> None:
+        outer = self._group
+        hidden, locked = outer.hidden or self._hidden, outer.locked or self._locked
+        self._open(Group("u", outer, "", hidden, locked, outer.layer, outer.depth + 1))
+
+    def _begin_clip(self, _operands: Operands) -> None:
+        outer = self._group
+        hidden, locked = outer.hidden or self._hidden, outer.locked or self._locked
+        self._open(Group("q", outer, "", hidden, locked, outer.layer, outer.depth + 1, self._paint.copy()))
+
+    def _end_group(self, _operands: Operands) -> None:
+        self._leave("u", "U")
+
+    def _end_clip(self, _operands: Operands) -> None:
+        self._leave("q", "Q")
+
+    def _leave(self, kind: str, operator: str) -> None:
+        """Go out of the innermost group of a kind, and of what was left open in it."""
+        self._flush()
+        group: Group | None = self._group
+        while group is not None and group.kind != kind:
+            # A layer is closed by its own operator only.
+            group = group.outer if group.kind != "layer" else None
+        if group is None or group.outer is None:
+            self.find(findings.UNBALANCED, what=operator)
+            return
+        self._group = group.outer
+        self.named = group
+        if group.paint is not None:
+            self._paint = group.paint
+
+    def _begin_layer(self, operands: Operands) -> None:
+        """``Lb``: visible preview enabled printing ...; later versions add arguments at the end."""
+        visible, _preview, enabled, printing = (float(operand) != 0 for operand in operands[:4])
+        record = Layer("", visible=visible, locked=not enabled, printing=printing)
+        self.layers.append(record)
+        outer = self._group
+        hidden, locked = outer.hidden or not visible, outer.locked or not enabled
+        self._open(Group("layer", outer, "", hidden, locked, "", outer.depth + 1, record=record))
+        self._hidden = self._locked = False
+
+    def _name_layer(self, operands: Operands) -> None:
+        """``(name) Ln``: names the layer that `Lb` opened, or one that nothing else says anything of."""
+        self._flush()
+        texts = [operand for operand in operands if isinstance(operand, Text)]
+        name = decode(texts[-1].raw, self.encoding) if texts else ""
+        group = self._group
+        if group.kind == "layer" and group.record is not None and not group.name:
+            group.name = group.layer = group.record.name = name
+        elif name != self._bare_layer:
+            self._bare_layer = name
+            self.layers.append(Layer(name))
+            self._count += 1
+
+    def _end_layer(self, _operands: Operands) -> None:
+        self._flush()
+        group: Group | None = self._group
+        while group is not None and group.kind != "layer":
+            group = group.outer
+        if group is None or group.outer is None:
+            self.find(findings.UNBALANCED, what="LB")
+            return
+        self._group = group.outer
+        self._hidden = self._locked = False
+        self.named = None
+
+    # --- what is no path --------------------------------------------------------------------------------
+
+    def _leave_out(self, kind: Kind, _operands: Operands) -> None:
+        self.find(kind)
+        self.named = None
+
+    def _begin_text(self, _operands: Operands) -> None:
+        self._flush()
+        self._leave_out(findings.TEXT, [])
+        self._text = True
+
+    def _end_text(self, _operands: Operands) -> None:
+        self._flush()
+        self._text = False
+        self.named = None
+
+    def _old_text(self, _operands: Operands) -> None:
+        """``T``: a text of versions 1 and 88 ends."""
+        self._leave_out(findings.TEXT, [])
+
+    def _placed(self, _operands: Operands) -> None:
+        """A placed file begins."""
+        self._leave_out(findings.PLACED, [])
+
+    def _begin_object(self, operands: Operands) -> None:
+        """``/Kind :``: an object of newer versions that is no path; ``;`` ends it."""
+        names = [operand.raw for operand in operands if isinstance(operand, Text)]
+        if not self._objects and names:
+            kind = names[-1].decode("latin-1")[:24]
+            if kind == "AI11Text":
+                self._leave_out(findings.TEXT, [])
+            else:
+                self.find(findings.OBJECT, what=kind)
+        self._objects += 1
+        self.named = None
+
+    def _end_object(self, _operands: Operands) -> None:
+        self._flush()
+        self._objects = max(self._objects - 1, 0)
+        self.named = None
