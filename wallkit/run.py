@@ -3,8 +3,15 @@
 from __future__ import annotations
 
 import enum
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from wallkit.scene import Scene
 
 CONTACT = np.dtype(
     [
@@ -25,6 +32,11 @@ CONTACT = np.dtype(
 )
 """One contact: time; ball; centre x, y; velocity vx, vy after; contact point px, py; unit normal nx, ny (towards
 the ball); wall; edge within that wall, -1 for a corner; kind, see :class:`Kind`. 88 bytes or fewer."""
+
+FINAL = np.dtype(
+    [("time", np.float64), ("x", np.float64), ("y", np.float64), ("vx", np.float64), ("vy", np.float64)],
+)
+"""Where a ball's run ended: time, centre, velocity."""
 
 
 class Kind(enum.IntEnum):
@@ -53,3 +65,63 @@ class Ending(enum.IntEnum):
     def label(self) -> str:
         """The words for people and files: "time reached", "left the scene"."""
         return "left the scene" if self is Ending.LEFT_SCENE else self.name.lower().replace("_", " ")
+
+
+@dataclass(eq=False)
+class Run:
+    """What a simulation found.
+
+    Attributes:
+        scene: what was simulated.
+        contacts: (m,) of ``CONTACT``, by time over all balls; at equal times by ball, then in order.
+        final: (n,) of ``FINAL``, one a ball. A ball that left the scene has its last contact here, unless the
+            run was given an end time.
+        ending: n endings, one a ball.
+    """
+
+    scene: Scene
+    contacts: NDArray[Any]
+    final: NDArray[Any]
+    ending: tuple[Ending, ...]
+    _start: NDArray[np.float64] = field(repr=False, default_factory=lambda: np.empty((0, 4)))
+
+    @property
+    def bounces(self) -> NDArray[np.int64]:
+        """(n,) contacts of each ball."""
+        return np.bincount(self.contacts["ball"], minlength=len(self.final)).astype(np.int64)
+
+    def contacts_of(self, ball: int) -> NDArray[Any]:
+        """Contacts of one ball, in order."""
+        order, offsets = self._by_ball
+        return self.contacts[order[offsets[ball] : offsets[ball + 1]]]
+
+    def position(self, time: float) -> NDArray[np.float64]:
+        """Exact centres (n, 2) at a time from 0; after a ball's end, where it ended."""
+        return self._state(time)[:, 0:2]
+
+    def velocity(self, time: float) -> NDArray[np.float64]:
+        """Velocities (n, 2) at a time from 0, after the contact at that time; after a ball's end, its last."""
+        return self._state(time)[:, 2:4]
+
+    @cached_property
+    def _by_ball(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        order = np.argsort(self.contacts["ball"], kind="stable")
+        offsets = np.zeros(len(self.final) + 1, dtype=np.int64)
+        np.cumsum(self.bounces, out=offsets[1:])
+        return order, offsets
+
+    def _state(self, time: float) -> NDArray[np.float64]:
+        order, offsets = self._by_ball
+        state = np.array(self._start, dtype=np.float64)
+        times = self.contacts["time"][order]
+        for ball in range(len(self.final)):
+            since = 0.0
+            passed = offsets[ball] + np.searchsorted(times[offsets[ball] : offsets[ball + 1]], time, side="right")
+            if passed > offsets[ball]:
+                contact = self.contacts[order[passed - 1]]
+                since = float(contact["time"])
+                state[ball] = contact["x"], contact["y"], contact["vx"], contact["vy"]
+            span = min(time, float(self.final[ball]["time"])) - since
+            if span > 0.0:
+                state[ball, 0:2] += span * state[ball, 2:4]
+        return state

@@ -22,14 +22,36 @@ class Balls:
     """Balls that do not meet one another: discs, or points where the radius is 0.
 
     Attributes:
-        position: (n, 2) float64, centres, in the walls' units.
+        position: (n, 2) float64, centres, in the walls' units; one pair stands for one ball.
         velocity: (n, 2) float64, units per second.
         radius: (n,) float64, each >= 0; one number given stands for all.
+
+    Raises:
+        SceneError: a shape is wrong, a number is not finite, or a radius is negative.
     """
 
     position: ArrayLike
     velocity: ArrayLike
     radius: ArrayLike = 0.0
+
+    def __post_init__(self) -> None:
+        position, velocity = (_pairs(getattr(self, name), name) for name in ("position", "velocity"))
+        if len(position) != len(velocity):
+            raise SceneError(
+                f"{len(position)} positions for {len(velocity)} velocities",
+                code="bad-balls",
+                fix="give one velocity a ball",
+            )
+        radius = np.asarray(self.radius, dtype=np.float64)
+        if radius.ndim > 1 or (radius.ndim == 1 and len(radius) != len(position)):
+            raise SceneError(f"radius has the shape {radius.shape} for {len(position)} balls", code="bad-balls")
+        if not (np.isfinite(radius).all() and (radius >= 0).all()):
+            raise SceneError("a radius is negative or not finite", code="bad-balls", fix="give 0 for a point")
+        self.position, self.velocity = position, velocity
+        self.radius = np.ascontiguousarray(np.broadcast_to(radius, (len(position),)))
+
+    def __len__(self) -> int:
+        return len(np.asarray(self.position))
 
 
 @dataclass(slots=True, eq=False)
@@ -45,3 +67,14 @@ class Scene:
     walls: Walls
     balls: Balls = field(default_factory=lambda: Balls(np.empty((0, 2)), np.empty((0, 2))))
     gravity: tuple[float, float] | None = None
+
+
+def _pairs(values: ArrayLike, name: str) -> FloatArray:
+    array = np.array(values, dtype=np.float64, order="C")
+    if array.shape == (2,):
+        array = array.reshape(1, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise SceneError(f"{name} has the shape {array.shape}", code="bad-balls", fix="give an (n, 2) array")
+    if not np.isfinite(array).all():
+        raise SceneError(f"a {name} is not finite", code="bad-balls")
+    return array

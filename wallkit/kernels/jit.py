@@ -7,7 +7,12 @@ point; kernels that it calls are compiled with it. No fastmath: both forms give 
 
 from __future__ import annotations
 
+import hashlib
+import os
+import sys
 from collections.abc import Callable
+from functools import cache
+from pathlib import Path
 from typing import Any, TypeVar
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -19,3 +24,55 @@ def kernel(function: Function) -> Function:
     """Mark a function of floats and arrays as one that may be compiled."""
     _marked.append(function)
     return function
+
+
+@cache
+def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
+    """Give the machine-code twin of a kernel; the first call of a new signature compiles, or loads from disk.
+
+    Numba's cache notices an edited entry point, but not an edited kernel that it calls from another file, so
+    the cache lives in a folder named by a digest of all kernel sources. ``WALLKIT_CACHE_DIR`` moves it; where
+    no folder can be written, compiled code lasts as long as the process.
+    """
+    import numba
+    from numba import config
+    from numba.extending import register_jitable
+
+    _register_all(register_jitable)
+    options: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
+    theirs = getattr(config, "CACHE_DIR", "")
+    setattr(config, "CACHE_DIR", str(_cache_folder()))  # noqa: B010 - numba makes its settings at run time
+    try:
+        return numba.njit(cache=True, **options)(entry)  # type: ignore[no-any-return]
+    except RuntimeError:  # numba's word for "no folder can be written"
+        return numba.njit(**options)(entry)  # type: ignore[no-any-return]
+    finally:
+        setattr(config, "CACHE_DIR", theirs)  # noqa: B010
+
+
+def compiler_is_loaded() -> bool:
+    """Some kernel was compiled in this process already, so that using it again costs nothing."""
+    return compiled.cache_info().currsize > 0
+
+
+@cache
+def _register_all(register: Callable[..., Any]) -> None:
+    for function in _marked:
+        register(function)
+
+
+def _cache_folder() -> Path:
+    digest = hashlib.sha256()
+    for path in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(path.read_bytes())
+    return _cache_home() / f"kernels-{digest.hexdigest()[:16]}"
+
+
+def _cache_home() -> Path:
+    if folder := os.environ.get("WALLKIT_CACHE_DIR"):
+        return Path(folder)
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local")) / "wallkit"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches" / "wallkit"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "wallkit"

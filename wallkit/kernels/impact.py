@@ -1,0 +1,167 @@
+"""Time of impact, one function a pair: point and line, disc and line, disc and corner.
+
+Each pass looks at a run of entries and keeps the earliest contact so far. Equal times go to the lower feature,
+so that neither the order of the entries nor the index decides anything. ``reach`` is the best time so far
+widened by more than the rounding of one division: it may only save work, never decide.
+"""
+
+from __future__ import annotations
+
+import math
+
+from wallkit.kernels.jit import kernel
+from wallkit.kernels.model import NO_HIT
+
+WIDER = 1.0 + 2.0**-50
+
+
+@kernel
+def precedes(feature: int, other: int) -> bool:
+    """Order of features at equal times: edges before corners, then by number."""
+    if other == NO_HIT:
+        return False
+    if feature >= 0:
+        return other < 0 or feature < other
+    return other < 0 and feature > other
+
+
+@kernel
+def scan_point(edges, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last, tolerance, best, feature):
+    """Earliest contact of a point with the lines of entries start to stop.
+
+    The ray p + t v passes between a and b when the crosses of (a - p) and (b - p) with v differ in sign, 0
+    counting as positive. A vertex has one such sign, shared by both of its edges, so no ray slips between
+    neighbours or meets both. Which way the ray crosses follows from the same two signs, and it is an approach
+    if the point lies on that side: d = (p - a).n > 0 when the crosses rise. Then t = |d| length / |their
+    difference|, which is not 0 because their signs differ.
+
+    A point within ``tolerance`` (the rounding of positions) of another edge has no side of its own there: that
+    edge is left out and counted, and the caller settles it from where the point came from.
+
+    Returns:
+        (time, feature, number of edges touched).
+    """
+    touched = 0
+    reach = best * WIDER
+    for k in range(start, stop):
+        o = 8 * k
+        ex = edges[o] - x
+        ey = edges[o + 1] - y
+        nx = edges[o + 4]
+        ny = edges[o + 5]
+        d = -(ex * nx + ey * ny)
+        if -tolerance <= d <= tolerance:
+            u = ex * ny - ey * nx
+            if -tolerance <= u <= edges[o + 6] + tolerance:
+                if ids[k] != last:
+                    touched += 1
+                continue
+        cross_a = ex * vy - ey * vx
+        cross_b = (edges[o + 2] - x) * vy - (edges[o + 3] - y) * vx
+        if (cross_a < 0.0) == (cross_b < 0.0):
+            continue
+        if (cross_a < 0.0) != (d > 0.0):
+            continue
+        gap = abs(d) * edges[o + 6]
+        closing = abs(cross_b - cross_a)
+        if gap > reach * closing:
+            continue
+        if one_sided is not None:
+            if d < 0.0 and one_sided[edge_wall[ids[k]]] != 0:
+                continue
+        t = gap / closing
+        if (t < best or (t == best and precedes(ids[k], feature))) and ids[k] != last:
+            best = t
+            reach = best * WIDER
+            feature = ids[k]
+    return best, feature, touched
+
+
+@kernel
+def scan_disc(edges, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, last, best, feature):
+    """Earliest contact of a disc with the flat of the lines of entries start to stop.
+
+    With d = (p - a).n on the side where d > 0, contact is at d + t v.n = r, t = (d - r) / -(v.n), if v.n < 0 and
+    the foot u = (p - a).tau + t v.tau lies on the edge. An overlap counts as t = 0; receding is never an event.
+
+    Returns:
+        (time, feature).
+    """
+    reach = best * WIDER
+    for k in range(start, stop):
+        o = 8 * k
+        ex = x - edges[o]
+        ey = y - edges[o + 1]
+        nx = edges[o + 4]
+        ny = edges[o + 5]
+        d = ex * nx + ey * ny
+        closing = -(vx * nx + vy * ny)
+        if d < 0.0:
+            if one_sided is not None:
+                if one_sided[edge_wall[ids[k]]] != 0:
+                    continue
+            d = -d
+            closing = -closing
+        if closing <= 0.0:
+            continue
+        gap = d - radius
+        if gap > reach * closing:
+            continue
+        t = gap / closing
+        if t < 0.0:
+            t = 0.0
+        u = ey * nx - ex * ny + t * (vy * nx - vx * ny)
+        if u < 0.0 or u > edges[o + 6]:
+            continue
+        if (t < best or (t == best and precedes(ids[k], feature))) and ids[k] != last:
+            best = t
+            reach = best * WIDER
+            feature = ids[k]
+    return best, feature
+
+
+@kernel
+def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, energy, last, best, feature):
+    """Earliest contact of a disc with the corners of entries start to stop.
+
+    With e = p - corner, |e + t v| = r has the discriminant D = r^2 - (e x v)^2 / v^2, taken from the distance at
+    which the path passes the corner, and the smaller root t = c / q, c = e.e - r^2, q = -e.v + sqrt(v^2 D);
+    nothing cancels in q because only e.v < 0 approaches. An overlap (c < 0) counts as t = 0.
+
+    Returns:
+        (time, feature).
+    """
+    if corners is None:
+        return best, feature
+    per_energy = 1.0 / energy
+    square = radius * radius
+    for k in range(start, stop):
+        o = 4 * k
+        ex = x - corners[o]
+        ey = y - corners[o + 1]
+        along = ex * vx + ey * vy
+        if along >= 0.0:
+            continue
+        cross = ex * vy - ey * vx
+        discriminant = square - cross * cross * per_energy
+        if discriminant < 0.0:
+            continue
+        c = ex * ex + ey * ey - square
+        t = c / (math.sqrt(energy * discriminant) - along)
+        if t < 0.0:
+            t = 0.0
+        if t < best or (t == best and precedes(-2 - ids[k], feature)):
+            if -2 - ids[k] == last:
+                continue
+            if one_sided is not None:
+                if one_sided[corner_wall[ids[k]]] != 0 and _behind(corners, o, ex + t * vx, ey + t * vy):
+                    continue
+            best = t
+            feature = -2 - ids[k]
+    return best, feature
+
+
+@kernel
+def _behind(corners, o, ex, ey):
+    """A centre at e from a corner is behind it when it is against the sum of the normals there."""
+    return ex * corners[o + 2] + ey * corners[o + 3] < 0.0

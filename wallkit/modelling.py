@@ -1,0 +1,141 @@
+"""From a scene to what the kernels see: local coordinates, flat arrays, an index, None for what is absent."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.indexing import build_grid
+from wallkit.kernels.model import CORNER_STRIDE, EDGE_STRIDE, Model
+from wallkit.scene import FloatArray, Scene, SceneError
+
+IntArray = NDArray[np.int64]
+BRUTE_FORCE = 16
+"""Up to this many edges looking at all of them beats any index."""
+
+
+class Modelled:
+    """A scene as the kernels see it.
+
+    Attributes:
+        model: arrays for the compiled kernels.
+        origin: (2,) added to local coordinates it gives the scene's.
+        radii: (n,) of the balls.
+    """
+
+    def __init__(self, scene: Scene, *, index: str = "auto") -> None:
+        if scene.gravity is not None and scene.gravity != (0.0, 0.0):
+            raise SceneError("gravity is not simulated yet", code="not-yet")
+        if scene.walls.has_arcs:
+            raise SceneError("walls of arcs are not simulated yet", code="not-yet")
+        self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
+        self.origin = local_origin(scene.walls.vertices)
+        self.model = _model(scene, self.origin, float(self.radii.max(initial=0.0)), index)
+        self._lists: Model | None = None
+
+    @property
+    def lists(self) -> Model:
+        """The model with lists of Python floats for arrays: several times faster to interpret."""
+        if self._lists is None:
+            self._lists = _as_lists(self.model)
+        return self._lists
+
+    def index_of_edge(self, scene: Scene) -> tuple[IntArray, IntArray]:
+        """Give wall and edge within the wall of each edge overall."""
+        offsets = scene.walls.edge_offsets
+        wall = np.repeat(np.arange(len(scene.walls)), np.diff(offsets))
+        return wall, np.arange(len(wall)) - offsets[wall]
+
+
+def local_origin(vertices: FloatArray) -> FloatArray:
+    """Choose an origin near the walls: coordinates relative to it are exact, and small far from (0, 0).
+
+    It is a multiple of a power of two several times the scene's size, so that a scene shifted by a larger power
+    of two has the same local coordinates, bit for bit. Where a subtraction would round, the origin stays (0, 0).
+    """
+    origin = np.zeros(2)
+    if len(vertices) == 0:
+        return origin
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    size = float((high - low).max())
+    if size <= 0.0 or not math.isfinite(size):
+        return origin
+    step = 2.0 ** (math.frexp(size)[1] + 2)
+    origin = np.floor(low / step + 0.5) * step
+    local = vertices - origin
+    back = vertices - local  # with the next line Knuth's exact remainder of a subtraction
+    lost = (vertices - (local + back)) + (back - origin)
+    return origin if not np.any(lost) and np.array_equal(local + origin, vertices) else np.zeros(2)
+
+
+def _model(scene: Scene, origin: FloatArray, radius: float, index: str) -> Model:
+    walls = scene.walls
+    vertices = walls.vertices - origin
+    lines = _lines(vertices[walls.edge_starts], vertices[walls.edge_ends])
+    wall_of_edge = np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)).astype(np.int64)
+    ids = np.flatnonzero(lines[:, 6] > 0.0).astype(np.int64)
+    corner_ids = np.arange(len(vertices), dtype=np.int64) if radius > 0.0 else np.empty(0, np.int64)
+    corners = np.hstack([vertices, _normals_at_vertices(walls, lines)])
+    use_grid = index == "grid" or (index == "auto" and len(ids) > BRUTE_FORCE)
+    grid = None
+    if use_grid and len(ids):
+        grid, ids, corner_ids = build_grid(lines, ids, corners, corner_ids, radius)
+    entries = lines[ids]
+    entries[:, 7] = 0.0
+    return Model(
+        edges=np.ascontiguousarray(entries).reshape(-1),
+        edge_ids=ids,
+        corners=np.ascontiguousarray(corners[corner_ids]).reshape(-1) if radius > 0.0 else None,
+        corner_ids=corner_ids,
+        grid=grid,
+        lines=np.ascontiguousarray(lines).reshape(-1),
+        vertices=np.ascontiguousarray(corners).reshape(-1),
+        edge_wall=wall_of_edge,
+        corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)).astype(np.int64),
+        restitution=_restitution(scene),
+        one_sided=_one_sided(scene),
+        extent=float(np.abs(vertices).max(initial=0.0)) + radius,
+    )
+
+
+def _lines(start: FloatArray, end: FloatArray) -> FloatArray:
+    d = end - start
+    length = np.sqrt(d[:, 0] * d[:, 0] + d[:, 1] * d[:, 1])
+    lines = np.zeros((len(d), EDGE_STRIDE))
+    lines[:, 0:2], lines[:, 2:4], lines[:, 6] = start, end, length
+    has = length > 0.0
+    lines[has, 4] = d[has, 1] / length[has]
+    lines[has, 5] = -d[has, 0] / length[has]
+    lines[has, 7] = 2.0 / (lines[has, 4] ** 2 + lines[has, 5] ** 2)
+    return lines
+
+
+def _normals_at_vertices(walls: Any, lines: FloatArray) -> FloatArray:
+    total = np.zeros((len(walls.vertices), CORNER_STRIDE - 2))
+    np.add.at(total, walls.edge_starts, lines[:, 4:6])
+    np.add.at(total, walls.edge_ends, lines[:, 4:6])
+    return total
+
+
+def _restitution(scene: Scene) -> FloatArray | None:
+    pairs = np.array([(m.restitution, m.tangential_restitution) for m in scene.walls.materials], dtype=np.float64)
+    return np.ascontiguousarray(pairs).reshape(-1) if np.any(pairs != 1.0) else None
+
+
+def _one_sided(scene: Scene) -> IntArray | None:
+    flags = np.array([sides == "outward" for sides in scene.walls.sides], dtype=np.int64)
+    return flags if flags.any() else None
+
+
+def _as_lists(model: Model) -> Model:
+    def convert(value: Any) -> Any:
+        if isinstance(value, np.ndarray):
+            return value.tolist()
+        if isinstance(value, tuple):
+            return type(value)(*(convert(item) for item in value))
+        return value
+
+    return convert(model)  # type: ignore[no-any-return]

@@ -1,0 +1,205 @@
+"""``simulate``: fly every ball of a scene and keep every contact."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.kernels.flight import fly
+from wallkit.kernels.jit import compiled, compiler_is_loaded
+from wallkit.kernels.model import LOG_STRIDE, NO_HIT, RUNNING, STATE_SIZE
+from wallkit.modelling import Modelled
+from wallkit.run import CONTACT, FINAL, Ending, Run
+from wallkit.scene import FloatArray, Scene, SceneError
+
+Mode = Literal["auto", "interpreted", "compiled"]
+BOUNCE_GUARD = 1_000_000
+"""Bounces a ball may make where no limit was given: a run always ends."""
+PATIENCE = 60_000
+"""Entries looked at by interpreted kernels, a few microseconds each, before a run waits for the compiler."""
+CHUNK = 8192
+
+
+def simulate(
+    scene: Scene,
+    until: float | None = None,
+    bounces: int | None = None,
+    *,
+    mode: Mode = "auto",
+    progress: Callable[[float], None] | None = None,
+) -> Run:
+    """Fly every ball until a time, a number of bounces, or an ending of its own, and keep every contact.
+
+    Args:
+        scene: walls, balls, and what acts.
+        until: seconds; None for no end in time.
+        bounces: bounces a ball; None for at most ``BOUNCE_GUARD``. At least one of the two must be given.
+        mode: ``"interpreted"`` or ``"compiled"`` kernels, which give the same bits; ``"auto"`` interprets until
+            compiling pays.
+        progress: called now and then with the part done, 0 to 1.
+
+    Raises:
+        SceneError: neither limit was given, or the scene cannot be simulated.
+    """
+    limit_time, limit_bounces = _limits(until, bounces)
+    flights = Flights(scene, mode=mode)
+    logs: list[FloatArray] = []
+    owners: list[NDArray[np.int32]] = []
+    for ball in range(len(flights)):
+        for log in flights.fly(ball, limit_time, limit_bounces):
+            logs.append(log)
+            owners.append(np.full(len(log), ball, dtype=np.int32))
+            if progress is not None:
+                progress(flights.part_done(ball, limit_time, limit_bounces))
+    contacts = flights.contacts(logs, owners)
+    return Run(scene, contacts, flights.final(), flights.endings(), flights.start)
+
+
+class Flights:
+    """The balls of a scene in flight: each can be flown on, by time or by bounces.
+
+    Attributes:
+        start: (n, 4) positions and velocities at time 0.
+    """
+
+    def __init__(self, scene: Scene, *, mode: Mode = "auto", index: str = "auto") -> None:
+        self.scene = scene
+        self.modelled = Modelled(scene, index=index)
+        self.mode = mode
+        position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
+        self.start: FloatArray = np.hstack([position, velocity]).astype(np.float64)
+        self._states = initial_states(self.modelled, position, velocity).tolist()
+        self._counts = [[NO_HIT, 0, RUNNING, 0] for _ in self._states]
+        self._work = 0
+
+    def __len__(self) -> int:
+        return len(self._states)
+
+    def fly(self, ball: int, until: float, limit: int) -> Any:
+        """Fly a ball on; yield its contacts in pieces, (k, LOG_STRIDE) each, local coordinates."""
+        counts = self._counts[ball]
+        if counts[2] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT):
+            counts[2] = RUNNING
+        while counts[2] == RUNNING:
+            log = self._piece(ball, until, limit)
+            if len(log):
+                yield log
+
+    def _piece(self, ball: int, until: float, limit: int) -> FloatArray:
+        radius, state, counts = float(self.modelled.radii[ball]), self._states[ball], self._counts[ball]
+        room = max(1, min(CHUNK, limit - counts[1] + 1))
+        if self._compile():
+            machine_log, machine_state = np.empty(room * LOG_STRIDE), np.array(state)
+            machine_counts = np.array(counts, dtype=np.int64)
+            noted = compiled(fly)(
+                self.modelled.model, radius, machine_state, machine_counts, until, limit, machine_log, room
+            )
+            state[:], counts[:] = machine_state.tolist(), machine_counts.tolist()
+            return machine_log.reshape(room, LOG_STRIDE)[:noted]
+        room = min(room, 256)
+        log = [0.0] * (room * LOG_STRIDE)
+        noted = fly(self.modelled.lists, radius, state, counts, until, limit, log, room)
+        self._work += (noted + 1) * self._entries_a_bounce()
+        return np.array(log).reshape(room, LOG_STRIDE)[:noted]
+
+    def _compile(self) -> bool:
+        if self.mode == "auto":
+            return compiler_is_loaded() or self._work > PATIENCE
+        return self.mode == "compiled"
+
+    def _entries_a_bounce(self) -> int:
+        model = self.modelled.model
+        return 30 if model.grid is not None else len(model.edge_ids) + len(model.corner_ids) + 4
+
+    def part_done(self, ball: int, until: float, limit: int) -> float:
+        """Part of all the work that is done when this ball is where it is, 0 to 1."""
+        one: float = max(self._states[ball][4] / max(until, 1e-300), self._counts[ball][1] / max(limit, 1))
+        return (ball + min(one, 1.0)) / len(self)
+
+    def final(self) -> NDArray[Any]:
+        """(n,) of ``FINAL``: where the balls are now."""
+        final = np.zeros(len(self), dtype=FINAL)
+        states = np.array(self._states).reshape(-1, STATE_SIZE)
+        final["x"], final["y"] = states[:, 0] + self.modelled.origin[0], states[:, 1] + self.modelled.origin[1]
+        final["vx"], final["vy"], final["time"] = states[:, 2], states[:, 3], states[:, 4] + states[:, 5]
+        return final
+
+    def endings(self) -> tuple[Ending, ...]:
+        """How each ball ended. A ball outside the walls' box that flies away from it has left the scene."""
+        endings = [Ending(counts[2]) for counts in self._counts]
+        return tuple(
+            Ending.LEFT_SCENE if ending == Ending.TIME_REACHED and self._is_gone(ball) else ending
+            for ball, ending in enumerate(endings)
+        )
+
+    def _is_gone(self, ball: int) -> bool:
+        x0, y0, x1, y1 = self.scene.walls.box()
+        ox, oy = self.modelled.origin
+        x, y, vx, vy = self._states[ball][0:4]
+        r = float(self.modelled.radii[ball])
+        return bool(
+            (x + ox > x1 + r and vx >= 0)
+            or (x + ox < x0 - r and vx <= 0)
+            or (y + oy > y1 + r and vy >= 0)
+            or (y + oy < y0 - r and vy <= 0)
+        )
+
+    def contacts(self, logs: list[FloatArray], owners: list[NDArray[np.int32]]) -> NDArray[Any]:
+        """Contacts of the scene, in its coordinates, in order of time."""
+        log = np.concatenate(logs) if logs else np.empty((0, LOG_STRIDE))
+        ball = np.concatenate(owners) if owners else np.empty(0, np.int32)
+        order = np.lexsort((ball, log[:, 0]))
+        log, ball = log[order], ball[order]
+        contacts = np.zeros(len(log), dtype=CONTACT)
+        ox, oy = self.modelled.origin
+        contacts["time"], contacts["ball"] = log[:, 0], ball
+        contacts["x"], contacts["y"] = log[:, 1] + ox, log[:, 2] + oy
+        contacts["vx"], contacts["vy"] = log[:, 3], log[:, 4]
+        contacts["px"], contacts["py"] = log[:, 5] + ox, log[:, 6] + oy
+        contacts["nx"], contacts["ny"] = log[:, 7], log[:, 8]
+        contacts["kind"] = log[:, 10].astype(np.uint8)
+        wall, edge = self._places(log[:, 9].astype(np.int64))
+        contacts["wall"], contacts["edge"] = wall, edge
+        return contacts
+
+    def _places(self, feature: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Wall of each feature, and edge within it, -1 for a corner."""
+        walls, edge_in_wall = self.modelled.index_of_edge(self.scene)
+        is_edge = feature >= 0
+        corner_wall = np.repeat(np.arange(len(self.scene.walls)), np.diff(self.scene.walls.offsets))
+        wall, edge = np.zeros_like(feature), np.full_like(feature, -1)
+        wall[is_edge], edge[is_edge] = walls[feature[is_edge]], edge_in_wall[feature[is_edge]]
+        wall[~is_edge] = corner_wall[-2 - feature[~is_edge]]
+        return wall, edge
+
+
+def initial_states(modelled: Modelled, position: FloatArray, velocity: FloatArray) -> FloatArray:
+    """(n, STATE_SIZE) states of balls at rest on the clock, local coordinates.
+
+    The last column is the tolerance of positions: a contact point p + t v is off by at most some 8 roundings
+    (2^-53) of coordinates up to the scene's extent, and (p - a).n by as many. 64 of them, 2^-47, are on the safe
+    side and still far below what a drawing can mean.
+    """
+    states = np.zeros((len(position), STATE_SIZE))
+    states[:, 0:2] = position - modelled.origin
+    states[:, 2:4] = velocity
+    states[:, 6] = velocity[:, 0] * velocity[:, 0] + velocity[:, 1] * velocity[:, 1]
+    states[:, 7:9], states[:, 9:11] = states[:, 0:2], velocity
+    states[:, 11] = 2.0**-47 * np.maximum(np.abs(states[:, 0:2]).max(axis=1, initial=0.0), modelled.model.extent)
+    return states
+
+
+def _limits(until: float | None, bounces: int | None) -> tuple[float, int]:
+    if until is None and bounces is None:
+        raise SceneError(
+            "neither a time nor a number of bounces was given", code="no-limit", fix="give until= or bounces="
+        )
+    if until is not None and not until >= 0.0:
+        raise SceneError(f"until is {until!r}", code="bad-limit", fix="give seconds, 0 or more")
+    if bounces is not None and bounces < 0:
+        raise SceneError(f"bounces is {bounces!r}", code="bad-limit", fix="give 0 or more")
+    return (math.inf if until is None else float(until)), (BOUNCE_GUARD if bounces is None else int(bounces))
