@@ -20,10 +20,9 @@ except ImportError as error:  # a user's own ``importers`` folder or an unrelate
     ) from error
 
 if TYPE_CHECKING:
-    from importers.read import read_drawing, read_drawing_text
-
     from importers.drawing import Drawing, DrawnPath, Layer, Subpath
     from importers.problems import Problem
+    from importers.read import read_drawing, read_drawing_text
     from wallkit.run import Ending, Kind, Run
     from wallkit.scene import Balls, Scene, SceneError
     from wallkit.simulation import simulate

@@ -1,1 +1,47 @@
-"""SVG reader."""
+"""SVG reader: a document as a browser renders it, to a Drawing."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+
+from importers.drawing import Drawing
+from importers.errors import DrawingError
+
+_SVG_TAG = re.compile(rb"<(?:[A-Za-z_][\w.-]*:)?svg[\s>/]")
+
+
+def looks_like_svg(data: bytes) -> bool:
+    """Tell whether bytes are an SVG document, in any encoding that XML allows (not gzipped)."""
+    head = data[:65536]
+    if head[:2] in (b"\xff\xfe", b"\xfe\xff", b"<\x00", b"\x00<"):
+        head = head.replace(b"\x00", b"")[2 if head[0] in (0xFE, 0xFF) else 0 :]
+    head = head.removeprefix(b"\xef\xbb\xbf").lstrip()
+    return head.startswith(b"<") and _SVG_TAG.search(head) is not None
+
+
+def read_svg(data: bytes, file: str = "") -> Drawing:
+    """Read an SVG document.
+
+    Args:
+        data: the file's bytes, not compressed.
+        file: its name, for messages.
+
+    Returns:
+        The Drawing in CSS px of the outermost viewport, y down; what was left out is in its problems.
+
+    Raises:
+        DrawingError: it is not well-formed XML, not SVG, or reaches outside of itself.
+        LimitError: it is larger, deeper or unfolds to more than importers.limits allows.
+    """
+    from importers.svg.reader import Reader
+    from importers.svg.source import decode, parse
+
+    source = parse(decode(data, file), file)
+    if source.root.tag.rpartition("}")[2] != "svg":
+        tag = source.root.tag.rpartition("}")[2]
+        fix = "give a file whose outermost element is svg"
+        raise DrawingError(f"an XML file of <{tag}>, not SVG", code="not-a-drawing", fix=fix, file=file)
+    drawing = Reader(source).read()
+    drawing.sha256 = hashlib.sha256(data).hexdigest()
+    return drawing

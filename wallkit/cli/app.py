@@ -40,8 +40,9 @@ def _root(
 
 def _register_commands() -> None:
     """Attach one module a command. The modules import what is heavy only when their command runs."""
-    from wallkit.cli import import_
+    from wallkit.cli import import_, inspect
 
+    inspect.register(app)
     import_.register(app)
 
 

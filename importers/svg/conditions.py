@@ -1,0 +1,33 @@
+"""Conditional processing: ``switch``, ``systemLanguage``, ``requiredExtensions``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+# The language is that of the browser that the tests measure with.
+LANGUAGE = "en-US"
+
+_EXTENSIONS = frozenset(("http://www.w3.org/1999/xhtml", "http://www.w3.org/1998/Math/MathML"))
+
+
+def holds(element: Any) -> bool:
+    """Tell whether the conditions on an element hold; ``requiredFeatures`` no longer counts (SVG 2)."""
+    attributes = element.attrib
+    extensions = attributes.get("requiredExtensions")
+    if extensions is not None and not all(word in _EXTENSIONS for word in extensions.split()):
+        return False
+    languages = attributes.get("systemLanguage")
+    return languages is None or any(_speaks(tag.strip()) for tag in languages.split(","))
+
+
+def _speaks(tag: str) -> bool:
+    low, own = tag.lower(), LANGUAGE.lower()
+    return low == own or own.startswith(low + "-")
+
+
+def chosen(element: Any, prefix: str) -> Any:
+    """Give the child of a ``switch`` that is shown: the first whose conditions hold; None without one."""
+    for child in element.iterchildren("*"):
+        if child.tag.startswith(prefix) and holds(child):
+            return child
+    return None

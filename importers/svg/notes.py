@@ -1,0 +1,62 @@
+"""Notes: what a reader leaves out, counted by kind, with the first place of each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from importers.problems import Problem, Severity
+from importers.svg.source import Source
+
+
+@dataclass(slots=True)
+class _Kind:
+    severity: Severity
+    message: str
+    fix: str
+    element: Any
+    count: int = 0
+
+
+class Notes:
+    """Collects what is to be said about a drawing while it is read."""
+
+    def __init__(self, source: Source) -> None:
+        self._source = source
+        self._problems: list[Problem] = []
+        self._kinds: dict[tuple[str, str], _Kind] = {}
+
+    def add(
+        self,
+        code: str,
+        severity: Severity,
+        message: str,
+        element: Any,
+        *,
+        fix: str = "",
+        attribute: str = "",
+        offset: int = 0,
+        layer: str = "",
+        name: str = "",
+        at: tuple[float, float] | None = None,
+    ) -> None:
+        """Add one problem at an element, or at a character in one of its attributes."""
+        line, column, text = self._source.place(element, attribute, offset)
+        x, y = at if at is not None else (None, None)
+        self._problems.append(Problem(code, severity, message, fix, layer, name, line, column, x, y, text))
+
+    def count(
+        self, code: str, severity: Severity, message: str, element: Any, *, fix: str = "", number: int = 1
+    ) -> None:
+        """Count one of a kind; each kind becomes one problem at its first place, its number before the message."""
+        kind = self._kinds.setdefault((code, message), _Kind(severity, message, fix, element))
+        kind.count += number
+
+    def problems(self) -> list[Problem]:
+        """Give all of them: the single ones in order, then one for each kind."""
+        counted = []
+        for (code, _), kind in self._kinds.items():
+            line, column, text = self._source.place(kind.element)
+            message = kind.message if kind.count == 1 else f"{kind.count} times: {kind.message}"
+            counted.append(Problem(code, kind.severity, message, kind.fix, "", "", line, column, None, None, text))
+        return self._problems + counted

@@ -1,0 +1,327 @@
+"""The walk over an SVG document: every element that a browser renders becomes a path of the Drawing.
+
+The walk keeps its own stack, so no depth of groups or chain of references can exhaust Python's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from importers.drawing import Drawing, DrawnPath, Layer, Subpath
+from importers.limits import MAX_COORDINATE, MAX_DEPTH, limit_error
+from importers.svg.cascade import Cascade
+from importers.svg.conditions import chosen, holds
+from importers.svg.matrix import Matrix, mean_scale, multiply, transform, translation
+from importers.svg.names import INKSCAPE, SODIPODI, name_of, tags_of
+from importers.svg.notes import Notes
+from importers.svg.placing import element_matrix, nested_viewport, root_viewport, use_size
+from importers.svg.references import References
+from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
+from importers.svg.source import SVG_NS, Source
+from importers.svg.style import Declared, Style, inherit
+from importers.svg.units import Viewport, to_px
+
+_NEVER = frozenset(("defs", "clipPath", "mask", "pattern", "marker", "symbol"))
+_SILENT = frozenset(
+    (
+        "title",
+        "desc",
+        "metadata",
+        "style",
+        "linearGradient",
+        "radialGradient",
+        "filter",
+        "view",
+        "cursor",
+        "font",
+        "font-face",
+        "solidcolor",
+        "color-profile",
+        "hatch",
+        "meshgradient",
+        "missing-glyph",
+        "glyph",
+    )
+)
+_NO_GEOMETRY = {
+    "text": "convert text to outlines in the drawing program",
+    "image": "trace the image in the drawing program",
+    "foreignObject": "draw its content as shapes",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Around:
+    """What an element has from what is around it."""
+
+    matrix: Matrix
+    style: Style
+    viewport: Viewport
+    layer: str = ""
+    groups: tuple[str, ...] = ()
+    tags: dict[str, str] | None = None
+    hidden: bool = False
+    locked: bool = False
+    chain: tuple[Any, ...] = ()  # targets of the `use`s that we are inside of
+    depth: int = 0
+    outline: str = ""  # name of the innermost `use`, for shapes without one
+
+
+class Reader:
+    """Reads one parsed document into a Drawing."""
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.notes = Notes(source)
+        self.drawing = Drawing(units="px", y_axis="down", kind="SVG", file=source.file)
+        root = source.root
+        # without a namespace a browser shows nothing; what was meant is plain, so it is read and reported
+        self.prefix = f"{{{SVG_NS}}}" if root.tag != "svg" else ""
+        self.cascade = Cascade(root, self.prefix, self.notes)
+        self.references = References(root, self.prefix, source.file)
+        head = source.text[:4000]
+        self.illustrator = "Adobe Illustrator" in head or "ns.adobe.com/AdobeIllustrator" in head
+        self.inkscape_layers = bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
+        self.layers: dict[str, Layer] = {}
+        self.stack: list[tuple[Any, Around]] = []
+
+    def read(self) -> Drawing:
+        """Walk the document and give the Drawing."""
+        root = self.source.root
+        if not self.prefix:
+            fix = f'add xmlns="{SVG_NS}" to the svg element'
+            self.notes.add("missing-namespace", "warning", "browsers show nothing of this file", root, fix=fix)
+        self._enter_root(root)
+        while self.stack:
+            element, around = self.stack.pop()
+            self._visit(element, around)
+        self.references.report(self.notes)
+        self.drawing.layers = list(self.layers.values())
+        self.drawing.problems += self.notes.problems()
+        return self.drawing
+
+    def _enter_root(self, root: Any) -> None:
+        declared = self.cascade.declared(root)
+        style = inherit(Style(), declared)
+        placed = root_viewport(root, declared, style.font)
+        if placed is None:
+            self.notes.add("nothing-drawn", "warning", "the drawing has no size, so browsers show nothing", root)
+            return
+        matrix, viewport = placed
+        hidden = declared.get("display") == "none"
+        self._push_children(root, Around(matrix, style, viewport, hidden=hidden, tags={}))
+
+    def _push_children(self, element: Any, around: Around) -> None:
+        if around.depth >= MAX_DEPTH:
+            line = self.source.line(element)
+            raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file, line=line)
+        self.stack.extend((child, around) for child in element.iterchildren("*", reversed=True))
+
+    def _visit(self, element: Any, around: Around) -> None:
+        tag = element.tag
+        if not tag.startswith(self.prefix) or (not self.prefix and tag[0] == "{"):
+            self._foreign(element)
+            return
+        tag = tag[len(self.prefix) :]
+        if tag in SHAPES:
+            if holds(element):
+                self._draw(tag, element, around)
+        elif tag in ("g", "a", "svg", "switch", "use"):
+            if holds(element):
+                self._enter(tag, element, around)
+        else:
+            self._skip(tag, element)
+
+    def _skip(self, tag: str, element: Any) -> None:
+        if tag in _NO_GEOMETRY:
+            message = f"<{tag}> has no outlines to read"
+            self.notes.count("no-geometry", "warning", message, element, fix=_NO_GEOMETRY[tag])
+        elif tag in _NEVER:
+            self.references.kept_back.append(element)
+        elif tag in ("script", "animate", "animateTransform", "animateMotion", "animateColor", "set"):
+            message = f"<{tag}> is not run: the drawing is read as it is at the start"
+            self.notes.count("not-run", "info", message, element)
+        elif tag not in _SILENT:
+            self.notes.count("unknown-element", "info", f"<{tag}> is unknown to SVG, browsers skip it", element)
+
+    def _foreign(self, element: Any) -> None:
+        tag = str(element.tag)
+        if tag[0] != "{":
+            fix = f'give it the namespace "{SVG_NS}"'
+            message = f"<{tag}> is in no namespace, so browsers skip it"
+            self.notes.count("unknown-element", "warning", message, element, fix=fix)
+        elif not tag.startswith((INKSCAPE, SODIPODI, "{http://ns.adobe.com/", "{&ns_", "{http://www.w3.org/1999/02/")):
+            message = f"<{tag.rpartition('}')[2]}> is not SVG and is left out"
+            self.notes.count("foreign-element", "info", message, element)
+
+    def _enter(self, tag: str, element: Any, around: Around) -> None:
+        """Go into an element that groups others."""
+        declared = self.cascade.declared(element)
+        inside = self._inside(tag, element, declared, around)
+        if tag == "use":
+            self._use(element, declared, inside)
+        elif tag == "svg":
+            self._nested(element, declared, inside)
+        elif tag == "switch":
+            picked = chosen(element, self.prefix)
+            for child in element.iterchildren("*"):
+                if child is not picked:
+                    self.references.not_chosen.append(child)
+            if picked is not None:
+                self.stack.append((picked, inside))
+        else:
+            self._push_children(element, inside)
+
+    def _inside(self, tag: str, element: Any, declared: Declared, around: Around) -> Around:
+        style = inherit(around.style, declared) if declared else around.style
+        matrix = around.matrix
+        if "transform" in declared:
+            matrix = multiply(matrix, element_matrix(self, element, declared, style, around.viewport))
+        hidden = around.hidden or declared.get("display") == "none"
+        name = name_of(element, self.illustrator)
+        locked = around.locked or element.get(SODIPODI + "insensitive") == "true"
+        layer, groups = around.layer, around.groups
+        if self._is_layer(tag, element, around):
+            layer = name
+            found = self.layers.setdefault(name, Layer(name, visible=not hidden, locked=locked))
+            found.visible = found.visible or not hidden
+        else:
+            groups = (*groups, name)
+        tags = tags_of(element, around.tags or {})
+        return replace(
+            around,
+            matrix=matrix,
+            style=style,
+            layer=layer,
+            groups=groups,
+            tags=tags,
+            hidden=hidden,
+            locked=locked,
+            depth=around.depth + 1,
+        )
+
+    def _is_layer(self, tag: str, element: Any, around: Around) -> bool:
+        if tag != "g" or around.chain:
+            return False
+        if self.inkscape_layers:
+            return bool(element.get(INKSCAPE + "groupmode") == "layer")
+        top = element.getparent() is self.source.root
+        return top and bool(element.get("id") or element.get("data-name"))
+
+    def _use(self, element: Any, declared: Declared, inside: Around) -> None:
+        target, why = self.references.target(element, inside.chain)
+        if target is None:
+            self.notes.add(
+                "bad-use", "warning", why, element, fix="point href to an id of this file", layer=inside.layer
+            )
+            return
+        lengths = Lengths(element.attrib, declared, inside.viewport, inside.style.font)
+        x, y = lengths.get("x") or 0.0, lengths.get("y") or 0.0
+        matrix = multiply(inside.matrix, translation(x, y))
+        name = name_of(element, self.illustrator)
+        inside = replace(inside, matrix=matrix, chain=(*inside.chain, target), outline=name or inside.outline)
+        tag = target.tag[len(self.prefix) :]
+        if inside.depth > MAX_DEPTH:
+            raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file)
+        if tag in ("symbol", "svg"):
+            own = self.cascade.declared(target)
+            within = self._inside(tag, target, own, inside)
+            self._nested(target, own, within, use_size(tag, element, lengths))
+        elif tag in SHAPES or tag in ("g", "a", "switch", "use") or tag in _NO_GEOMETRY:
+            self.stack.append((target, inside))
+        else:
+            self.notes.count("bad-use", "info", f"<use> of a <{tag}> draws nothing", element)
+
+    def _nested(
+        self, element: Any, declared: Declared, inside: Around, size: tuple[float | None, float | None] = (None, None)
+    ) -> None:
+        lengths = Lengths(element.attrib, declared, inside.viewport, inside.style.font)
+        placed = nested_viewport(element, lengths, size)
+        if placed is None:
+            self.notes.count("nothing-drawn", "info", "<svg> or <symbol> without a size draws nothing", element)
+            return
+        matrix, viewport = placed
+        self._push_children(element, replace(inside, matrix=multiply(inside.matrix, matrix), viewport=viewport))
+
+    def _draw(self, tag: str, element: Any, around: Around) -> None:
+        declared = self.cascade.declared(element)
+        style = inherit(around.style, declared) if declared else around.style
+        lengths = Lengths(element.attrib, declared, around.viewport, style.font)
+        shape = make_shape(tag, element.attrib, lengths)
+        matrix = around.matrix
+        if "transform" in declared:
+            matrix = multiply(matrix, element_matrix(self, element, declared, style, around.viewport, shape))
+        name = name_of(element, self.illustrator) or around.outline
+        if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
+            self._report_shape(tag, element, shape, lengths, around.layer, name, matrix)
+        subpaths = [Subpath(transform(sub.segments, matrix), sub.closed) for sub in shape.subpaths]
+        if not subpaths:
+            return
+        if not _within(subpaths):
+            message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
+            self.notes.add("coordinate-too-large", "error", message, element, layer=around.layer, name=name)
+            return
+        fill, stroke = self._paint(style.fill), self._paint(style.stroke)
+        width = to_px(style.stroke_width, around.viewport.diagonal, style.font) * mean_scale(matrix)
+        self.drawing.paths.append(
+            DrawnPath(
+                subpaths=subpaths,
+                name=name,
+                layer=around.layer,
+                groups=around.groups,
+                visible=style.visible and not around.hidden and declared.get("display") != "none",
+                locked=around.locked or element.get(SODIPODI + "insensitive") == "true",
+                fill=fill,
+                stroke=stroke,
+                stroke_width=width if stroke is not None else None,
+                fill_rule="evenodd" if style.fill_rule == "evenodd" else "nonzero",
+                line=self.source.line(element),
+                tags=dict(tags_of(element, around.tags or {})),
+            )
+        )
+
+    def _paint(self, paint: str | None) -> str | None:
+        return self.references.paint(paint) if paint is not None and paint[0] != "#" else paint
+
+    def _report_shape(
+        self, tag: str, element: Any, shape: Shape, lengths: Lengths, layer: str, name: str, matrix: Matrix
+    ) -> None:
+        for attribute in lengths.invalid:
+            value = str(element.get(attribute))[:40]
+            message = f"{attribute}={value!r} is no length and is not used"
+            self.notes.add("bad-length", "warning", message, element, attribute=attribute, layer=layer, name=name)
+        if lengths.assumed:
+            message = f"<{tag}> is measured in a window or a font, which a file does not have"
+            fix = "write its lengths in px or mm"
+            self.notes.count("assumed-unit", "warning", message, element, fix=fix)
+        if shape.fault is not None:
+            at = None
+            if shape.subpaths:
+                end = shape.subpaths[-1].segments[-1][-2:]
+                at = transform([("L", *end)], matrix)[0][1:]
+            code = "bad-path-data" if shape.attribute == "d" else "bad-points"
+            fix = "what stands before it is used" if shape.subpaths else "nothing of it is drawn"
+            self.notes.add(
+                code,
+                "error",
+                shape.fault.message,
+                element,
+                fix=f"{fix}; correct the {shape.attribute} attribute here",
+                attribute=shape.attribute,
+                offset=shape.fault.offset,
+                layer=layer,
+                name=name,
+                at=at,
+            )
+        elif not shape.subpaths:
+            self.notes.count("nothing-drawn", "info", f"<{tag}> draws nothing: {shape.nothing}", element)
+
+
+def _within(subpaths: list[Subpath]) -> bool:  # every number finite and no larger than coordinates may be
+    for sub in subpaths:
+        for segment in sub.segments:
+            for number in segment[1:]:
+                if not -MAX_COORDINATE <= number <= MAX_COORDINATE:
+                    return False
+    return True

@@ -1,0 +1,120 @@
+"""References within the file: targets of ``use``, paint servers, and what nothing refers to."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from importers.limits import MAX_ELEMENTS, MAX_REFERENCES, limit_error
+from importers.svg.notes import Notes
+from importers.svg.shapes import SHAPES
+from importers.svg.style import parse_colour
+
+_XLINK = "{http://www.w3.org/1999/xlink}href"
+_URL = re.compile(r"""url\(\s*["']?\s*([^"')]*?)\s*["']?\s*\)\s*(.*)""", re.IGNORECASE | re.DOTALL)
+
+
+class References:
+    """Ids of a document and the references to them."""
+
+    def __init__(self, root: Any, prefix: str, file: str) -> None:
+        self._root, self._prefix, self._file = root, prefix, file
+        self._ids: dict[str, Any] = {}
+        for element in root.xpath("//*[@id]"):
+            self._ids.setdefault(element.get("id"), element)
+        self.kept_back: list[Any] = []  # defs, symbols and the like that the walk passed by
+        self.not_chosen: list[Any] = []  # children of switch
+        self._uses = list(root.iter(prefix + "use"))
+        if self._uses:
+            self._check_size()
+
+    def _href(self, element: Any) -> str | None:
+        for name in ("href", _XLINK, "xlink:href"):  # the last where its prefix is not declared
+            href = element.get(name)
+            if href is not None:
+                return str(href)
+        return None
+
+    def _lookup(self, element: Any) -> Any:
+        href = (self._href(element) or "").strip()
+        return self._ids.get(href[1:]) if href.startswith("#") else None
+
+    def target(self, element: Any, chain: tuple[Any, ...]) -> tuple[Any, str]:
+        """Give what a ``use`` shows, or None and why it shows nothing."""
+        href = self._href(element)
+        found = self._lookup(element)
+        if found is None:
+            if href is None:
+                return None, "a use without href"
+            if not href.strip().startswith("#"):
+                return None, f"{href[:60]!r} is in another file, and no other file is read"
+            return None, f"there is no element with the id {href.strip()[1:61]!r}"
+        if not found.tag.startswith(self._prefix):
+            return None, f"{href!r} is not an SVG element"
+        if found in chain or any(around is found for around in element.iterancestors()):
+            return None, f"{href!r} contains this very use, so it shows nothing"
+        return found, ""
+
+    def paint(self, text: str) -> str | None:
+        """Give the word for a paint: ``gradient``, ``pattern``, or the colour that stands in for a missing one."""
+        match = _URL.fullmatch(text.strip())
+        if match is None:
+            return None
+        server = self._ids.get(match[1][1:]) if match[1].startswith("#") else None
+        tag = server.tag.rpartition("}")[2] if server is not None else ""
+        if tag in ("linearGradient", "radialGradient"):
+            return "gradient"
+        if tag == "pattern":
+            return "pattern"
+        return parse_colour(match[2]) if match[2] else None
+
+    def _check_size(self) -> None:
+        """Count what all references together unfold to, each target once: a small file can ask for billions.
+
+        Elements in document order, last first, so that children come before their parents; a target that is
+        not yet counted is counted on its own stack.
+        """
+        sizes: dict[Any, tuple[int, int]] = {}  # element to (references, elements) that its subtree unfolds to
+        todo: list[Any] = [self._root]
+        open_now: set[Any] = set()
+        while todo:
+            element = todo[-1]
+            if element in sizes:
+                todo.pop()
+                continue
+            parts = [c for c in element.iterchildren("*") if c.tag != self._prefix + "defs" or element is self._root]
+            if element.tag == self._prefix + "use":
+                target = self._lookup(element)
+                if target is not None:
+                    parts.append(target)
+            missing = [part for part in parts if part not in sizes and part not in open_now]
+            if missing and element not in open_now:
+                open_now.add(element)
+                todo.extend(missing)
+                continue
+            counts = [sizes.get(part, (0, 0)) for part in parts]
+            own = 1 if element.tag == self._prefix + "use" else 0
+            sizes[element] = (own + sum(c[0] for c in counts), 1 + sum(c[1] for c in counts))
+            open_now.discard(element)
+            todo.pop()
+        references, elements = self._shown(sizes)
+        if references > MAX_REFERENCES:
+            raise limit_error("references that are followed", f"{MAX_REFERENCES:,}", file=self._file)
+        if elements > MAX_ELEMENTS:
+            raise limit_error("elements, references followed", f"{MAX_ELEMENTS:,}", file=self._file)
+
+    def _shown(self, sizes: dict[Any, tuple[int, int]]) -> tuple[int, int]:
+        return sizes[self._root]
+
+    def report(self, notes: Notes) -> None:
+        """Count the shapes that are there only to be referred to, and that nothing does draw."""
+        used = {self._lookup(use) for use in self._uses}
+        shapes = [self._prefix + tag for tag in SHAPES]
+        for element in self.kept_back:
+            tag = element.tag[len(self._prefix) :]
+            for shape in element.iter(*shapes):
+                if shape not in used and not any(around in used for around in shape.iterancestors()):
+                    message = f"shape in <{tag}> is not drawn by itself"
+                    notes.count("not-drawn", "info", message, element)
+        for element in self.not_chosen:
+            notes.count("not-chosen", "info", "child of <switch> is not the one that is shown", element)

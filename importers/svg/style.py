@@ -1,0 +1,333 @@
+"""Style: what CSS and presentation attributes say about an element, cascaded and inherited.
+
+Only what changes geometry, visibility or the marks of a path is looked at. tinycss2 and cssselect2 read the
+style sheets; the cascade is: presentation attributes, rules by specificity and order, the ``style`` attribute,
+then the same again for what is ``!important``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import tinycss2
+import tinycss2.color4
+
+from importers.svg.transforms import parse_transform_attribute, parse_transform_property
+from importers.svg.units import ROOT_FONT, Font, Terms, parse_length, to_px
+
+# Declarations of one element that are valid: property name to parsed value.
+Declared = dict[str, Any]
+
+INHERIT = "inherit"  # also stands for "unset" of an inherited property
+INITIAL = "initial"
+_WIDE = {"inherit": INHERIT, "initial": INITIAL, "unset": "unset", "revert": "unset", "revert-layer": "unset"}
+_INHERITED = frozenset(
+    ("fill", "stroke", "stroke-width", "fill-rule", "color", "visibility", "font-size", "line-height")
+)
+_KEYWORDS = {
+    "visibility": frozenset(("visible", "hidden", "collapse")),
+    "fill-rule": frozenset(("nonzero", "evenodd")),
+    "overflow": frozenset(("visible", "hidden", "scroll", "auto", "clip")),
+    "transform-box": frozenset(("content-box", "border-box", "fill-box", "stroke-box", "view-box")),
+}
+_FONT_SIZES = {
+    "xx-small": 9.0,
+    "x-small": 10.0,
+    "small": 13.0,
+    "medium": 16.0,
+    "large": 18.0,
+    "x-large": 24.0,
+    "xx-large": 32.0,
+    "xxx-large": 48.0,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """What an element hands down to its children.
+
+    Attributes:
+        fill: ``"#rrggbb"``, ``"pattern"``, ``"gradient"``, or None.
+        stroke: the same.
+        stroke_width: as a length, resolved where it is used.
+        fill_rule: ``"nonzero"`` or ``"evenodd"``.
+        color: what ``currentColor`` means, as ``"#rrggbb"``.
+        visible: ``visibility`` is ``visible``.
+        font: for font units.
+        line_factor: ``line-height`` as a bare number, which children multiply by their own font size.
+    """
+
+    fill: str | None = "#000000"
+    stroke: str | None = None
+    stroke_width: Terms = ((1.0, "px"),)
+    fill_rule: str = "nonzero"
+    color: str = "#000000"
+    visible: bool = True
+    font: Font = ROOT_FONT
+    line_factor: float | None = None
+
+
+def _keyword(name: str) -> Callable[[str, bool], Any]:
+    allowed = _KEYWORDS[name]
+
+    def parse(text: str, attribute: bool) -> str | None:
+        word = text.strip().lower()
+        return word if word in allowed else None
+
+    return parse
+
+
+def _length(text: str, attribute: bool) -> Terms | None:
+    return parse_length(text, attribute)
+
+
+def _positive(text: str, attribute: bool) -> Terms | str | None:  # a negative one is invalid, calc() is clamped
+    if text.strip().lower() == "auto":
+        return "auto"
+    terms = parse_length(text, attribute)
+    return None if terms is None or (len(terms) == 1 and terms[0][0] < 0) else terms
+
+
+def _stroke_width(text: str, attribute: bool) -> Terms | None:
+    terms = parse_length(text, True)
+    return None if terms is None or (len(terms) == 1 and terms[0][0] < 0) else terms
+
+
+def _display(text: str, attribute: bool) -> str | None:
+    word = text.strip().lower()
+    return word if word and word.replace("-", "").replace(" ", "").isalpha() else None
+
+
+def _paint(text: str, attribute: bool) -> str | None:
+    """Read fill or stroke: ``none``, a colour, ``currentcolor``, or ``url(...)`` with what stands in for it."""
+    word = text.strip()
+    low = word.lower()
+    if low in ("none", "currentcolor", "context-fill", "context-stroke"):
+        return low
+    if low.startswith("url("):
+        return word
+    return parse_colour(word)
+
+
+def parse_colour(text: str) -> str | None:
+    """Read a CSS colour to ``"#rrggbb"``; None for what is none. Transparency is not kept."""
+    try:
+        colour = tinycss2.color4.parse_color(text.strip())
+    except (ValueError, TypeError, ZeroDivisionError, OverflowError):
+        return None
+    if colour is None or isinstance(colour, str):
+        return "currentcolor" if colour == "currentcolor" else None
+    try:
+        srgb = colour.to("srgb")
+        return "#" + "".join(f"{min(255, max(0, round(float(v or 0) * 255))):02x}" for v in srgb.coordinates[:3])
+    except (NotImplementedError, ValueError, TypeError, AttributeError, OverflowError):
+        return None
+
+
+def _font_size(text: str, attribute: bool) -> Any:
+    word = text.strip().lower()
+    if word in _FONT_SIZES:
+        return ((_FONT_SIZES[word], "px"),)
+    if word in ("larger", "smaller"):
+        return ((1.2 if word == "larger" else 1 / 1.2, "em"),)
+    return _stroke_width(text, attribute) if attribute else _positive_only(text)
+
+
+def _positive_only(text: str) -> Terms | None:
+    value = _positive(text, False)
+    return None if isinstance(value, str) else value
+
+
+def _line_height(text: str, attribute: bool) -> Any:
+    if attribute:  # not a presentation attribute
+        return None
+    word = text.strip().lower()
+    if word == "normal":
+        return "normal"
+    terms = parse_length(word, True)
+    return None if terms is None or terms[0][0] < 0 else terms
+
+
+def _words(text: str, attribute: bool) -> str | None:
+    return text.strip() or None
+
+
+def _transform(text: str, attribute: bool) -> Any:
+    return parse_transform_attribute(text) if attribute else parse_transform_property(text)
+
+
+def _origin(text: str, attribute: bool) -> tuple[Terms, Terms] | None:
+    """Read ``transform-origin``: one or two of a length, a percentage and a word; a third (z) is dropped."""
+    words = {
+        "left": ("x", 0.0),
+        "right": ("x", 100.0),
+        "top": ("y", 0.0),
+        "bottom": ("y", 100.0),
+        "center": ("", 50.0),
+    }
+    parts: list[tuple[str, Terms]] = []
+    for token in tinycss2.parse_component_value_list(text.strip(), skip_comments=True):
+        if token.type == "whitespace":
+            continue
+        if token.type == "ident" and token.lower_value in words:
+            axis, percent = words[token.lower_value]
+            parts.append((axis, ((percent, "%"),)))
+            continue
+        terms = parse_length(tinycss2.serialize([token]), attribute)
+        if terms is None:
+            return None
+        parts.append(("", terms))
+    if not 1 <= len(parts) <= 3:
+        return None
+    if len(parts) == 1:
+        parts.append(("", ((50.0, "%"),)))
+        if parts[0][0] == "y":
+            parts.reverse()
+    (first_axis, first), (second_axis, second) = parts[:2]
+    if first_axis == "y" or second_axis == "x":
+        first, second = second, first
+        if first_axis == "x" or second_axis == "y":
+            return None
+    return first, second
+
+
+def _path(text: str, attribute: bool) -> str | None:
+    if attribute:
+        return text
+    tokens = [t for t in tinycss2.parse_component_value_list(text, skip_comments=True) if t.type != "whitespace"]
+    if len(tokens) == 1 and tokens[0].type == "ident" and tokens[0].lower_value == "none":
+        return ""
+    if len(tokens) != 1 or tokens[0].type != "function" or tokens[0].lower_name != "path":
+        return None
+    strings = [t for t in tokens[0].arguments if t.type == "string"]
+    return str(strings[0].value) if len(strings) == 1 else None
+
+
+_PARSERS: dict[str, Callable[[str, bool], Any]] = {
+    **{name: _keyword(name) for name in _KEYWORDS},
+    **dict.fromkeys(("x", "y", "cx", "cy"), _length),
+    **dict.fromkeys(("r", "rx", "ry", "width", "height"), _positive),
+    "display": _display,
+    "fill": _paint,
+    "stroke": _paint,
+    "color": lambda text, attribute: parse_colour(text),
+    "stroke-width": _stroke_width,
+    "font-size": _font_size,
+    "line-height": _line_height,
+    "transform": _transform,
+    "transform-origin": _origin,
+    "d": _path,
+    "clip-path": _words,
+    "mask": _words,
+}
+PROPERTIES = frozenset(_PARSERS)
+# Attributes that are not declarations by themselves: geometry is looked up on the element that has it
+_LAZY = frozenset(("x", "y", "cx", "cy", "r", "rx", "ry", "width", "height", "d"))
+PRESENTATION = PROPERTIES - _LAZY - {"line-height"}
+
+
+@lru_cache(maxsize=8192)
+def parse_declaration(name: str, text: str, attribute: bool) -> Any:
+    """Give the parsed value of a declaration, None when it is invalid (and so is as if it were not there)."""
+    wide = _WIDE.get(text.strip().lower())
+    if wide is not None:
+        return (INHERIT if name in _INHERITED else INITIAL) if wide == "unset" else wide
+    return _PARSERS[name](text, attribute)
+
+
+@lru_cache(maxsize=4096)
+def parse_declarations(text: str) -> tuple[tuple[str, Any, bool], ...]:
+    """Read a declaration list to (property, value, important), invalid and unknown ones left out."""
+    found = []
+    for declaration in tinycss2.parse_blocks_contents(text, skip_comments=True, skip_whitespace=True):
+        if declaration.type == "declaration":
+            found.extend(known_declarations(declaration))
+    return tuple(found)
+
+
+def known_declarations(declaration: Any) -> list[tuple[str, Any, bool]]:
+    """Give what one tinycss2 declaration sets; the ``font`` shorthand gives its size and line height."""
+    name, text = declaration.lower_name, tinycss2.serialize(declaration.value)
+    if name == "font":
+        return _font_shorthand(declaration)
+    if name not in _PARSERS:
+        return []
+    value = parse_declaration(name, text, False)
+    return [] if value is None else [(name, value, declaration.important)]
+
+
+def _font_shorthand(declaration: Any) -> list[tuple[str, Any, bool]]:
+    tokens = [token for token in declaration.value if token.type != "whitespace"]
+    for index, token in enumerate(tokens):
+        size = parse_declaration("font-size", tinycss2.serialize([token]), False)
+        if size is None or token.type == "number":
+            continue
+        rest = tokens[index + 1 :]
+        found: list[tuple[str, Any, bool]] = [("font-size", size, declaration.important)]
+        height: Any = "normal"
+        if len(rest) >= 2 and rest[0].type == "literal" and rest[0].value == "/":
+            height = parse_declaration("line-height", tinycss2.serialize([rest[1]]), False)
+            rest = rest[2:]
+        found.append(("line-height", height, declaration.important))
+        return found if rest else []
+    return []
+
+
+def inherit(parent: Style, declared: Declared) -> Style:
+    """Give the style of an element from its parent's and its own declarations."""
+    changes: dict[str, Any] = {}
+    font = _font(parent, declared, changes)
+    if font is not parent.font:
+        changes["font"] = font
+    if "color" in declared:
+        value = declared["color"]
+        wide = value in (INHERIT, "currentcolor")
+        changes["color"] = parent.color if wide else ("#000000" if value == INITIAL else value)
+    colour = changes.get("color", parent.color)
+    for name in ("fill", "stroke"):
+        if name in declared and declared[name] != INHERIT:
+            changes[name] = _used_paint(declared[name], "#000000" if name == "fill" else None, colour)
+    if declared.get("stroke-width", INHERIT) != INHERIT:
+        value = declared["stroke-width"]
+        changes["stroke_width"] = ((1.0, "px"),) if value == INITIAL else value
+    if declared.get("fill-rule", INHERIT) != INHERIT:
+        changes["fill_rule"] = "nonzero" if declared["fill-rule"] == INITIAL else declared["fill-rule"]
+    if declared.get("visibility", INHERIT) != INHERIT:
+        changes["visible"] = declared["visibility"] in ("visible", INITIAL)
+    return replace(parent, **changes) if changes else parent
+
+
+def _used_paint(value: str, initial: str | None, colour: str) -> str | None:
+    if value == INITIAL:
+        return initial
+    if value == "none":
+        return None
+    if value == "currentcolor":
+        return colour
+    if value.lower().startswith("url("):
+        return value
+    return value if value.startswith("#") else None
+
+
+def _font(parent: Style, declared: Declared, changes: dict[str, Any]) -> Font:
+    font = parent.font
+    size = declared.get("font-size", INHERIT)
+    if size != INHERIT:
+        terms: Terms = ((16.0, "px"),) if size == INITIAL else size
+        font = replace(font, size=max(0.0, to_px(terms, parent.font.size, parent.font)))
+    height = declared.get("line-height", INHERIT)
+    factor = parent.line_factor
+    if height in ("normal", INITIAL):
+        factor = None
+        font = replace(font, line_height=None)
+    elif height != INHERIT:
+        factor = height[0][0] if len(height) == 1 and height[0][1] == "" else None
+        font = replace(font, line_height=to_px(height, font.size, font))
+    if factor is not None:
+        font = replace(font, line_height=factor * font.size)
+    if factor != parent.line_factor:
+        changes["line_factor"] = factor
+    return font

@@ -1,0 +1,165 @@
+"""The ``transform`` attribute and the CSS ``transform`` property, to a matrix."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import lru_cache
+from typing import Any
+
+import tinycss2
+
+from importers.svg.matrix import IDENTITY, Matrix, multiply, rotation, translation
+from importers.svg.path_data import COMMA, NUMBER
+from importers.svg.units import Font, Terms, parse_length, to_px
+
+_FUNCTION = re.compile(r"[ \t\r\n\f]*(matrix|translate|scale|rotate|skewX|skewY)[ \t\r\n\f]*\(([^()]*)\)[ \t\r\n\f]*")
+_COUNTS = {"matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3), "skewX": (1,), "skewY": (1,)}
+
+# A transform of a style sheet: functions with their arguments, lengths unresolved (percentages need a box)
+Functions = tuple[tuple[str, tuple[Any, ...]], ...]
+
+
+@lru_cache(maxsize=4096)
+def parse_transform_attribute(text: str) -> Matrix | None:
+    """Read a ``transform`` attribute; None when any of it is wrong (browsers then use none of it)."""
+    matrix, position = IDENTITY, 0
+    if text.strip() in ("", "none"):
+        return IDENTITY
+    while position < len(text):
+        match = _FUNCTION.match(text, position)
+        numbers = _numbers(match[2]) if match else None
+        if match is None or numbers is None or len(numbers) not in _COUNTS[match[1]]:
+            return None
+        matrix = multiply(matrix, _matrix(match[1], numbers))
+        position = match.end()
+        if position < len(text) and text[position] == ",":
+            position += 1
+            if not text[position:].strip():
+                return None
+    return matrix if all(map(math.isfinite, matrix)) else None
+
+
+def _numbers(text: str) -> list[float] | None:  # separated by white space or one comma; None when not
+    numbers, position = [], 0
+    text = text.strip(" \t\r\n\f")
+    while position < len(text):
+        match = NUMBER.match(text, position)
+        if match is None:
+            return None
+        numbers.append(float(match[0]))
+        gap = COMMA.match(text, match.end())
+        position = gap.end() if gap else match.end()
+        if position == len(text) and gap and "," in gap[0]:
+            return None
+    return numbers
+
+
+def _matrix(name: str, v: list[float]) -> Matrix:
+    if name == "matrix":
+        return (v[0], v[1], v[2], v[3], v[4], v[5])
+    if name == "translate":
+        return translation(v[0], v[1] if len(v) > 1 else 0.0)
+    if name == "scale":
+        return (v[0], 0.0, 0.0, v[1] if len(v) > 1 else v[0], 0.0, 0.0)
+    if name == "rotate":
+        if len(v) == 1:
+            return rotation(v[0])
+        return multiply(multiply(translation(v[1], v[2]), rotation(v[0])), translation(-v[1], -v[2]))
+    slope = math.tan(math.radians(v[0]))
+    return (1.0, 0.0, slope, 1.0, 0.0, 0.0) if name == "skewX" else (1.0, slope, 0.0, 1.0, 0.0, 0.0)
+
+
+@lru_cache(maxsize=1024)
+def parse_transform_property(text: str) -> Functions | None:
+    """Read a ``transform`` of a style sheet; None when it is not valid CSS for the plane."""
+    functions = []
+    for token in tinycss2.parse_component_value_list(text, skip_comments=True):
+        if token.type == "whitespace":
+            continue
+        if token.type == "ident" and token.lower_value == "none":
+            return ()
+        parsed = _css_function(token) if token.type == "function" else None
+        if parsed is None:
+            return None
+        functions.append(parsed)
+    return tuple(functions) or None
+
+
+def _css_function(token: Any) -> tuple[str, tuple[Any, ...]] | None:
+    name = token.lower_name
+    groups: list[list[Any]] = [[]]
+    for argument in token.arguments:
+        if argument.type == "literal" and argument.value == ",":
+            groups.append([])
+        elif argument.type not in ("whitespace", "comment"):
+            groups[-1].append(argument)
+    if any(len(group) != 1 for group in groups):
+        return None
+    arguments = [group[0] for group in groups]
+    kinds = {
+        "matrix": "n" * 6,
+        "translate": "ll",
+        "translatex": "l",
+        "translatey": "l",
+        "scale": "nn",
+        "scalex": "n",
+        "scaley": "n",
+        "rotate": "a",
+        "rotatez": "a",
+        "skew": "aa",
+        "skewx": "a",
+        "skewy": "a",
+    }.get(name)
+    optional = name in ("translate", "scale", "skew")
+    if kinds is None or not (len(arguments) == len(kinds) or (optional and len(arguments) == 1)):
+        return None
+    values = tuple(_css_argument(kind, token) for kind, token in zip(kinds, arguments, strict=False))
+    return None if any(value is None for value in values) else (name, values)
+
+
+def _css_argument(kind: str, token: Any) -> float | Terms | None:
+    if kind == "l":
+        return parse_length(tinycss2.serialize([token]), False)
+    if kind == "n":
+        if token.type == "percentage":
+            return float(token.value) / 100
+        return float(token.value) if token.type == "number" else None
+    if token.type == "number" and token.value == 0:
+        return 0.0
+    turn = {"deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0}
+    if token.type == "dimension" and token.lower_unit in turn:
+        return float(token.value) * turn[token.lower_unit]
+    return None
+
+
+def resolve(functions: Functions, width: float, height: float, font: Font) -> Matrix:
+    """Give the matrix of CSS transform functions.
+
+    Args:
+        functions: as :func:`parse_transform_property` gives them.
+        width: of the reference box, for percentages.
+        height: of the reference box.
+        font: at the element.
+    """
+    matrix = IDENTITY
+    for name, v in functions:
+        if name.startswith("translate"):
+            zero: Terms = ((0.0, "px"),)
+            along_x = v[0] if name != "translatey" else zero
+            along_y = v[0] if name == "translatey" else (v[1] if len(v) > 1 else zero)
+            step = translation(to_px(along_x, width, font), to_px(along_y, height, font))
+        elif name in ("scale", "scalex", "scaley"):
+            sx = v[0] if name != "scaley" else 1.0
+            sy = v[0] if name == "scaley" else (v[1] if len(v) > 1 else (v[0] if name == "scale" else 1.0))
+            step = (sx, 0.0, 0.0, sy, 0.0, 0.0)
+        elif name in ("rotate", "rotatez"):
+            step = rotation(v[0])
+        elif name.startswith("skew"):
+            ax = v[0] if name != "skewy" else 0.0
+            ay = v[0] if name == "skewy" else (v[1] if len(v) > 1 else 0.0)
+            step = (1.0, math.tan(math.radians(ay)), math.tan(math.radians(ax)), 1.0, 0.0, 0.0)
+        else:
+            step = (v[0], v[1], v[2], v[3], v[4], v[5])
+        matrix = multiply(matrix, step)
+    return matrix

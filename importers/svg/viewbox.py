@@ -1,0 +1,50 @@
+"""Viewports: from a viewBox and preserveAspectRatio to a matrix."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from importers.svg.matrix import IDENTITY, Matrix
+from importers.svg.path_data import NUMBER
+
+Box = tuple[float, float, float, float]  # x, y, width, height
+
+_ALIGN = re.compile(r"\s*(?:defer\s+)?(none|x(Min|Mid|Max)Y(Min|Mid|Max))(?:\s+(meet|slice))?\s*")
+_PART = {"Min": 0.0, "Mid": 0.5, "Max": 1.0}
+
+
+def parse_view_box(text: str | None) -> Box | None:
+    """Read a viewBox; None when it is missing or wrong (a negative size is wrong, 0 is not)."""
+    if text is None:
+        return None
+    parts = re.split(r"[ \t\r\n\f]*,[ \t\r\n\f]*|[ \t\r\n\f]+", text.strip(" \t\r\n\f"))
+    if len(parts) != 4 or not all(NUMBER.fullmatch(part) for part in parts):
+        return None
+    x, y, width, height = map(float, parts)
+    if width < 0 or height < 0 or not all(map(math.isfinite, (x, y, width, height))):
+        return None
+    return x, y, width, height
+
+
+def fit(box: Box | None, aspect: str | None, width: float, height: float) -> Matrix:
+    """Give the matrix that puts a viewBox into a viewport of width and height at (0, 0).
+
+    Args:
+        box: the viewBox, width and height above 0; None for no change.
+        aspect: preserveAspectRatio; what is wrong counts as ``xMidYMid meet``.
+        width: of the viewport.
+        height: of the viewport.
+    """
+    if box is None:
+        return IDENTITY
+    x, y, box_width, box_height = box
+    sx, sy = width / box_width, height / box_height
+    match = _ALIGN.fullmatch(aspect or "")
+    if match is not None and match[1] == "none":
+        return (sx, 0.0, 0.0, sy, -x * sx, -y * sy)
+    along_x, along_y = (_PART[match[2]], _PART[match[3]]) if match else (0.5, 0.5)
+    scale = max(sx, sy) if match is not None and match[4] == "slice" else min(sx, sy)
+    left = along_x * (width - box_width * scale) - x * scale
+    top = along_y * (height - box_height * scale) - y * scale
+    return (scale, 0.0, 0.0, scale, left, top)
