@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -106,6 +107,25 @@ class Flights:
         self._work += (noted + 1) * self._entries_a_bounce()
         return np.array(log).reshape(room, LOG_STRIDE)[:noted]
 
+    def next_contact(self, ball: int) -> FloatArray | None:
+        """Fly a ball on to its next contact, (LOG_STRIDE,); None if it has none."""
+        pieces = list(self.fly(ball, math.inf, self._counts[ball][1] + 1))
+        return pieces[0][0] if pieces else None
+
+    def place(self, ball: int, position: FloatArray, velocity: FloatArray, time: float, last: int) -> None:
+        """Let a ball go on from elsewhere, in the scene's coordinates.
+
+        Args:
+            ball: which.
+            position: (2,) centre.
+            velocity: (2,).
+            time: of its clock.
+            last: the feature that it touches and leaves, or NO_HIT.
+        """
+        state = initial_states(self.modelled, position[None], velocity[None])[0].tolist()
+        state[4] = time
+        self._states[ball], self._counts[ball] = state, [last, self._counts[ball][1], RUNNING, 0]
+
     def _compile(self) -> bool:
         if self.mode == "auto":
             return compiler_is_loaded() or self._work > PATIENCE
@@ -166,11 +186,15 @@ class Flights:
         contacts["wall"], contacts["edge"] = wall, edge
         return contacts
 
+    @cached_property
+    def _wall_tables(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+        walls, edge_in_wall = self.modelled.index_of_edge(self.scene)
+        return walls, edge_in_wall, np.repeat(np.arange(len(self.scene.walls)), np.diff(self.scene.walls.offsets))
+
     def _places(self, feature: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Wall of each feature, and edge within it, -1 for a corner."""
-        walls, edge_in_wall = self.modelled.index_of_edge(self.scene)
+        walls, edge_in_wall, corner_wall = self._wall_tables
         is_edge = feature >= 0
-        corner_wall = np.repeat(np.arange(len(self.scene.walls)), np.diff(self.scene.walls.offsets))
         wall, edge = np.zeros_like(feature), np.full_like(feature, -1)
         wall[is_edge], edge[is_edge] = walls[feature[is_edge]], edge_in_wall[feature[is_edge]]
         wall[~is_edge] = corner_wall[-2 - feature[~is_edge]]

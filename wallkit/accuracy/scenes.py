@@ -125,7 +125,7 @@ def wavy(tolerance: float = 0.0) -> Walls:
     turns = -np.arange(2 * count) * math.tau / (2 * count)
     points = _wave(turns)
     start, middle, end = points[0::2], points[1::2], np.roll(points[0::2], -1, axis=0)
-    return room(start, list(_bulge_through(start, middle, end)))
+    return room(start, list(bulge_through(start, middle, end)))
 
 
 def maze(rooms: int = 12, size: float = 400.0, seed: int = 3) -> Walls:
@@ -155,7 +155,8 @@ def _wave(turns: FloatArray) -> FloatArray:
     return _polar(200 * (1 + 0.15 * np.cos(3 * turns) + 0.07 * np.sin(5 * turns)), turns)
 
 
-def _bulge_through(start: FloatArray, middle: FloatArray, end: FloatArray) -> FloatArray:
+def bulge_through(start: FloatArray, middle: FloatArray, end: FloatArray) -> FloatArray:
+    """Give the bulges of arcs from start to end through a point between; all (n, 2)."""
     # The inscribed angle at the middle point is pi - angle / 2, so angle / 4 = (pi - inscribed) / 2, signed.
     a, b = start - middle, end - middle
     cross, dot = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1)

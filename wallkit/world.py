@@ -1,0 +1,156 @@
+"""World: a scene stepped frame by frame, for game loops; exact within the step, or wrong in the classic ways."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from wallkit.kernels.model import NO_HIT
+from wallkit.scene import FloatArray, Scene, SceneError
+from wallkit.simulation import Flights
+
+Way = Literal["exact", "stop", "full-step", "reflect-in-place"]
+
+
+class World:
+    """The balls of a scene, moved on by one frame at a time.
+
+    A contact within a frame is treated in one of four ways. With p the place at the frame's start, c the place
+    of the contact, v' the velocity after it and dt the frame, the ball is at the frame's end
+
+    * ``"exact"``: where physics puts it: to the contact, then what is left of the step along v', through as many
+      contacts as it takes. Contacts are those of :func:`wallkit.simulate`, bit for bit, whatever the frames.
+    * ``"stop"``: at c. The rest of the frame is lost, so balls are late: by half a frame a bounce on average.
+    * ``"full-step"``: at c + v' dt. The way before the contact is gained; what lies behind c is not looked at, so
+      a ball in a corner, or before a close second wall, passes it.
+    * ``"reflect-in-place"``: at p + v' dt. Balls turn up to a frame before the wall, and pass others as above.
+
+    The last three are what frame-stepping programs do; they are here to be compared with. The frames' own
+    rounding is the only error of the time: frame ends are summed as doubles.
+
+    The scene is prepared once, and each ball's next contact is found once and kept, so that a frame without
+    contacts costs a comparison. Kernels are interpreted, so that no frame ever waits for a compiler; with
+    ``compile=True`` the constructor does the waiting.
+
+    Attributes:
+        scene: what is stepped; changing it later has no effect.
+        way: how contacts within a frame are treated.
+        time: seconds since the start.
+
+    Args:
+        scene: walls, balls, and what acts.
+        way: see above.
+        compile: compile the kernels now; worth it from some 10,000 contacts a second on.
+
+    Raises:
+        SceneError: the way has no such name, or the scene cannot be simulated.
+    """
+
+    def __init__(self, scene: Scene, way: Way = "exact", *, compile: bool = False) -> None:
+        if way not in get_args(Way):
+            raise SceneError(
+                f"there is no way {way!r} to treat a contact", code="bad-way", fix=f"one of {', '.join(get_args(Way))}"
+            )
+        self.scene = scene
+        self.way: Way = way
+        self.time = 0.0
+        self._flights = Flights(scene, mode="compiled" if compile else "interpreted")
+        self._base = self._flights.start.copy()  # where each ball was, and its velocity, ...
+        self._since = np.zeros(len(self._base))  # ... when: after its last contact or change
+        self._normal = np.zeros((len(self._base), 2))  # of that contact, and what was touched
+        self._touched = np.full(len(self._base), NO_HIT, dtype=np.int64)
+        self._next_time = np.full(len(self._base), math.inf)
+        self._next: list[FloatArray | None] = [None] * len(self._base)
+        for ball in range(len(self)):
+            self._look_ahead(ball)
+
+    def __len__(self) -> int:
+        return len(self._base)
+
+    @property
+    def position(self) -> FloatArray:
+        """(n, 2) centres now."""
+        since = (self.time - self._since)[:, None]
+        return self._base[:, 0:2] + since * self._base[:, 2:4]
+
+    @property
+    def velocity(self) -> FloatArray:
+        """(n, 2) velocities now."""
+        return self._base[:, 2:4].copy()
+
+    def step(self, dt: float) -> NDArray[Any]:
+        """Move everything on by ``dt`` seconds.
+
+        Returns:
+            (k,) of :data:`wallkit.run.CONTACT`: the contacts of this frame, in order of time.
+
+        Raises:
+            SceneError: ``dt`` is negative or not finite.
+        """
+        if not (math.isfinite(dt) and dt >= 0.0):
+            raise SceneError(f"a step of {dt!r} seconds", code="bad-step", fix="give seconds, 0 or more")
+        end = self.time + dt
+        rows: list[FloatArray] = []
+        owners: list[int] = []
+        for ball in np.flatnonzero(self._next_time <= end).tolist():
+            while (row := self._next[ball]) is not None and row[0] <= end:
+                rows.append(row[None])
+                owners.append(ball)
+                if self.way == "exact":
+                    self._accept(ball, row)
+                else:
+                    self._accept_late(ball, row, end, dt)
+                    break
+        self.time = end
+        return self._flights.contacts(rows, [np.array([ball], dtype=np.int32) for ball in owners])
+
+    def place(self, ball: int, position: ArrayLike | None = None, velocity: ArrayLike | None = None) -> None:
+        """Put a ball somewhere else, or give it another velocity, now: a kick, a flipper, a new ball.
+
+        A velocity into the wall that the ball touches is turned at once, without a loss.
+
+        Raises:
+            SceneError: a number is not finite.
+        """
+        touched = int(self._touched[ball]) if position is None and self._since[ball] == self.time else NO_HIT
+        here = self.position[ball] if position is None else np.asarray(position, dtype=np.float64)
+        speed = self._base[ball, 2:4] if velocity is None else np.asarray(velocity, dtype=np.float64)
+        if here.shape != (2,) or speed.shape != (2,) or not (np.isfinite(here).all() and np.isfinite(speed).all()):
+            raise SceneError(f"ball {ball} cannot be put at {position!r}, {velocity!r}", code="bad-ball")
+        normal = self._normal[ball]
+        if touched != NO_HIT and speed @ normal < 0.0:
+            speed = speed - 2.0 * (speed @ normal) * normal
+        self._restart(ball, here, speed, self.time, touched)
+
+    def _look_ahead(self, ball: int) -> None:
+        """Find the ball's next contact; the frames catch up with it later."""
+        row = self._next[ball] = self._flights.next_contact(ball)
+        self._next_time[ball] = math.inf if row is None else row[0]
+
+    def _accept(self, ball: int, row: FloatArray) -> None:
+        """The frame has reached the contact: from there the ball goes on."""
+        self._base[ball, 0:2] = row[1:3] + self._flights.modelled.origin
+        self._base[ball, 2:4] = row[3:5]
+        self._since[ball] = row[0]
+        self._normal[ball], self._touched[ball] = row[7:9], row[9]
+        self._look_ahead(ball)
+
+    def _accept_late(self, ball: int, row: FloatArray, end: float, dt: float) -> None:
+        """Treat the contact as frame-stepping programs do; whatever else was in the frame is not looked at."""
+        contact, after = row[1:3] + self._flights.modelled.origin, row[3:5]
+        if self.way == "stop":
+            self._normal[ball] = row[7:9]
+            self._restart(ball, contact, after, end, int(row[9]))
+        elif self.way == "full-step":
+            self._restart(ball, contact + dt * after, after, end, NO_HIT)
+        else:
+            self._restart(ball, self.position[ball] + dt * after, after, end, NO_HIT)
+
+    def _restart(self, ball: int, position: FloatArray, velocity: FloatArray, time: float, last: int) -> None:
+        self._flights.place(ball, position, velocity, time, last)
+        self._base[ball] = *position, *velocity
+        self._since[ball], self._touched[ball] = time, last
+        self._look_ahead(ball)
