@@ -7,7 +7,8 @@ import pytest
 from importers.drawing import Drawing, DrawnPath, Subpath
 from importers.problems import Problem
 from wallkit import Material, Walls
-from wallkit.view.frame import arc_points, fit, walls_box
+from wallkit.curves import arc_points
+from wallkit.view.frame import fit, walls_box
 from wallkit.view.outline import contains, solid_areas
 from wallkit.view.picture import drawing_svg, walls_svg
 

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.curves import flattened
 from wallkit.walls import Walls
 
 FloatArray = NDArray[np.float64]
 Box = tuple[float, float, float, float]
-
-_ARC_STEP = math.pi / 32  # flattened for boxes and pixels only: the sagitta is 0.12 % of the radius
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,31 +88,3 @@ def walls_box(walls: Walls) -> Box:
     points = np.concatenate([flattened(walls, index) for index in range(len(walls))])
     low, high = points.min(axis=0), points.max(axis=0)
     return float(low[0]), float(low[1]), float(high[0]), float(high[1])
-
-
-def flattened(walls: Walls, index: int) -> FloatArray:
-    """Give one wall's points with arcs cut into short chords; a closed wall does not repeat its first point."""
-    span = slice(walls.offsets[index], walls.offsets[index + 1])
-    vertices, bulges = walls.vertices[span], walls.bulges[span]
-    if not bulges.any():
-        return vertices
-    ends = np.roll(vertices, -1, axis=0)  # the last of an open wall has the bulge 0 and gives its point alone
-    return np.concatenate([arc_points(a, b, float(k)) for a, b, k in zip(vertices, ends, bulges, strict=True)])
-
-
-def arc_points(a: FloatArray, b: FloatArray, bulge: float) -> FloatArray:
-    """Give points along the edge from a to b, a included and b not.
-
-    With d = b - a and the bulge k = tan(angle / 4), the centre is m + (1 - k^2) / (4 k) (-dy, dx) for the middle m
-    of the chord: left of it for a short left turn, since the arc then bows to the right.
-    """
-    if bulge == 0.0:
-        return a[None, :]
-    angle = 4.0 * math.atan(bulge)
-    d = b - a
-    centre = (a + b) / 2 + (1.0 - bulge * bulge) / (4.0 * bulge) * np.array([-d[1], d[0]])
-    turn = np.linspace(0.0, angle, max(2, math.ceil(abs(angle) / _ARC_STEP) + 1))[:-1]
-    cos, sin = np.cos(turn), np.sin(turn)
-    arm = a - centre
-    turned: FloatArray = np.stack([cos * arm[0] - sin * arm[1], sin * arm[0] + cos * arm[1]], axis=1)
-    return centre + turned

@@ -7,8 +7,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.curves import flattened
 from wallkit.view.canvas import Command
-from wallkit.view.frame import Frame, flattened
+from wallkit.view.frame import Frame
 from wallkit.walls import Material, Walls
 
 FloatArray = NDArray[np.float64]

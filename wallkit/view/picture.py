@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 
 WIDTH = 960.0
 _MAX_HEIGHT = 1100.0
-_MARGIN = 28.0
+MARGIN = 28.0
 _TITLE = 34.0
 _FOOT = 40.0
 _LINE = 18.0
@@ -77,11 +77,11 @@ def walls_canvas(
 def started(box: Box, up: bool, *, title: str, width: float) -> tuple[Canvas, Frame]:
     """Begin a picture: its frame, room for a foot line, and the title when there is one."""
     top = _TITLE if title else 0.0
-    frame = fit(box, up, width=width, max_height=_MAX_HEIGHT, margin=_MARGIN, top=top)
-    canvas = Canvas(width, top + frame.height + 2 * _MARGIN + _FOOT, title)
+    frame = fit(box, up, width=width, max_height=_MAX_HEIGHT, margin=MARGIN, top=top)
+    canvas = Canvas(width, top + frame.height + 2 * MARGIN + _FOOT, title)
     if title:
         shown = title if len(title) * 9 < width else title[: int(width / 9) - 1] + "…"
-        canvas.add(Label("title", _MARGIN, 26, shown, 16, bold=True))
+        canvas.add(Label("title", MARGIN, 26, shown, 16, bold=True))
     return canvas, frame
 
 
@@ -135,9 +135,9 @@ def material_legend(walls: Walls) -> list[tuple[str, str]]:
 def draw_legend(canvas: Canvas, entries: Sequence[tuple[str, str]], row: float) -> float:
     """Draw swatches with words below the picture from ``row`` on, and give the next free row."""
     for style, words in entries:
-        box: list[Command] = [("M", _MARGIN, row - 10), ("L", _MARGIN + 14, row - 10), ("L", _MARGIN + 14, row + 2),
-                              ("L", _MARGIN, row + 2), ("Z",)]  # fmt: skip
-        canvas.add(Shape(style, box), Shape("outline", box), Label("text", _MARGIN + 24, row, words))
+        box: list[Command] = [("M", MARGIN, row - 10), ("L", MARGIN + 14, row - 10), ("L", MARGIN + 14, row + 2),
+                              ("L", MARGIN, row + 2), ("Z",)]  # fmt: skip
+        canvas.add(Shape(style, box), Shape("outline", box), Label("text", MARGIN + 24, row, words))
         row += _LINE
     canvas.height = max(canvas.height, row)
     return row
@@ -160,16 +160,16 @@ def _mark(problem: Problem, number: int, x: float, y: float, title: str = "") ->
 
 def problem_legend(canvas: Canvas, problems: Sequence[Problem], row: float) -> None:
     """List the problems under the picture with their numbers, and how many are not listed."""
-    letters = int((canvas.width - 2 * _MARGIN - 28) / 6.4)
+    letters = int((canvas.width - 2 * MARGIN - 28) / 6.4)
     for number, problem in enumerate(problems[:_MARKS], start=1):
-        canvas.add(*_mark(problem, number, _MARGIN + 8, row - 4))
+        canvas.add(*_mark(problem, number, MARGIN + 8, row - 4))
         words = f"{problem.message.rstrip('.')}. {problem.fix}"
         for line in textwrap.wrap(" ".join(words.split()), letters)[:3] or [problem.code]:
-            canvas.add(Label("text", _MARGIN + 26, row, line))
+            canvas.add(Label("text", MARGIN + 26, row, line))
             row += _LINE
         row += 4
     if len(problems) > _MARKS:
-        canvas.add(Label("note", _MARGIN, row, f"and {len(problems) - _MARKS} more problems, not listed here"))
+        canvas.add(Label("note", MARGIN, row, f"and {len(problems) - _MARKS} more problems, not listed here"))
         row += _LINE
     if problems:
         canvas.height = max(canvas.height, row + 4)
@@ -177,17 +177,17 @@ def problem_legend(canvas: Canvas, problems: Sequence[Problem], row: float) -> N
 
 def finish(canvas: Canvas, frame: Frame, units: str) -> float:
     """Draw the scale bar under the picture, and give the row where legends may begin."""
-    length = _round_length(canvas.width / 6 / frame.scale)
+    length = round_length(canvas.width / 6 / frame.scale)
     pixels = length * frame.scale
     foot = canvas.height - 18
-    x0, x1 = _MARGIN, _MARGIN + pixels
+    x0, x1 = MARGIN, MARGIN + pixels
     bar: list[Command] = [("M", x0, foot - 4), ("L", x0, foot + 4), ("M", x0, foot), ("L", x1, foot),
                           ("M", x1, foot - 4), ("L", x1, foot + 4)]  # fmt: skip
     canvas.add(Shape("scale", bar), Label("note", x1 + 8, foot + 4, f"{length:g} {units or 'units'}"))
     return canvas.height + 10
 
 
-def _round_length(length: float) -> float:
+def round_length(length: float) -> float:
     """Give the largest of 1, 2, 5 times a power of ten that is not longer."""
     power = 10.0 ** np.floor(np.log10(length))
     return float(max(step * power for step in (1, 2, 5) if step * power <= length * (1 + 1e-9)))

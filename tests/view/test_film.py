@@ -1,0 +1,65 @@
+import io
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import wallkit
+from wallkit.view import film as films
+from wallkit.view.theme import ramp
+
+
+@pytest.fixture(scope="module")
+def run():
+    walls = wallkit.Walls.from_polylines([[(0, 0), (100, 0), (100, 70), (0, 70)]])
+    balls = wallkit.Balls([[30, 30]], [[31, 17]], 6)
+    return wallkit.simulate(wallkit.Scene(walls, balls), until=4.0)
+
+
+def test_each_frame_of_a_gif_shows_the_ball_where_the_run_says(run):
+    image = Image.open(io.BytesIO(films.film(run, "gif", seconds=1.0)))
+    assert image.n_frames == 26
+    assert image.info["duration"] == 40
+    frames = films._Frames(run, 25, 1.0, "light", None)
+    hue = np.array(list(bytes.fromhex(ramp(16, "light")[1:])))
+    for number in (0, 10, 25):
+        image.seek(number)
+        pixels = np.asarray(image.convert("RGB")).astype(int)
+        rows, columns = np.nonzero(np.abs(pixels - hue).max(axis=2) < 12)
+        x, y = frames.frame.points(run.position(number / 25 * frames.speedup))[0]
+        middle = (columns.min() + columns.max() + 1) / 2, (rows.min() + rows.max() + 1) / 2
+        # The trail has the ball's colour too, fainter: the disc's own box decides, to about a pixel.
+        assert np.hypot(middle[0] - x, middle[1] - y) < 1.5
+
+
+def test_the_caption_says_how_fast_and_how_much(run):
+    frames = films._Frames(run, 25, 0.5, "light", None)
+    assert frames.speedup == 1.0
+    assert frames.caption(0.25) == "0.25 s, first 0.48 of 4 s"
+
+
+def test_progress_ends_at_one(run):
+    parts = []
+    films.film(run, "gif", seconds=0.2, progress=parts.append)
+    assert parts == sorted(parts)
+    assert parts[-1] == 1.0
+
+
+def test_without_ffmpeg_the_error_says_what_to_do(run, monkeypatch):
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    with pytest.raises(films.FilmError, match=r"install ffmpeg, or write \.gif"):
+        films.film(run, "mp4")
+
+
+@pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="no ffmpeg here")
+def test_an_mp4_has_the_frames_that_were_asked_for(run, tmp_path):
+    (tmp_path / "film.mp4").write_bytes(films.film(run, "mp4", seconds=0.5))
+    said = subprocess.run(
+        ["ffmpeg", "-v", "error", "-i", tmp_path / "film.mp4", "-f", "framecrc", "-"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert len([line for line in said.stdout.splitlines() if not line.startswith("#")]) == 16

@@ -1,0 +1,127 @@
+import io
+import re
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import wallkit
+from wallkit.view.canvas import Canvas, Disc, Shape
+from wallkit.view.frame import fit
+from wallkit.view.heat import spent
+from wallkit.view.raster import Raster, png, polylines
+from wallkit.view.run_picture import run_canvas, run_svg, scene_box, scene_svg
+from wallkit.view.theme import RAMP_STEPS, colour, ramp
+from wallkit.view.tracks import tracks
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+@pytest.fixture(scope="module")
+def run():
+    walls = wallkit.Walls.from_polylines(
+        [[(0, 0), (10, 0), (10, 7), (0, 7)], [(4, 3), (5, 3), (5, 5)]], names=["<room>", "toy"]
+    )
+    balls = wallkit.Balls([[3, 3], [5, 2]], [[1.1, 0.7], [-2.3, 1.9]], [0.5, 0])
+    return wallkit.simulate(wallkit.Scene(walls, balls), bounces=25)
+
+
+def by_class(svg, name):
+    return [
+        element for element in ET.fromstring(svg).iter() if (element.get("class") or "").split()[:1] == [f"wk-{name}"]
+    ]
+
+
+def test_a_ghost_stands_at_each_contact_and_the_newest_is_the_plainest(run):
+    ghosts = by_class(run_svg(run), "ghost")
+    frame = next(iter([fit(scene_box(run.scene), True, width=960, max_height=1100, margin=28)]))
+    assert len(ghosts) == len(run.contacts)
+    for ghost, contact in zip(ghosts, run.contacts, strict=True):
+        x, y = frame.point(contact["x"], contact["y"])
+        assert float(ghost.get("cx")) == pytest.approx(x, abs=0.006)  # written to a hundredth of a pixel
+        assert float(ghost.get("cy")) == pytest.approx(y, abs=0.006)
+    faintness = [float(ghost.get("opacity")) for ghost in ghosts]
+    assert faintness == sorted(faintness)
+
+
+def test_the_path_goes_through_every_contact_of_every_ball(run):
+    canvas = run_canvas(run)
+    drawn = [np.array(line) for item in canvas.items if isinstance(item, Shape) and item.style == "path"
+             for line in polylines(item.commands)]  # fmt: skip
+    points = np.concatenate(drawn)
+    frame = fit(scene_box(run.scene), True, width=960, max_height=1100, margin=28)
+    for place in frame.points(np.stack([run.contacts["x"], run.contacts["y"]], axis=1)):
+        assert np.hypot(*(points - place).T).min() < 1e-9
+    assert sum(len(line) - 1 for line in drawn) == len(run.contacts) + 2
+
+
+def test_names_are_escaped_and_materials_and_the_ramp_have_words(run):
+    svg = run_svg(run, title="a <b>", colour="speed")
+    titles = [element.text for element in ET.fromstring(svg).iter(f"{SVG}title")]
+    assert "<room>" in titles
+    assert any(
+        text.startswith("speed ") for text in (element.text for element in ET.fromstring(svg).iter(f"{SVG}text"))
+    )
+
+
+def test_a_million_contacts_are_thinned_and_the_picture_says_so(run, monkeypatch):
+    monkeypatch.setattr("wallkit.view.run_picture.MAX_STRETCHES", 20)
+    assert "20 of 52 stretches are shown: each ball&#x27;s first 10" in run_svg(run)
+
+
+def test_a_ball_that_leaves_is_drawn_to_the_rim():
+    walls = wallkit.Walls.from_polylines([[(0, 0), (10, 0), (10, 5)]], closed=False)
+    run = wallkit.simulate(wallkit.Scene(walls, wallkit.Balls([[5, 2]], [[-1, -1.0]], 0.1)), bounces=10)
+    numbers = [float(n) for path in by_class(run_svg(run), "path") for n in re.findall(r"[-.\d]+", path.get("d"))]
+    assert max(numbers) < 1000
+    assert min(numbers) > -1
+
+
+def test_a_scene_shows_its_balls_with_an_arrow_each(run):
+    svg = scene_svg(run.scene)
+    assert len(by_class(svg, "ball")) == len(by_class(svg, "arrow")) == 2
+
+
+def test_heat_sums_to_all_ball_seconds(run):
+    flight = tracks(run)
+    frame = fit(scene_box(run.scene), True, width=960, max_height=1100, margin=28)
+    cells = spent(flight, None, frame, 10.0, (int(frame.height / 10) + 1, int(frame.width / 10) + 1))
+    assert cells.sum() == pytest.approx((flight.until - flight.time).sum(), rel=1e-12)
+
+
+def test_png_has_twice_the_size_and_the_colours_of_the_picture(run):
+    canvas = run_canvas(run)
+    image = Image.open(io.BytesIO(png(canvas, "dark")))
+    assert image.size == (1920, int(np.ceil(canvas.height * 2)))
+    assert image.getpixel((2, 2)) == tuple(bytes.fromhex(colour("paper", "dark")[1:]))
+
+
+def test_the_even_odd_fill_of_pixels_agrees_with_shapely():
+    shapely = pytest.importorskip("shapely")
+    outer = [(5, 5), (95, 15), (80, 90), (10, 70)]
+    hole = [(30, 30), (60, 25), (50, 60)]
+    commands = [(("M" if i == 0 else "L"), *p) for ring in (outer, hole) for i, p in enumerate(ring)]
+    pixels = np.asarray(Raster(100, 100, "light", 1.0).drawn([Shape("error", commands)]).image)
+    red = (pixels == tuple(bytes.fromhex(colour("error", "light")[1:]))).all(axis=2)
+    centres = (np.arange(200) + 0.5) / 2
+    x, y = np.meshgrid(centres, centres)
+    polygon = shapely.Polygon(outer, [hole])
+    inside = shapely.contains_xy(polygon, x, y)
+    # A shape of the style "error" has a stroke, too: only what is well away from it is compared.
+    clear = shapely.distance(shapely.boundary(polygon), shapely.points(x, y)) > 1.5
+    assert (red == inside)[clear].all()
+
+
+def test_the_ramp_grows_lighter_all_the_way_so_that_it_reads_in_grey():
+    for theme in ("light", "dark"):
+        rgb = [tuple(bytes.fromhex(ramp(step, theme)[1:])) for step in range(RAMP_STEPS)]
+        grey = [0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in rgb]
+        assert grey == sorted(grey)
+
+
+def test_a_faint_disc_partly_outside_is_no_error():
+    Raster(10, 10, "light", 1.0).drawn(
+        [Disc("ghost", -3, 5, 8, 3, opacity=0.5), Disc("ghost", 50, 50, 8, 3, opacity=0.5)]
+    )
+    assert Canvas(10, 10).to_svg().startswith("<svg")

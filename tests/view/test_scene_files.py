@@ -1,0 +1,143 @@
+import json
+
+import numpy as np
+import pytest
+
+from importers.errors import LimitError
+from wallkit import Balls, Material, Scene, SceneError, Walls
+from wallkit.scene_files import kind_of, load_scene, read_scene, scene_to_json
+from wallkit.walls.files import dumps
+
+ROOM = """
+# a room with a bumper
+gravity = [0, -9.81]
+[run]
+until = 12.5
+[[balls]]
+position = [5, 5]
+velocity = [1.5, 2]
+radius = 0.25
+[[walls]]
+vertices = [[0, 0], [10, 0], [10, 10], [0, 10]]
+layer = "room"
+[[walls]]
+vertices = [[2, 2], [3, 2], [3, 3]]
+bulges = [0, 0.5, 0]
+layer = "toys"
+name = "bumper-left"
+[[materials]]
+layer = "*"
+tangential_restitution = 0.5
+[[materials]]
+wall = "bumper-*"
+restitution = 0.9
+"""
+
+
+def test_a_toml_scene_says_walls_balls_gravity_materials_and_its_end():
+    read = read_scene(ROOM.encode())
+    scene = read.scene
+    assert scene.gravity == (0, -9.81)
+    assert (read.until, read.bounces) == (12.5, None)
+    assert np.array_equal(scene.balls.position, [[5, 5]])
+    assert np.array_equal(scene.balls.radius, [0.25])
+    assert scene.walls.materials == (Material(1, 0.5), Material(0.9, 0.5))
+    assert scene.walls[1].bulges.tolist() == [0, 0.5, 0]
+
+
+def test_a_scene_written_as_json_reads_back_to_the_same_bits():
+    walls = Walls.from_polylines([[(0.1, 0.2), (1 / 3, 7), (5, 1e-17)]], bulges=[[0, 0.3, -1]])
+    scene = Scene(walls, Balls([[1 / 7, 2]], [[np.pi, -0.0]], 0.1), gravity=(0, 1e-300))
+    again = read_scene(json.dumps(scene_to_json(scene, until=1.5)).encode())
+    assert again.until == 1.5
+    assert again.scene.gravity == scene.gravity
+    for name in ("position", "velocity", "radius"):
+        mine, theirs = np.asarray(getattr(scene.balls, name)), np.asarray(getattr(again.scene.balls, name))
+        assert mine.tobytes() == theirs.tobytes()
+    assert again.scene.walls.vertices.tobytes() == walls.vertices.tobytes()
+    assert again.scene.walls.bulges.tobytes() == walls.bulges.tobytes()
+
+
+def test_walls_in_a_file_of_their_own_are_found_beside_the_scene(tmp_path):
+    walls = Walls.from_polylines([[(0, 0), (1, 0), (1, 1)]])
+    (tmp_path / "w.json").write_text(dumps(walls))
+    (tmp_path / "s.toml").write_text('walls = "w.json"\n')
+    assert len(load_scene(tmp_path / "s.toml").scene.walls) == 1
+
+
+def test_a_scene_from_a_stranger_may_not_name_files():
+    with pytest.raises(SceneError, match="may not name other files"):
+        read_scene(b'walls = "/etc/passwd"')
+
+
+def test_everything_wrong_is_said_at_once_each_with_its_key():
+    text = """
+    gravity = [0]
+    frogs = 3
+    [[balls]]
+    position = [1, "x"]
+    radius = -1
+    [[walls]]
+    vertices = [[0, 0], [1, 1]]
+    [[materials]]
+    wall = "nobody"
+    [[materials]]
+    restitution = 2
+    """
+    with pytest.raises(SceneError) as error:
+        read_scene(text.encode(), file="s.toml")
+    message = str(error.value)
+    said = [
+        "frogs: no such key",
+        "gravity: [0] is not a pair",
+        "balls[0].position[1]: 'x'",
+        "balls[0].radius: -1",
+        "materials[0]: no wall has the name 'nobody'",
+        "materials[1].restitution: 2 is not from 0 to 1",
+    ]
+    assert [part for part in said if part not in message] == []
+    assert message.startswith("s.toml: ")
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        ('walls = [\n"', "s:2: "),
+        ("a = 1\n b = = 2", "s:2:6: "),
+        ('{"format": "wallkit-scene",\n  nonsense}', "s:2:3"),
+        ('{"a": NaN}', "NaN"),
+    ],
+)
+def test_bad_toml_and_json_are_named_with_line_and_column(text, place):
+    with pytest.raises(SceneError, match=place):
+        read_scene(text.encode(), file="s")
+
+
+def test_a_deeply_nested_file_is_an_error_and_no_crash():
+    with pytest.raises(SceneError, match="deeply"):
+        read_scene(b'{"a":' + b"[" * 100_000)
+
+
+def test_a_huge_file_hits_the_limit():
+    with pytest.raises(LimitError):
+        read_scene(b" " * (64 * 1024 * 1024 + 1))
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("24 803 m\n69 828 l\n", "drawing"),
+        ("(Layer 1) Ln\n24 803 m", "drawing"),
+        ("%!PS-Adobe-3.0 EPSF-3.0\n[1 2] 0 d", "drawing"),
+        ("[3 2] 0 d\n10 10 m", "drawing"),
+        ("<svg/>", "drawing"),
+        ("%PDF-1.6", "drawing"),
+        ("# a scene\n\ngravity = [0, 1]", "scene"),
+        ("\ufeff[[walls]]\n", "scene"),
+        ('{"format": "wallkit-scene"}', "scene"),
+        ('{"format": "wallkit-run", "scene": {"walls": {"format": "wallkit-walls"}}}', "scene"),
+        ('{"format": "wallkit-walls", "version": 1}', "walls"),
+    ],
+)
+def test_what_a_file_is_is_told_by_its_content(text, kind):
+    assert kind_of(text.encode()) == kind

@@ -1,0 +1,54 @@
+import numpy as np
+import pytest
+
+import wallkit
+from wallkit.view.tracks import tracks
+
+
+def flown(count, **limit):
+    walls = wallkit.Walls.from_polylines([[(0, 0), (10, 0), (10, 7), (0, 7)]])
+    angle = np.linspace(0.1, 6, count)
+    balls = wallkit.Balls(np.full((count, 2), 3.0), 2 * np.stack([np.cos(angle), np.sin(angle)], 1), 0.25)
+    return wallkit.simulate(wallkit.Scene(walls, balls), **limit)
+
+
+def test_stretches_join_and_say_where_the_run_says_a_ball_is():
+    run = flown(4, until=30.0)
+    flight = tracks(run)
+    assert flight.whole == len(run.contacts) + 4 == len(flight.time)
+    same = flight.ball[1:] == flight.ball[:-1]
+    assert np.array_equal(flight.until[:-1][same], flight.time[1:][same])
+    assert np.array_equal(flight.target[:-1][same], flight.position[1:][same])
+    for t in np.linspace(0, 30, 41):
+        for ball, place in enumerate(run.position(t)):
+            at = np.flatnonzero((flight.ball == ball) & (flight.time <= t))[-1]
+            # one product and one sum, each rounded, of numbers below 16: a few units of 2^-49
+            assert np.allclose(
+                flight.position[at] + flight.velocity[at] * (t - flight.time[at]), place, rtol=0, atol=1e-14
+            )
+
+
+def test_thinning_keeps_each_balls_first_stretches_evenly():
+    flight = tracks(flown(7, bounces=50), limit=100)
+    assert flight.thinned
+    assert flight.whole == 7 * 51
+    assert np.diff(flight.offsets).tolist() == [14] * 7
+    assert (flight.contact[flight.offsets[:-1]] == -1).all()
+
+
+def test_more_balls_than_the_limit_leaves_the_last_ones_out():
+    flight = tracks(flown(7, bounces=3), limit=5)
+    assert np.diff(flight.offsets).tolist() == [1, 1, 1, 1, 1, 0, 0]
+
+
+def test_a_ball_that_leaves_is_followed_out_of_sight():
+    walls = wallkit.Walls.from_polylines([[(0, 0), (10, 0)]], closed=False)
+    run = wallkit.simulate(wallkit.Scene(walls, wallkit.Balls([[5, 5]], [[0.0, -1]], 1)), bounces=10)
+    flight = tracks(run)
+    assert len(flight.time) == 2
+    assert flight.target[-1] == pytest.approx([5, flight.position[-1][1] + 15], abs=1.5)  # 1.5 times the diagonal
+
+
+def test_a_run_without_balls_or_contacts_has_empty_tracks():
+    walls = wallkit.Walls.from_polylines([[(0, 0), (10, 0)]], closed=False)
+    assert len(tracks(wallkit.simulate(wallkit.Scene(walls), until=1.0)).time) == 0

@@ -1,0 +1,219 @@
+"""Where balls start when nobody says so: those drawn on the layer ``balls``, else the roomiest spot."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from importers.drawing import Drawing, DrawnPath, Segment
+from importers.problems import Problem
+from wallkit.curves import chords, flattened
+from wallkit.walls import Walls
+
+FloatArray = NDArray[np.float64]
+
+BALLS_LAYER = "balls"
+
+# A circle of four cubics, as drawing programs write it, is off by 2.7e-4 of its radius; hand-made ones by more.
+_ROUND = 0.02
+_FACES = 24  # so many of the largest faces are searched for the roomiest spot
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnBall:
+    """A circle on the layer ``balls``; ``velocity`` is None where no line starts in it."""
+
+    x: float
+    y: float
+    radius: float
+    velocity: tuple[float, float] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """A place with room: its centre, the distance to the nearest wall, and the face it is in (of shapely)."""
+
+    x: float
+    y: float
+    room: float
+    face: Any
+
+
+def drawn_balls(drawing: Drawing, scale: float = 1.0, flip_y: bool = False) -> tuple[list[DrawnBall], list[Problem]]:
+    """Read the layer ``balls``: a circle is a ball, a line that starts in it is its velocity per second.
+
+    Args:
+        drawing: as read; hidden paths and guides do not count.
+        scale: as for the walls: places, radii and velocities are multiplied by it.
+        flip_y: as for the walls: y changes its sign.
+
+    Returns:
+        The balls in the file's order, and a problem for each path there that is neither.
+    """
+    fx, fy = scale, -scale if flip_y else scale
+    circles: list[tuple[float, float, float]] = []
+    lines: list[tuple[DrawnPath, tuple[float, float], tuple[float, float]]] = []
+    problems: list[Problem] = []
+    for path in drawing.paths:
+        if BALLS_LAYER not in (path.layer, *path.groups) or not path.visible or path.guide or path.clip:
+            continue
+        for sub in path.subpaths:
+            points = _sampled(sub.segments) * (fx, fy)
+            circle = _circle(points)
+            if circle:
+                circles.append(circle)
+            elif not sub.closed and len(sub.segments) > 1:
+                lines.append((path, tuple(points[0]), tuple(points[-1])))
+            else:
+                problems.append(_stray(path, points[0]))
+    velocities: dict[int, tuple[float, float]] = {}
+    for path, start, end in lines:
+        owner = _owner(circles, start)
+        if owner is None:
+            problems.append(_stray(path, np.array(start)))
+        else:
+            velocities[owner] = end[0] - circles[owner][0], end[1] - circles[owner][1]
+    return [DrawnBall(*circle, velocities.get(index)) for index, circle in enumerate(circles)], problems
+
+
+def _stray(path: DrawnPath, place: FloatArray) -> Problem:
+    return Problem(
+        code="not-a-ball",
+        severity="warning",
+        message="a path on layer 'balls' is neither a circle nor a line that starts in one; left out",
+        fix="draw circles for balls and a line from a circle's centre for its velocity per second",
+        layer=path.layer,
+        name=path.name,
+        line=path.line,
+        x=float(place[0]),
+        y=float(place[1]),
+    )
+
+
+def _owner(circles: list[tuple[float, float, float]], start: tuple[float, float]) -> int | None:
+    """Give the circle that a point is in, the one with the nearest centre where there are several."""
+    distances = [math.hypot(start[0] - x, start[1] - y) for x, y, _ in circles]
+    inside = [index for index, (_, _, radius) in enumerate(circles) if distances[index] <= radius]
+    return min(inside, key=distances.__getitem__, default=None)
+
+
+def _circle(points: FloatArray) -> tuple[float, float, float] | None:
+    """Give centre and radius where the points of a path lie around one centre, all sides of it."""
+    if len(points) < 9:  # a curve has more; a square would pass otherwise
+        return None
+    low, high = points.min(axis=0), points.max(axis=0)
+    centre, radius = (low + high) / 2, float((high - low).mean()) / 2
+    away = np.hypot(*(points - centre).T)
+    if radius == 0 or np.abs(away - radius).max() > _ROUND * radius:
+        return None
+    return float(centre[0]), float(centre[1]), radius
+
+
+def _sampled(segments: list[Segment]) -> FloatArray:
+    """Give points along a subpath."""
+    parts = [np.array([segments[0][1:3]], dtype=np.float64)]
+    for segment in segments[1:]:
+        parts.append(chords(parts[-1][-1], segment[0], segment[1:]))
+    return np.concatenate(parts)
+
+
+def roomiest(walls: Walls) -> Spot | None:
+    """Find the place inside the walls that is farthest from all of them, to 1 % of the distance or better.
+
+    Inside is every bounded face that the closed walls make; without closed walls it is the box around them. The
+    search is shapely's ``maximum_inscribed_circle`` (GEOS, after Mapbox's polylabel) on the largest faces.
+
+    Returns:
+        The spot, or None where no face has room.
+    """
+    import shapely
+
+    rings = [flattened(walls, index) for index in range(len(walls))]
+    if not rings:
+        return None
+    lines = [shapely.linearrings(r) if c and len(r) > 2 else shapely.linestrings(r)
+             for r, c in zip(rings, walls.closed, strict=True)]  # fmt: skip
+    noded = shapely.node(shapely.multilinestrings(_as_lines(lines)))
+    faces = list(shapely.get_parts(shapely.polygonize([*shapely.get_parts(noded)])))
+    if not faces:
+        faces = [shapely.envelope(noded)]
+    faces.sort(key=shapely.area, reverse=True)
+    best: Spot | None = None
+    for face in faces[:_FACES]:
+        # A circle in a face of area A has at most the radius sqrt(A / pi): smaller faces cannot win any more.
+        if face.geom_type != "Polygon" or (best and math.sqrt(face.area / math.pi) <= best.room):
+            continue
+        spot = _spot(face, noded)
+        if spot and (best is None or spot.room > best.room) and not _in_material(walls, rings, spot):
+            best = spot
+    return best
+
+
+def _in_material(walls: Walls, rings: list[FloatArray], spot: Spot) -> bool:
+    """Tell whether a spot is in what only one-sided walls keep balls out of: the smallest ring around it is a solid.
+
+    Two-sided walls keep a ball in as well as out; a room drawn as a plain outline has its room there.
+    """
+    import shapely
+
+    if all(sides == "both" for sides in walls.sides):
+        return False
+    around = [ring for ring, closed in zip(rings, walls.closed, strict=True)
+              if closed and len(ring) > 2 and shapely.contains_xy(shapely.polygons(ring), spot.x, spot.y)]  # fmt: skip
+    if not around:
+        return False
+    x, y = min(around, key=lambda ring: float(shapely.area(shapely.polygons(ring)))).T
+    return bool(x @ np.roll(y, -1) - y @ np.roll(x, -1) > 0)  # twice the signed area: positive is a solid
+
+
+def _as_lines(lines: list[object]) -> list[object]:
+    import shapely
+
+    return [shapely.linestrings(shapely.get_coordinates(line)) for line in lines]
+
+
+def _spot(face: object, walls: object) -> Spot | None:
+    import shapely
+
+    size = math.sqrt(shapely.area(face))
+    free = face
+    inner = shapely.intersection(walls, shapely.buffer(face, -1e-6 * size))
+    if not shapely.is_empty(inner):  # open walls inside: thickened by a hair, they become holes
+        free = shapely.difference(face, shapely.buffer(inner, 1e-6 * size))
+        free = max(shapely.get_parts(free), key=shapely.area, default=face)
+    line = shapely.maximum_inscribed_circle(free, tolerance=0.005 * size)
+    room = float(shapely.length(line))
+    if not room > 0:
+        return None
+    x, y = shapely.get_coordinates(line)[0]
+    return Spot(float(x), float(y), room, free)
+
+
+def scattered(walls: Walls, spot: Spot, count: int, radius: float, random: np.random.Generator) -> FloatArray:
+    """Choose (count, 2) places at random, evenly over where a ball fits in the face of a spot.
+
+    Raises:
+        SceneError: a ball of that radius fits nowhere there.
+    """
+    import shapely
+
+    from wallkit.scene import SceneError
+
+    room = shapely.buffer(spot.face, -radius * (1 + 1e-9) - 1e-9 * spot.room)
+    shapely.prepare(room)
+    if shapely.is_empty(room):
+        raise SceneError(
+            f"a ball of radius {radius:g} has no room",
+            code="no-room",
+            fix=f"the roomiest spot takes {spot.room:.6g}: give a smaller --radius",
+        )
+    x0, y0, x1, y1 = room.bounds
+    places = np.empty((0, 2))
+    while len(places) < count:
+        tried = random.uniform((x0, y0), (x1, y1), (2 * count + 64, 2))
+        places = np.concatenate([places, tried[shapely.contains_xy(room, tried[:, 0], tried[:, 1])]])
+    return places[:count]

@@ -1,0 +1,202 @@
+"""Films of a run, GIF and MP4: each frame shows the exact state at its time."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import math
+import shutil
+import subprocess
+import tempfile
+from collections import deque
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from importers.errors import WallkitError
+from wallkit.view.canvas import Command, Disc, Item, Label, Shape
+from wallkit.view.frame import Frame
+from wallkit.view.picture import draw_walls, finish, round_length, started
+from wallkit.view.raster import Raster
+from wallkit.view.run_picture import scene_box
+from wallkit.view.theme import RAMP_STEPS, Theme
+from wallkit.view.tracks import ball_arrays
+
+if TYPE_CHECKING:
+    from wallkit.run import Run
+
+FloatArray = NDArray[np.float64]
+Progress = Callable[[float], None]
+
+_RATES = {"gif": 25, "mp4": 30}  # frames a second; GIF counts in hundredths, so that 25 is exact
+_WIDTH = 640.0
+_CROSSING = 2.5  # seconds of film for a ball to cross the picture, which sets how fast a film runs
+_TRAIL = 0.9  # seconds of film that a trail lasts, and a ghost of a contact
+_TRAILS = 60  # so many balls at most draw trails
+
+
+class FilmError(WallkitError):
+    """A film cannot be made here; the message says what is missing."""
+
+
+def film(
+    run: Run,
+    kind: Literal["gif", "mp4"],
+    *,
+    seconds: float = 12.0,
+    theme: Theme = "light",
+    progress: Progress | None = None,
+) -> bytes:
+    """Make a film of a run.
+
+    Time runs at 1, 2 or 5 times a power of ten of real time, so that the balls cross the picture in about 2.5
+    seconds; the film says how fast, and how much of the run it shows.
+
+    Args:
+        run: what to show.
+        kind: ``"gif"``, or ``"mp4"`` (H.264 where ffmpeg has it).
+        seconds: the film's length at most.
+        theme: light or dark.
+        progress: called with the part done, 0 to 1.
+
+    Raises:
+        FilmError: no ffmpeg, or it failed.
+    """
+    frames = _Frames(run, _RATES[kind], seconds, theme, progress)
+    return _gif(frames) if kind == "gif" else _mp4(frames)
+
+
+class _Frames:
+    """The frames one by one, drawn over one background."""
+
+    def __init__(self, run: Run, fps: int, seconds: float, theme: Theme, progress: Progress | None) -> None:
+        self.run, self.fps, self.theme, self.progress = run, fps, theme, progress
+        box, up = scene_box(run.scene), run.scene.walls.y_axis == "up"
+        canvas, self.frame = started(box, up, title="", width=_WIDTH)
+        start, _, radius = ball_arrays(run)
+        draw_walls(canvas, run.scene.walls, self.frame, normals=False, free=start)
+        finish(canvas, self.frame, run.scene.walls.units)
+        self.width, self.height = canvas.width, 2.0 * math.ceil(canvas.height / 2)  # H.264 wants even numbers
+        self.background = Raster(self.width, self.height, theme, 1.0).drawn(canvas.items)
+        self.radius = np.maximum(radius * self.frame.scale, 3.0)
+        self.speedup = _speedup(run, self.frame)
+        self.duration = float(run.final["time"].max(initial=0.0))
+        self.count = max(1, int(min(seconds, self.duration / self.speedup) * fps) + 1)
+
+    def caption(self, time: float) -> str:
+        shown = (self.count - 1) / self.fps * self.speedup
+        part = (
+            "" if shown >= self.duration - self.speedup / self.fps else f", first {shown:.4g} of {self.duration:.4g} s"
+        )
+        pace = "" if self.speedup == 1 else f" ({self.speedup:g} times as fast{part})"
+        return f"{time:.2f} s{pace or part}"
+
+    def __iter__(self) -> Iterator[Image.Image]:
+        contacts = self.run.contacts
+        times = contacts["time"]
+        trails: list[deque[tuple[float, float, float]]] = [deque() for _ in self.run.ending[:_TRAILS]]
+        passed = 0
+        for number in range(self.count):
+            time = number / self.fps * self.speedup
+            upto = int(np.searchsorted(times, time, side="right"))
+            for contact in contacts[passed:upto] if len(self.run.ending) <= _TRAILS else ():
+                place = self.frame.point(float(contact["x"]), float(contact["y"]))
+                trails[contact["ball"]].append((float(contact["time"]), *place))
+            passed = upto
+            balls = self.frame.points(self.run.position(time))
+            yield self._frame(time, balls, trails, contacts[max(0, upto - 200) : upto])
+            if self.progress:
+                self.progress((number + 1) / self.count)
+
+    def _frame(
+        self, time: float, balls: FloatArray, trails: list[deque[tuple[float, float, float]]], recent: NDArray[Any]
+    ) -> Image.Image:
+        items: list[Item] = []
+        since = time - _TRAIL * self.speedup
+        few = len(balls) <= _TRAILS
+        for ball, trail in enumerate(trails if few else []):
+            trail.append((time, *balls[ball]))
+            while len(trail) > 1 and trail[0][0] < since:
+                trail.popleft()
+            items.extend(_trail(trail, time, since, self._step(ball)))
+        for contact in recent[recent["time"] > since]:
+            ball = int(contact["ball"])
+            opacity = 0.8 * (1 - (time - float(contact["time"])) / (time - since))
+            x, y = self.frame.point(float(contact["x"]), float(contact["y"]))
+            items.append(Disc("ghost", x, y, float(self.radius[ball]), self._step(ball), opacity=opacity))
+        for ball, (x, y) in enumerate(balls.tolist()):
+            items.append(Disc("ball", x, y, float(self.radius[ball]), self._step(ball), filled=True))
+        items.append(Label("note", _WIDTH - 28, self.height - 14, self.caption(time), anchor="end"))
+        return self.background.copied().drawn(items).reduced()
+
+    def _step(self, ball: int) -> int:
+        count = len(self.run.ending)
+        return RAMP_STEPS // 2 if count == 1 else ball * (RAMP_STEPS - 1) // (count - 1)
+
+
+def _trail(points: deque[tuple[float, float, float]], time: float, since: float, step: int) -> list[Shape]:
+    """Draw a trail in three parts that fade with age."""
+    parts: list[Shape] = []
+    places = list(points)
+    for part in range(3):
+        low = since + (time - since) * part / 3
+        high = since + (time - since) * (part + 1) / 3
+        inside = [index for index, (t, _, _) in enumerate(places) if low <= t <= high]
+        if inside and inside[0] > 0:
+            inside.insert(0, inside[0] - 1)
+        if len(inside) > 1:
+            commands: list[Command] = [("M" if i == inside[0] else "L", *places[i][1:]) for i in inside]
+            parts.append(Shape("trail", commands, step=step, opacity=0.25 + 0.25 * part))
+    return parts
+
+
+def _speedup(run: Run, frame: Frame) -> float:
+    _, velocity, _ = ball_arrays(run)
+    speeds = np.hypot(run.contacts["vx"], run.contacts["vy"]) if len(run.contacts) else np.hypot(*velocity.T)
+    moving = speeds[speeds > 0]
+    if not len(moving):
+        return 1.0
+    crossing = max(frame.box[2] - frame.box[0], frame.box[3] - frame.box[1]) / float(np.median(moving))
+    return round_length(crossing / _CROSSING)
+
+
+def _gif(frames: _Frames) -> bytes:
+    every: list[Item] = [
+        Disc("ball", 20 * step, 20 * part, 9, step, filled=True, opacity=part / 4)
+        for step in range(RAMP_STEPS)
+        for part in (1, 2, 3, 4)
+    ]
+    colours = frames.background.copied().drawn(every).reduced().quantize(128)  # one palette, or the film flickers
+    images = (image.quantize(palette=colours, dither=Image.Dither.NONE) for image in frames)
+    data = io.BytesIO()
+    next(images).save(data, "GIF", save_all=True, append_images=images, duration=1000 // frames.fps, loop=0)
+    return data.getvalue()
+
+
+def _mp4(frames: _Frames) -> bytes:
+    program = shutil.which("ffmpeg")
+    if program is None:
+        raise FilmError(
+            "there is no ffmpeg here, which makes MP4 files",
+            code="no-ffmpeg",
+            fix="install ffmpeg, or write .gif or .html",
+        )
+    with tempfile.TemporaryDirectory(prefix="wallkit-") as folder:
+        target = Path(folder) / "film.mp4"
+        size = f"{int(frames.width)}x{int(frames.height)}"
+        command = [program, "-v", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", str(frames.fps),
+                   "-i", "-", "-an", "-pix_fmt", "yuv420p", "-movflags", "+faststart", str(target)]  # fmt: skip
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            assert process.stdin is not None
+            with contextlib.suppress(BrokenPipeError):  # it has given up; what it says is below
+                for image in frames:
+                    process.stdin.write(image.tobytes())
+            _, said = process.communicate()
+        if process.returncode != 0 or not target.exists():
+            last = said.decode("utf-8", "replace").strip().splitlines()[-1:] or ["no reason given"]
+            raise FilmError(f"ffmpeg failed: {last[0]}", code="ffmpeg-failed", fix="write .gif or .html instead")
+        return target.read_bytes()

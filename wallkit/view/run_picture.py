@@ -1,0 +1,258 @@
+"""Pictures of runs and scenes: the path coloured along a ramp, ghosts of the balls at contacts that fade with age."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from importers.problems import Problem
+from wallkit.scene import Scene
+from wallkit.view.canvas import Bitmap, Canvas, Command, Disc, Label, Shape
+from wallkit.view.frame import Box, Frame, united, walls_box
+from wallkit.view.heat import heat_rows
+from wallkit.view.picture import (
+    MARGIN,
+    WIDTH,
+    draw_legend,
+    draw_problems,
+    draw_walls,
+    finish,
+    material_legend,
+    problem_legend,
+    started,
+)
+from wallkit.view.theme import RAMP_STEPS
+from wallkit.view.tracks import Tracks, tracks
+
+if TYPE_CHECKING:
+    from wallkit.run import Run
+
+FloatArray = NDArray[np.float64]
+Colouring = Literal["time", "speed"]
+
+MAX_STRETCHES = 20_000  # drawn at most; the picture says so where there are more
+MAX_MEASURED = 1_000_000  # for a heat map
+MAX_GHOSTS = 400
+_POINT = 2.2  # pixels: a ball smaller than that is drawn as a dot
+_ARROW = 0.35  # seconds of flight that the start's arrow shows, at most 90 pixels
+
+
+def run_svg(
+    run: Run,
+    *,
+    title: str = "",
+    colour: Colouring = "time",
+    heat: bool = False,
+    problems: Sequence[Problem] = (),
+    width: float = WIDTH,
+) -> str:
+    """Draw a run as one SVG document, light or dark as its reader prefers.
+
+    Args:
+        run: what to draw: walls with normals, each ball's path, a ghost of it at its latest 400 contacts (the
+            older, the fainter), start with an arrow and end. Of more than 20,000 stretches between contacts each
+            ball's first ones are drawn, and the picture says how many.
+        title: a line above the picture.
+        colour: what the path's colour tells.
+        heat: show where the balls spend their time instead of the path.
+        problems: marked with numbers and listed below.
+        width: of the picture in pixels.
+    """
+    return run_canvas(run, title=title, colour=colour, heat=heat, problems=problems, width=width).to_svg()
+
+
+def run_canvas(
+    run: Run,
+    *,
+    title: str = "",
+    colour: Colouring = "time",
+    heat: bool = False,
+    problems: Sequence[Problem] = (),
+    width: float = WIDTH,
+) -> Canvas:
+    """Draw a run as :func:`run_svg` does, on a canvas that can become SVG or pixels."""
+    canvas, frame = _scene_base(run.scene, title, width)
+    canvas.title = title or f"{len(run.ending)} balls, {len(run.contacts)} bounces"
+    flight = tracks(run, MAX_MEASURED if heat else MAX_STRETCHES)
+    if heat:
+        size, rows = heat_rows(flight, run.scene.gravity, frame)
+        canvas.items.insert(0, Bitmap(frame.left, frame.top, size, rows, 0.9))
+    else:
+        steps, low, high = _steps(flight, colour)
+        draw_paths(canvas, flight, steps, run.scene, frame)
+        _draw_ghosts(canvas, run, frame, flight, steps)
+        _draw_starts(canvas, run.scene, frame)
+        _draw_ends(canvas, flight, frame)
+    draw_problems(canvas, problems, frame)
+    row = finish(canvas, frame, run.scene.walls.units)
+    unit = "s" if colour == "time" else f"{run.scene.walls.units or 'units'}/s"
+    if heat:
+        _draw_key(canvas, "time spent: none", "most", width)
+    elif len(flight.time):
+        _draw_key(canvas, f"{colour} {low:.4g}", f"{high:.4g} {unit}", width)
+    row = _note_thinning(canvas, flight, row)
+    row = draw_legend(canvas, material_legend(run.scene.walls), row)
+    problem_legend(canvas, problems, row)
+    return canvas
+
+
+def scene_svg(scene: Scene, *, title: str = "", width: float = WIDTH) -> str:
+    """Draw a scene as one SVG document: its walls, and its balls with an arrow each."""
+    canvas, frame = _scene_base(scene, title, width)
+    canvas.title = title or "scene"
+    _draw_starts(canvas, scene, frame)
+    row = finish(canvas, frame, scene.walls.units)
+    draw_legend(canvas, material_legend(scene.walls), row)
+    return canvas.to_svg()
+
+
+def _scene_base(scene: Scene, title: str, width: float) -> tuple[Canvas, Frame]:
+    position = np.asarray(scene.balls.position, dtype=np.float64).reshape(-1, 2)
+    canvas, frame = started(scene_box(scene), scene.walls.y_axis == "up", title=title, width=width)
+    draw_walls(canvas, scene.walls, frame, free=position)
+    return canvas, frame
+
+
+def scene_box(scene: Scene) -> Box:
+    """Give the box around a scene's walls and balls."""
+    position = np.asarray(scene.balls.position, dtype=np.float64).reshape(-1, 2)
+    radius = np.broadcast_to(np.asarray(scene.balls.radius, dtype=np.float64), len(position))
+    boxes: list[Box] = [walls_box(scene.walls)] if len(scene.walls) else []
+    if len(position):
+        low, high = (position - radius[:, None]).min(axis=0), (position + radius[:, None]).max(axis=0)
+        boxes.append((float(low[0]), float(low[1]), float(high[0]), float(high[1])))
+    return united(boxes)
+
+
+def _steps(flight: Tracks, colour: Colouring) -> tuple[NDArray[np.int64], float, float]:
+    """Give each stretch its step on the ramp, and the values at the ramp's two ends."""
+    values = flight.time if colour == "time" else np.hypot(*flight.velocity.T)
+    if not len(values):
+        return np.empty(0, dtype=np.int64), 0.0, 0.0
+    low = 0.0 if colour == "time" else float(values.min())
+    high = float(flight.until.max() if colour == "time" else values.max())
+    part = (values - low) / (high - low) if high > low else np.zeros(len(values))
+    return np.minimum((part * RAMP_STEPS).astype(np.int64), RAMP_STEPS - 1), low, high
+
+
+def draw_paths(canvas: Canvas, flight: Tracks, steps: NDArray[np.int64], scene: Scene, frame: Frame) -> None:
+    """Draw each stretch: a line, or under gravity the parabola, which a quadratic Bezier curve is exactly."""
+    begin, end, middle = frame.points(flight.position), flight.target.copy(), None
+    duration = flight.until - flight.time
+    out = _leaves(flight, frame)
+    for index in np.flatnonzero(out).tolist():
+        end[index], duration[index] = _clipped(flight, index, scene, frame)
+    end = frame.points(end)
+    if scene.gravity is not None:
+        # The control point of p + v s + g s^2 / 2 over s in [0, T] is p + v T / 2, where its end tangents meet.
+        middle = frame.points(flight.position + flight.velocity * (duration / 2)[:, None])
+    by_step: dict[int, list[Command]] = {}
+    joined = np.concatenate([[False], (flight.contact[1:] >= 0) & (steps[1:] == steps[:-1]) & ~out[:-1]])
+    for index, step in enumerate(steps.tolist()):
+        commands = by_step.setdefault(step, [])
+        if not (joined[index] and commands):
+            commands.append(("M", *begin[index]))
+        commands.append(("L", *end[index]) if middle is None else ("Q", *middle[index], *end[index]))
+    opacity = 0.95 if len(steps) < 800 else 0.6
+    for step, commands in sorted(by_step.items()):
+        canvas.add(Shape("path", commands, step=step, opacity=opacity))
+
+
+def _leaves(flight: Tracks, frame: Frame) -> NDArray[np.bool_]:
+    x0, y0, x1, y1 = _rim(frame)
+    x, y = flight.target.T
+    return np.asarray((x < x0) | (x > x1) | (y < y0) | (y > y1) | ~np.isfinite(x) | ~np.isfinite(y))
+
+
+def _rim(frame: Frame) -> Box:
+    reach = 0.6 * MARGIN / frame.scale
+    x0, y0, x1, y1 = frame.box
+    return x0 - reach, y0 - reach, x1 + reach, y1 + reach
+
+
+def _clipped(flight: Tracks, index: int, scene: Scene, frame: Frame) -> tuple[FloatArray, float]:
+    """Follow a stretch that leaves the picture up to its rim: the place there, and the time that it takes."""
+    x0, y0, x1, y1 = _rim(frame)
+    p, v = flight.position[index], flight.velocity[index]
+    g = np.array(scene.gravity or (0.0, 0.0))
+    high = min(float(flight.until[index] - flight.time[index]), 1e9 / max(float(np.hypot(*v)), 1e-9))
+    low = 0.0
+    for _ in range(60):  # halve until the rim is between two neighbouring numbers, as far as a picture can tell
+        middle = (low + high) / 2
+        x, y = p + v * middle + g * (middle * middle / 2)
+        if x0 <= x <= x1 and y0 <= y <= y1:
+            low = middle
+        else:
+            high = middle
+    return p + v * low + g * (low * low / 2), low
+
+
+def _draw_ghosts(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: NDArray[np.int64]) -> None:
+    shown = np.flatnonzero(flight.contact >= 0)
+    shown = shown[np.argsort(flight.time[shown], kind="stable")][-MAX_GHOSTS:]
+    radius = flight.radius[flight.ball[shown]] * frame.scale
+    for rank, (index, size) in enumerate(zip(shown.tolist(), radius.tolist(), strict=True)):
+        contact = run.contacts[int(flight.contact[index])]
+        x, y = frame.point(float(contact["x"]), float(contact["y"]))
+        opacity = round(0.12 + 0.68 * (rank + 1) / len(shown), 2)
+        told = f"bounce at {contact['time']:.6g} s, wall {contact['wall']}"
+        canvas.add(Disc("ghost", x, y, max(size, _POINT), int(steps[index]), size < _POINT, opacity, told))
+
+
+def _draw_starts(canvas: Canvas, scene: Scene, frame: Frame) -> None:
+    position = np.asarray(scene.balls.position, dtype=np.float64).reshape(-1, 2)[:MAX_GHOSTS]
+    velocity = np.asarray(scene.balls.velocity, dtype=np.float64).reshape(-1, 2)[:MAX_GHOSTS]
+    radius = np.broadcast_to(np.asarray(scene.balls.radius, dtype=np.float64), len(position))
+    for (x, y), v, r in zip(frame.points(position), velocity, radius.tolist(), strict=True):
+        arrow = v * np.array([1.0, -1.0 if frame.up else 1.0]) * frame.scale * _ARROW
+        length = float(np.hypot(*arrow))
+        if length > 0 and len(position) <= 40:
+            tip = arrow * (min(max(length, r * frame.scale + 18.0), 90.0 + r * frame.scale) / length)
+            canvas.add(Shape("arrow", _arrow(x, y, tip)))
+        canvas.add(Disc("ball", x, y, max(r * frame.scale, _POINT + 1), title=f"start, velocity {v[0]:g}, {v[1]:g}"))
+
+
+def _arrow(x: float, y: float, tip: FloatArray) -> list[Command]:
+    ex, ey = x + tip[0], y + tip[1]
+    back = tip / np.hypot(*tip) * 7.0
+    side = np.array([-back[1], back[0]]) * 0.5
+    return [
+        ("M", x, y), ("L", ex, ey),
+        ("M", ex - back[0] + side[0], ey - back[1] + side[1]), ("L", ex, ey),
+        ("L", ex - back[0] - side[0], ey - back[1] - side[1]),
+    ]  # fmt: skip
+
+
+def _draw_ends(canvas: Canvas, flight: Tracks, frame: Frame) -> None:
+    if flight.thinned or len(flight.offsets) > MAX_GHOSTS:
+        return
+    last = flight.offsets[1:] - 1
+    inside = ~_leaves(flight, frame)[last]
+    for index in last[inside].tolist():
+        x, y = frame.point(*flight.target[index])
+        size = float(flight.radius[flight.ball[index]]) * frame.scale
+        canvas.add(Disc("end", x, y, max(size, _POINT + 1), title=f"end at {flight.until[index]:.6g} s"))
+
+
+def _draw_key(canvas: Canvas, low: str, high: str, width: float) -> None:
+    """Draw the ramp with its ends' values at the foot's right."""
+    length, height = 128.0, 8.0
+    x0, y0 = width - MARGIN - length - 8 * len(high) - 8, canvas.height - 22
+    for step in range(RAMP_STEPS):
+        x = x0 + step * length / RAMP_STEPS
+        box: list[Command] = [("M", x, y0 + height / 2), ("L", x + length / RAMP_STEPS, y0 + height / 2)]
+        canvas.add(Shape("key", box, step=step))
+    canvas.add(Label("note", x0 - 8, y0 + 8, low, anchor="end"), Label("note", x0 + length + 8, y0 + 8, high))
+
+
+def _note_thinning(canvas: Canvas, flight: Tracks, row: float) -> float:
+    if not flight.thinned:
+        return row
+    most = int(np.diff(flight.offsets).max())
+    words = f"{len(flight.time):,} of {flight.whole:,} stretches are shown: each ball's first {most:,}"
+    canvas.add(Label("note", MARGIN, row, words))
+    canvas.height = max(canvas.height, row + 18)
+    return row + 18

@@ -1,0 +1,138 @@
+"""Tracks: a run as stretches of free flight, ball after ball, for everything that draws motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.run import Ending
+
+if TYPE_CHECKING:
+    from wallkit.run import Run
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+@dataclass(slots=True)
+class Tracks:
+    """Stretches between contacts: position p + v s + a s^2 / 2 for the time s since the stretch began.
+
+    Attributes:
+        offsets: (n + 1,) the stretches of ball b are ``offsets[b]`` to ``offsets[b + 1]``; the first begins at the
+            start, each other at a contact.
+        time: (m,) when a stretch begins.
+        until: (m,) when it ends.
+        position: (m, 2) of the centre where it begins.
+        target: (m, 2) where it ends: the next contact's centre, or the ball's last place.
+        velocity: (m, 2) with which it begins.
+        contact: (m,) index into ``run.contacts`` of the contact it begins with, -1 for the start.
+        radius: (n,) of the balls.
+        whole: the number of stretches before thinning.
+    """
+
+    offsets: IntArray
+    time: FloatArray
+    until: FloatArray
+    position: FloatArray
+    target: FloatArray
+    velocity: FloatArray
+    contact: IntArray
+    radius: FloatArray
+    whole: int
+
+    @property
+    def ball(self) -> IntArray:
+        """(m,) the ball of each stretch."""
+        return np.repeat(np.arange(len(self.offsets) - 1, dtype=np.int64), np.diff(self.offsets))
+
+    @property
+    def thinned(self) -> bool:
+        """Some stretches were left out."""
+        return len(self.time) < self.whole
+
+
+def tracks(run: Run, limit: int | None = None) -> Tracks:
+    """Cut a run into stretches.
+
+    Args:
+        run: the run.
+        limit: the most stretches wanted; each ball then keeps its first ones, the same number each at most, and
+            the balls beyond the limit keep none.
+    """
+    start, velocity, radius = ball_arrays(run)
+    count = len(start)
+    contacts = run.contacts
+    order = np.argsort(contacts["ball"], kind="stable")  # contacts come in time order, at least ball by ball
+    per_ball = np.bincount(contacts["ball"], minlength=count).astype(np.int64) + 1
+    whole = int(per_ball.sum())
+    keep = per_ball if limit is None or whole <= limit else _fair(per_ball, limit)
+    first = np.concatenate([[0], np.cumsum(per_ball - 1)])[:-1]
+    offsets = np.concatenate([[0], np.cumsum(keep)]).astype(np.int64)
+    step = np.arange(offsets[-1]) - np.repeat(offsets[:-1], keep)
+    ball = np.repeat(np.arange(count), keep)
+    contact = np.where(step > 0, _taken(order, first[ball] + step - 1), -1)
+    following = np.where(step + 1 < per_ball[ball], _taken(order, first[ball] + step), -1)
+    final, final_time = _ends(run)
+
+    def column(names: tuple[str, ...], index: IntArray, otherwise: FloatArray) -> FloatArray:
+        if not len(contacts):
+            return otherwise
+        found = np.stack([contacts[name][index] for name in names], axis=1)
+        return np.where((index >= 0)[:, None], found, otherwise)
+
+    return Tracks(
+        offsets=offsets,
+        time=column(("time",), contact, np.zeros((len(ball), 1)))[:, 0],
+        until=column(("time",), following, final_time[ball][:, None])[:, 0],
+        position=column(("x", "y"), contact, start[ball]),
+        target=column(("x", "y"), following, final[ball]),
+        velocity=column(("vx", "vy"), contact, velocity[ball]),
+        contact=contact.astype(np.int64),
+        radius=radius,
+        whole=whole,
+    )
+
+
+def _taken(order: IntArray, index: IntArray) -> IntArray:
+    return order[np.clip(index, 0, len(order) - 1)] if len(order) else np.full(len(index), -1, dtype=np.int64)
+
+
+def _fair(counts: IntArray, limit: int) -> IntArray:
+    """Give each ball as many as it has up to one common number, so that the sum stays within the limit."""
+    if len(counts) >= limit:
+        return (np.arange(len(counts)) < limit).astype(np.int64)
+    low, high = 1, int(counts.max())
+    while low < high:
+        middle = (low + high + 1) // 2
+        low, high = (middle, high) if int(np.minimum(counts, middle).sum()) <= limit else (low, middle - 1)
+    return np.minimum(counts, low)
+
+
+def ball_arrays(run: Run) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Give start (n, 2), velocity (n, 2) and radius (n,) of a run's balls as arrays."""
+    balls = run.scene.balls
+    start = np.asarray(balls.position, dtype=np.float64).reshape(-1, 2)
+    velocity = np.asarray(balls.velocity, dtype=np.float64).reshape(-1, 2)
+    return start, velocity, np.broadcast_to(np.asarray(balls.radius, dtype=np.float64), len(start))
+
+
+def _ends(run: Run) -> tuple[FloatArray, FloatArray]:
+    """Give each ball's last place and time. A ball that left the scene is followed until it is well out of sight."""
+    final = np.stack([run.final["x"], run.final["y"]], axis=1)
+    time = run.final["time"].astype(np.float64)
+    velocity = np.stack([run.final["vx"], run.final["vy"]], axis=1)
+    x0, y0, x1, y1 = run.scene.walls.box()
+    reach = 1.5 * float(np.hypot(x1 - x0, y1 - y0)) + float(np.abs(final).max(initial=0.0) > 0)
+    touched = np.zeros(len(time))
+    np.maximum.at(touched, run.contacts["ball"], run.contacts["time"])
+    for ball, ending in enumerate(run.ending):
+        speed = float(np.hypot(*velocity[ball]))
+        if ending is Ending.LEFT_SCENE and speed > 0 and time[ball] == touched[ball]:
+            span = reach / speed
+            final[ball] += velocity[ball] * span + np.array(run.scene.gravity or (0.0, 0.0)) * (span * span / 2)
+            time[ball] += span
+    return final, time
