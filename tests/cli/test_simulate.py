@@ -1,0 +1,165 @@
+import csv
+import io
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from wallkit.cli import main
+
+SCENE = """
+[[walls]]
+vertices = [[0, 0], [400, 0], [400, 300], [0, 300]]
+[[balls]]
+position = [100, 100]
+velocity = [30, 40]
+radius = 10
+[run]
+bounces = 7
+"""
+
+
+@pytest.fixture
+def scene(tmp_path):
+    file = tmp_path / "scene.toml"
+    file.write_text(SCENE)
+    return file
+
+
+@pytest.fixture
+def wallkit(monkeypatch, capsys):
+    """Run the command line in this process; give (exit code, standard output, standard error)."""
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["wallkit", *map(str, words)])
+        try:
+            main()
+            code = 0
+        except SystemExit as ended:
+            code = ended.code or 0
+        said = capsys.readouterr()
+        return code, said.out, said.err
+
+    return run
+
+
+def test_alone_it_prints_a_summary_that_fits_a_screen(wallkit, scene):
+    code, out, err = wallkit("simulate", scene)
+    assert (code, err) == (0, "")
+    lines = out.splitlines()
+    assert len(lines) < 24
+    assert "1, radius 10, speed 50" in out
+    assert "7 in " in out
+    assert "bounce limit" in out
+    assert "kept" in out
+
+
+def test_csv_to_standard_output_leaves_the_summary_to_standard_error(wallkit, scene):
+    code, out, err = wallkit("simulate", scene, "--format", "csv")
+    rows = list(csv.DictReader(io.StringIO(out)))
+    assert (code, len(rows)) == (0, 7)
+    # The room with the disc's radius taken off, unfolded: the first wall is the upper one, at y = 290 after 4.75 s.
+    assert float(rows[0]["time"]) == pytest.approx(4.75, rel=1e-15)
+    assert rows[0]["wall"] == "0"
+    assert "bounce limit" in err
+
+
+def test_speed_and_angle_give_the_components_of_a_known_case(wallkit, scene):
+    _, out, _ = wallkit("simulate", scene, "--format", "json", "--speed", 50, "--angle", 60, "--bounces", 1)
+    contacts = json.loads(out)["contacts"]
+    assert contacts["vx"][0] == pytest.approx(25, rel=1e-15)
+    assert contacts["vy"][0] == pytest.approx(-43.30127018922193, rel=1e-15)
+
+
+@pytest.mark.parametrize("ending", ["csv", "json", "npz", "svg", "png", "gif"])
+def test_the_ending_decides_what_is_written(wallkit, scene, tmp_path, ending):
+    target = tmp_path / f"run.{ending}"
+    code, out, _ = wallkit("simulate", scene, "-o", target, "--seconds", 0.2)
+    assert code == 0
+    begins = {
+        "csv": b"time,",
+        "json": b'{"format": "wallkit-run"',
+        "npz": b"PK",
+        "svg": b"<svg",
+        "png": b"\x89PNG",
+        "gif": b"GIF89a",
+    }
+    assert target.read_bytes().startswith(begins[ending])
+    assert str(target) in out
+
+
+def test_an_unknown_ending_is_refused_before_any_work(wallkit, tmp_path):
+    code, _, err = wallkit("simulate", tmp_path / "missing.ai", "-o", "run.xyz")
+    assert code == 2
+    assert "unknown-ending" in err
+    assert ".csv" in err
+
+
+def test_balls_at_random_are_the_same_for_the_same_seed_and_inside(wallkit, scene):
+    first = wallkit("simulate", scene, "--balls", 20, "--seed", 5, "--format", "json", "--bounces", 2)[1]
+    again = wallkit("simulate", scene, "--balls", 20, "--seed", 5, "--format", "json", "--bounces", 2)[1]
+    other = wallkit("simulate", scene, "--balls", 20, "--seed", 6, "--format", "json", "--bounces", 2)[1]
+    assert first == again != other
+    balls = json.loads(first)["scene"]["balls"]
+    places, radius = np.array([ball["position"] for ball in balls]), balls[0]["radius"]
+    assert (places > radius).all()
+    assert (places < np.array([400, 300]) - radius).all()
+
+
+def test_options_override_the_scene(wallkit, scene):
+    out = wallkit("simulate", scene, "--format", "json", "--ball", "50,60", "--velocity", "1,2", "--radius", 3,
+                  "--restitution", 0.5, "--until", 1)[1]  # fmt: skip
+    said = json.loads(out)["scene"]
+    assert said["balls"] == [{"position": [50.0, 60.0], "velocity": [1.0, 2.0], "radius": 3.0}]
+    assert said["run"] == {"until": 1.0}
+    assert said["walls"]["walls"][0]["material"]["restitution"] == 0.5
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["--ball", "1"], "--ball is '1'"),
+        (["--ball", "1,nan"], "--ball is '1,nan'"),
+        (["--velocity", "1,2", "--speed", "3"], "do not go together"),
+        (["--ball", "1,2", "--balls", "3"], "do not go together"),
+        (["--balls", "0"], "--balls is 0"),
+        (["--tolerance", "0.1"], "only for drawings"),
+    ],
+)
+def test_wrong_options_end_with_2_and_say_what_to_give(wallkit, scene, words, complaint):
+    code, out, err = wallkit("simulate", scene, *words)
+    assert (code, out) == (2, "")
+    assert complaint in err
+    assert "help" in err
+
+
+def test_a_missing_file_ends_with_2(wallkit):
+    code, _, err = wallkit("simulate", "nowhere.ai")
+    assert code == 2
+    assert "nowhere.ai" in err
+
+
+def test_a_small_run_waits_for_no_compiler_and_no_big_library(scene):
+    script = (
+        "import sys; sys.argv = ['wallkit', 'simulate', sys.argv[1]]\n"
+        "from wallkit.cli import main\n"
+        "try: main()\n"
+        "except SystemExit as ended: assert not ended.code\n"
+        "print(sorted({'numba', 'scipy', 'svgpathtools', 'pikepdf', 'PIL'} & set(sys.modules)), file=sys.stderr)"
+    )
+    said = subprocess.run([sys.executable, "-c", script, scene], capture_output=True, text=True, check=True)
+    assert said.stderr == "[]\n"
+
+
+def test_the_default_ball_flies_at_50_units_and_30_degrees_from_the_roomiest_spot(wallkit, tmp_path):
+    file = tmp_path / "walls.toml"
+    file.write_text("[[walls]]\nvertices = [[0, 0], [100, 0], [100, 100], [0, 100]]\n")
+    out = wallkit("simulate", file, "--format", "json")[1]
+    ball = json.loads(out)["scene"]["balls"][0]
+    assert ball["position"] == pytest.approx([50, 50], abs=0.5)
+    assert ball["velocity"] == pytest.approx([50 * math.cos(math.pi / 6), 25], rel=1e-15)
+    assert 0 < ball["radius"] < 10
+    assert len(json.loads(out)["contacts"]["time"]) == 100

@@ -1,0 +1,78 @@
+"""What a run comes to, in words: one line each, for people."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from wallkit.run import Run
+    from wallkit.walls import Walls
+
+
+def counted(number: int, word: str) -> str:
+    """Give ``1 wall``, ``2 walls``."""
+    return f"{number:,} {word}{'' if number == 1 else 's'}"
+
+
+def wall_words(walls: Walls) -> str:
+    """Say how many walls and edges there are, and how large the whole is."""
+    open_ones = int(np.count_nonzero(~walls.closed))
+    arcs = int(np.count_nonzero(walls.bulges))
+    x0, y0, x1, y1 = walls.box()
+    parts = [counted(len(walls), "wall") + (f" ({open_ones} open)" if open_ones else "")]
+    parts.append(counted(len(walls.edge_starts), "edge") + (f" ({counted(arcs, 'arc')})" if arcs else ""))
+    parts.append(f"{x1 - x0:.6g} x {y1 - y0:.6g} {walls.units}".rstrip())
+    return ", ".join(parts)
+
+
+def ball_words(run: Run) -> str:
+    """Say how many balls there are, how large and how fast at the start."""
+    radius = np.broadcast_to(np.asarray(run.scene.balls.radius, dtype=np.float64), len(run.ending))
+    speed = np.hypot(*np.asarray(run.scene.balls.velocity, dtype=np.float64).reshape(-1, 2).T)
+    if not len(radius):
+        return "none"
+    return f"{len(radius):,}, radius {_range(radius)}, speed {_range(speed)}"
+
+
+def _range(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> str:
+    low, high = f"{values.min():.6g}", f"{values.max():.6g}"
+    return low if low == high else f"{low} to {high}"
+
+
+def bounce_words(run: Run) -> str:
+    """Say how many bounces there were, in what time, and how many of them at corners."""
+    corners = int(np.count_nonzero(run.contacts["kind"]))
+    last = float(run.final["time"].max(initial=0.0))
+    return f"{len(run.contacts):,} in {last:.6g} s" + (f", {corners:,} of them at corners" if corners else "")
+
+
+def ending_words(run: Run) -> str:
+    """Say how the balls ended, the most frequent ending first."""
+    counts = Counter(ending.label for ending in run.ending)
+    if len(run.ending) == 1:
+        return next(iter(counts))
+    return ", ".join(f"{word} {count:,}" for word, count in counts.most_common()) or "no balls"
+
+
+def energy_words(run: Run) -> str:
+    """Say what became of the energy per mass, kinetic and in the field of gravity, of all balls together."""
+    position = np.asarray(run.scene.balls.position, dtype=np.float64).reshape(-1, 2)
+    velocity = np.asarray(run.scene.balls.velocity, dtype=np.float64).reshape(-1, 2)
+    gravity = np.array(run.scene.gravity or (0.0, 0.0))
+    final = run.final
+    at, moving = np.stack([final["x"], final["y"]], 1), np.stack([final["vx"], final["vy"]], 1)
+    before = (velocity**2).sum(axis=1) / 2
+    after = (moving**2).sum(axis=1) / 2 - (at - position) @ gravity
+    total = float(before.sum())
+    change = float((after - before).sum())
+    # What gravity could give on the way across the scene is the scale where all balls start at rest.
+    scale = total or float(np.abs((at - position) @ gravity).sum())
+    if scale == 0:
+        return "none, the balls do not move"
+    part = change / scale
+    if abs(part) < 1e-9:
+        return f"kept (to {abs(part):.1e})"
+    return f"{'lost' if part < 0 else 'gained'} {abs(part):.2%}"
