@@ -32,34 +32,40 @@ class Source:
 
     Attributes:
         data: the bytes.
-        first_line: number of the first line (more than 1 for a part of a file).
+        has_lines: its lines are those of the file that a person has; a decoded stream's are not.
     """
 
-    def __init__(self, data: bytes, first_line: int = 1) -> None:
+    def __init__(self, data: bytes, *, has_lines: bool = True) -> None:
         self.data = data
-        self.first_line = first_line
+        self.has_lines = has_lines
         self._position = 0
-        self._line = first_line
+        self._line = 1
 
-    def line(self, position: int) -> int:
-        """Give the line of a byte position, from 1; cheap when asked in rising order."""
+    def line(self, position: int) -> int | None:
+        """Give the line of a byte position, from 1; cheap when asked in rising order. None without lines."""
+        return self._line_of(position) if self.has_lines else None
+
+    def _line_of(self, position: int) -> int:
+        """Count lines on from the position that was asked for last."""
         if position < self._position:
-            self._position, self._line = 0, self.first_line
+            self._position, self._line = 0, 1
         self._line += self._line_ends(self._position, position)
         self._position = position
         return self._line
 
-    def place(self, position: int) -> Place:
-        """Give line, column and excerpt of a byte position."""
+    def place(self, position: int) -> Place | None:
+        """Give line, column and excerpt of a byte position; None without lines."""
+        if not self.has_lines:
+            return None
         data = self.data
         position = min(position, len(data))
         start = max(data.rfind(b"\n", 0, position), data.rfind(b"\r", 0, position)) + 1
         column = position - start + 1
         if column > _FARTHEST:
-            return Place(self.line(position), column, "")
+            return Place(self._line_of(position), column, "")
         text = data[start : position + _BEYOND].decode("latin-1").partition("\n")[0].partition("\r")[0]
         excerpt = "".join(char if char.isprintable() else " " if char == "\t" else "." for char in text)
-        return Place(self.line(position), column, excerpt)
+        return Place(self._line_of(position), column, excerpt)
 
     def _line_ends(self, start: int, stop: int) -> int:
         """Count the line ends before `stop` and not before `start`."""

@@ -48,38 +48,28 @@ def read_illustrator(data: bytes, file: str = "") -> Drawing:
     """
     check_input_size(len(data), file)
     start, stop = scanner.postscript_part(data)
-    return read_operators(data, scanner.art_start(data, start, stop), stop, kind_of(data, start), file)
-
-
-def read_operators(data: bytes, start: int, stop: int, kind: str, file: str) -> Drawing:
-    """Read the operators between two positions into a Drawing of that kind."""
-    source = Source(data)
-    art = ArtReader(source, start, stop, file).read()
-    problems = art.findings.problems(source)
-    if not art.paths and not art.layers and not data.startswith(b"%!") and not looks_like_illustrator(data):
+    if not looks_like_illustrator(data):
         raise DrawingError(
             "this is no drawing that Illustrator or a program like it has written",
             code="not-a-drawing",
             fix="give an .ai, .eps, .pdf or .svg file, or text such as: 24 803 m 69 828 l",
             file=file,
         )
-    return Drawing(
-        "pt",
-        "up",
-        art.layers,
-        art.paths,
-        problems,
-        kind=kind,
-        file=file,
-        sha256=hashlib.sha256(data).hexdigest(),
-    )
+    drawing = read_operators(Source(data), scanner.art_start(data, start, stop), stop, file)
+    drawing.kind = kind_of(data, start)
+    drawing.sha256 = hashlib.sha256(data).hexdigest()
+    return drawing
+
+
+def read_operators(source: Source, start: int, stop: int, file: str) -> Drawing:
+    """Read the operators between two positions into a Drawing."""
+    art = ArtReader(source, start, stop, file).read()
+    return Drawing("pt", "up", art.layers, art.paths, art.findings.problems(source), file=file)
 
 
 def kind_of(data: bytes, start: int = 0) -> str:
     """Say what wrote operator text, such as ``"Illustrator 5.5"`` or ``"Illustrator operators by gnuplot"``."""
     head = data[start : start + 8192]
-    if not head.lstrip(b"\x04").startswith((b"%!", b"%%")):
-        return "Illustrator operators"
     version = _APP_VERSION.search(head)
     if version:
         return f"Illustrator {version.group(1).decode()}"

@@ -16,7 +16,7 @@ from importers.findings import Findings, Kind
 from importers.illustrator import findings
 from importers.illustrator.state import Group, Paint, colour_of
 from importers.illustrator.text import decode
-from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
+from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, MAX_OPERATORS, limit_error
 from importers.sources import Source
 
 Operands = list[Any]  # numbers as bytes or float, texts and names as Text
@@ -126,11 +126,17 @@ class Art:
 
     # --- what the reader calls --------------------------------------------------------------------------
 
-    def check_count(self) -> None:
-        """Raise LimitError when there are too many segments, paths, groups and layers."""
-        if self._count + len(self._segments) + len(self._subpaths) > MAX_ELEMENTS:
-            line = self.source.line(self.position)
-            raise limit_error("segments, paths and groups of a drawing", f"{MAX_ELEMENTS:,}", file=self.file, line=line)
+    def check_count(self, operators: int) -> None:
+        """Raise LimitError when there are too many segments, paths, groups and layers, or operators so far."""
+        many = self._count + len(self._segments) + len(self._subpaths)
+        if many > MAX_ELEMENTS:
+            self._stop_at("segments, paths and groups of a drawing", MAX_ELEMENTS)
+        if operators > MAX_OPERATORS:
+            self._stop_at("operators of a drawing", MAX_OPERATORS)
+
+    def _stop_at(self, limit: str, figure: int) -> None:
+        """Raise LimitError for what was hit at the operator at hand."""
+        raise limit_error(limit, f"{figure:,}", file=self.file, line=self.source.line(self.position))
 
     def failed(self, operator: bytes, operands: Operands) -> None:
         """Deal with operands that an operator could not take."""
@@ -415,8 +421,7 @@ class Art:
         """Go into a group, clip group or layer."""
         self._flush()
         if group.depth > MAX_DEPTH:
-            line = self.source.line(self.position)
-            raise limit_error("groups and layers in each other", str(MAX_DEPTH), file=self.file, line=line)
+            self._stop_at("groups and layers in each other", MAX_DEPTH)
         self._group = group
         self._count += 1
         self.named = None

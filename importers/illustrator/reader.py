@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import repeat
+from itertools import count, repeat
 
 from importers.illustrator import findings, scanner
 from importers.illustrator.art import Art, Operands, Text
@@ -25,7 +25,7 @@ class ArtReader:
 
     def __init__(self, source: Source, start: int, stop: int, file: str = "") -> None:
         self.source = source
-        self.art = Art(source, alphabet(source.data[start : start + 4096]), file)
+        self.art = Art(source, alphabet(source.data), file)
         self._start = start
         self._stop = stop
         self._endless: set[bytes] = set()  # blocks whose end was looked for and is not there
@@ -39,9 +39,11 @@ class ArtReader:
         """
         position = self._start
         stack: Operands = []
-        while position < self._stop:
+        for batch in count(1):
             position = self._read_batch(position, stack)
-            self.art.check_count()
+            self.art.check_count(batch * _BATCH)
+            if position >= self._stop:
+                break
         self.art.finish()
         return self.art
 

@@ -1,0 +1,62 @@
+"""The kinds of findings of the PDF reader; docs/illustrator.md lists them for people."""
+
+from __future__ import annotations
+
+from importers.findings import Kind
+
+PAGE_CONTENT = Kind(
+    "page-content",
+    "info",
+    "{what}; the page's own content was read instead, without names and without what is not on the page",
+    "{what}; the page's own content was read instead, without names and without what is not on the page",
+    "save the drawing again with Illustrator's editing capabilities, or as SVG, if layers or objects are missing",
+)
+PRIVATE_DAMAGED = Kind(
+    "damaged-stream",
+    "error",
+    "Illustrator's own data are damaged ({what}); what stands before the damage was read",
+    "Illustrator's own data are damaged ({what}); what stands before the damage was read",
+    "save the drawing again",
+)
+STREAM = Kind(
+    "damaged-stream",
+    "error",
+    "a part of the page cannot be read whole ({what}); what stands before the damage was read",
+    "{count} parts of the page cannot be read whole (first: {what}); what stands before the damage was read",
+    "save or export the drawing again",
+)
+USER_UNIT = Kind(
+    "user-unit",
+    "warning",
+    "the page is drawn in units of {what} pt; coordinates are given as written, in those units",
+    "the page is drawn in units of {what} pt; coordinates are given as written, in those units",
+    "scale the walls by that number to have points",
+)
+ROTATED = Kind(
+    "rotated-page",
+    "info",
+    "viewers show the page turned by {what} degrees; coordinates are those of the page as drawn",
+    "viewers show the page turned by {what} degrees; coordinates are those of the page as drawn",
+    "turn the page in the drawing program if the walls are to stand as they are shown",
+)
+SHADING = Kind(
+    "shading-left-out",
+    "info",
+    "a shading is left out",
+    "{count} shadings are left out",
+    "draw its outline if it is to be a wall",
+)
+RECURSIVE = Kind(
+    "recursive-form",
+    "error",
+    "a form draws itself; the inner drawing is left out",
+    "forms draw themselves {count} times; the inner drawings are left out",
+    "save or export the drawing again",
+)
+MISSING = Kind(
+    "missing-object",
+    "error",
+    "the page draws {what}, which the file does not hold",
+    "the page draws {count} objects that the file does not hold (first {what})",
+    "save or export the drawing again",
+)

@@ -1,0 +1,57 @@
+"""Illustrator's own copy of a drawing inside a PDF: the private stream, in the operators of the old files."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from importers.limits import Packing
+from importers.pdf.document import Document, get, is_stream
+
+# What stands before the packed part, and how it is packed. Before the mark there may be a plain header.
+_MARKS: tuple[tuple[bytes, Packing], ...] = (
+    (b"%AI12_CompressedData", "zlib"),
+    (b"%AI24_ZStandard_Data", "zstd"),
+)
+# More streams than this would hold more than the input may.
+_MAX_BLOCKS = 100_000
+
+
+class PrivateData(NamedTuple):
+    """Illustrator's own data.
+
+    Attributes:
+        data: the operators, decoded.
+        damage: what is wrong with them, or ``""``.
+    """
+
+    data: bytes
+    damage: str
+
+
+def read_private(document: Document, page: Any) -> PrivateData | None:
+    """Put the private stream of a page together and decode it; None when the page has none.
+
+    Raises:
+        LimitError: it stands for more than the limits allow.
+    """
+    private = get(get(get(page, "/PieceInfo"), "/Illustrator"), "/Private")
+    blocks: list[bytes] = []
+    damage = ""
+    for index in range(1, _MAX_BLOCKS):
+        block = get(private, f"/AIPrivateData{index}")
+        if not is_stream(block):
+            break
+        data, wrong = document.decode(block)
+        blocks.append(data)
+        damage = damage or wrong
+    if not blocks:
+        return None
+    data = b"".join(blocks)
+    marks = [(data.find(mark), mark, packing) for mark, packing in _MARKS]
+    found = [entry for entry in marks if entry[0] >= 0]
+    if found:
+        position, mark, packing = min(found)
+        packed = data[position + len(mark) :].lstrip(b"\r\n")
+        data, wrong = document.unpacker.unpack(packed, packing)
+        damage = damage or wrong
+    return PrivateData(data, damage)

@@ -1,0 +1,49 @@
+"""What a PDF page has said so far: where its units lie, with which paint it draws."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+Matrix = tuple[float, float, float, float, float, float]
+IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+
+
+def multiply(first: Matrix, then: Matrix) -> Matrix:
+    """Give the matrix that applies `first`, then `then` (x' = a x + c y + e, y' = b x + d y + f)."""
+    a, b, c, d, e, f = first
+    a2, b2, c2, d2, e2, f2 = then
+    return (
+        a * a2 + b * c2,
+        a * b2 + b * d2,
+        c * a2 + d * c2,
+        c * b2 + d * d2,
+        e * a2 + f * c2 + e2,
+        e * b2 + f * d2 + f2,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Graphics:
+    """The part of the state that ``q`` keeps and ``Q`` brings back; replaced, never changed.
+
+    Attributes:
+        matrix: from the units of the content to those of the page.
+        fill: colour of fills.
+        stroke: colour of strokes.
+        width: line width in the units of the content.
+        fill_space: kind of the fill's colour space when it is none of the plain ones.
+        stroke_space: the same for the stroke.
+    """
+
+    matrix: Matrix = IDENTITY
+    fill: str = "#000000"
+    stroke: str = "#000000"
+    width: float = 1.0
+    fill_space: str = ""
+    stroke_space: str = ""
+
+    def width_on_page(self) -> float:
+        """Give the line width in the page's units: times the geometric mean of the matrix's two scales."""
+        a, b, c, d, _, _ = self.matrix
+        return self.width * math.sqrt(abs(a * d - b * c))
