@@ -13,6 +13,8 @@ from wallkit.kernels.model import CORNER_STRIDE, EDGE_STRIDE, Model
 from wallkit.scene import FloatArray, Scene, SceneError
 
 IntArray = NDArray[np.int64]
+SMOOTH = 2.0**-44
+"""Edges that meet at less than this angle (radians) have no corner: see ``scan_disc`` for how they overlap."""
 BRUTE_FORCE = 16
 """Up to this many edges looking at all of them beats any index."""
 
@@ -33,7 +35,8 @@ class Modelled:
             raise SceneError("walls of arcs are not simulated yet", code="not-yet")
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
         self.origin = local_origin(scene.walls.vertices)
-        self.model = _model(scene, self.origin, float(self.radii.max(initial=0.0)), index)
+        least = float(self.radii.min()) if len(self.radii) else 0.0
+        self.model = _model(scene, self.origin, least, float(self.radii.max(initial=0.0)), index)
         self._lists: Model | None = None
 
     @property
@@ -71,18 +74,21 @@ def local_origin(vertices: FloatArray) -> FloatArray:
     return origin if not np.any(lost) and np.array_equal(local + origin, vertices) else np.zeros(2)
 
 
-def _model(scene: Scene, origin: FloatArray, radius: float, index: str) -> Model:
+def _model(scene: Scene, origin: FloatArray, least: float, radius: float, index: str) -> Model:
     walls = scene.walls
     vertices = walls.vertices - origin
     lines = _lines(vertices[walls.edge_starts], vertices[walls.edge_ends])
     wall_of_edge = np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)).astype(np.int64)
     ids = np.flatnonzero(lines[:, 6] > 0.0).astype(np.int64)
-    corner_ids = np.arange(len(vertices), dtype=np.int64) if radius > 0.0 else np.empty(0, np.int64)
     corners = np.hstack([vertices, _normals_at_vertices(walls, lines)])
+    fans = _fans(walls, lines)
+    corner_ids = np.flatnonzero(fans[:, 1] > SMOOTH).astype(np.int64) if radius > 0.0 else np.empty(0, np.int64)
+    one_sided = _one_sided(scene)
     use_grid = index == "grid" or (index == "auto" and len(ids) > BRUTE_FORCE)
     grid = None
     if use_grid and len(ids):
-        grid, ids, corner_ids = build_grid(lines, ids, corners, corner_ids, radius)
+        least = 0.0 if one_sided is not None else least  # a disc may stand across a wall that it came through
+        grid, ids, corner_ids = build_grid(lines, ids, corners, fans, corner_ids, (least, radius))
     entries = lines[ids]
     entries[:, 7] = 0.0
     return Model(
@@ -96,7 +102,7 @@ def _model(scene: Scene, origin: FloatArray, radius: float, index: str) -> Model
         edge_wall=wall_of_edge,
         corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)).astype(np.int64),
         restitution=_restitution(scene),
-        one_sided=_one_sided(scene),
+        one_sided=one_sided,
         extent=float(np.abs(vertices).max(initial=0.0)) + radius,
     )
 
@@ -118,6 +124,27 @@ def _normals_at_vertices(walls: Any, lines: FloatArray) -> FloatArray:
     np.add.at(total, walls.edge_starts, lines[:, 4:6])
     np.add.at(total, walls.edge_ends, lines[:, 4:6])
     return total
+
+
+def _fans(walls: Any, lines: FloatArray) -> FloatArray:
+    """Give for each vertex where a disc can touch it: the angles between the normals of its edges, (start, how far).
+
+    Where the wall turns left the fan opens to its right, and the other way round; a free end has half a circle, a
+    vertex at an edge without length a whole one.
+    """
+    count = len(walls.vertices)
+    heading = np.arctan2(lines[:, 4], -lines[:, 5])
+    arriving, leaving = np.full(count, np.nan), np.full(count, np.nan)
+    arriving[walls.edge_ends], leaving[walls.edge_starts] = heading, heading
+    end, start = np.isnan(leaving), np.isnan(arriving)
+    turn = np.remainder(leaving - arriving + np.pi, 2 * np.pi) - np.pi
+    right = np.where(turn >= 0.0, arriving - np.pi / 2, leaving + np.pi / 2)
+    first = np.where(end, arriving - np.pi / 2, np.where(start, leaving + np.pi / 2, right))
+    span = np.where(end | start, np.pi, np.abs(turn))
+    bare = np.zeros(count, dtype=np.bool_)
+    none = lines[:, 6] == 0.0
+    bare[walls.edge_starts[none]] = bare[walls.edge_ends[none]] = True
+    return np.stack([np.where(bare, 0.0, first), np.where(bare, 2 * np.pi, span)], axis=1)
 
 
 def _restitution(scene: Scene) -> FloatArray | None:

@@ -46,7 +46,7 @@ def simulate(
     Raises:
         SceneError: neither limit was given, or the scene cannot be simulated.
     """
-    limit_time, limit_bounces = _limits(until, bounces)
+    limit_time, limit_bounces = limits(until, bounces)
     flights = Flights(scene, mode=mode)
     logs: list[FloatArray] = []
     owners: list[NDArray[np.int32]] = []
@@ -97,13 +97,13 @@ class Flights:
             machine_log, machine_state = np.empty(room * LOG_STRIDE), np.array(state)
             machine_counts = np.array(counts, dtype=np.int64)
             noted = compiled(fly)(
-                self.modelled.model, radius, machine_state, machine_counts, until, limit, machine_log, room
+                self.modelled.model, radius, machine_state, machine_counts, until, limit, None, machine_log, room
             )
             state[:], counts[:] = machine_state.tolist(), machine_counts.tolist()
             return machine_log.reshape(room, LOG_STRIDE)[:noted]
         room = min(room, 256)
         log = [0.0] * (room * LOG_STRIDE)
-        noted = fly(self.modelled.lists, radius, state, counts, until, limit, log, room)
+        noted = fly(self.modelled.lists, radius, state, counts, until, limit, None, log, room)
         self._work += (noted + 1) * self._entries_a_bounce()
         return np.array(log).reshape(room, LOG_STRIDE)[:noted]
 
@@ -149,23 +149,14 @@ class Flights:
         return final
 
     def endings(self) -> tuple[Ending, ...]:
-        """How each ball ended. A ball outside the walls' box that flies away from it has left the scene."""
+        """How each ball ended."""
+        final = self.final()
+        position, velocity = np.stack([final["x"], final["y"]], 1), np.stack([final["vx"], final["vy"]], 1)
+        gone = is_gone(self.scene.walls.box(), position, velocity, self.modelled.radii)
         endings = [Ending(counts[2]) for counts in self._counts]
         return tuple(
-            Ending.LEFT_SCENE if ending == Ending.TIME_REACHED and self._is_gone(ball) else ending
+            Ending.LEFT_SCENE if ending == Ending.TIME_REACHED and gone[ball] else ending
             for ball, ending in enumerate(endings)
-        )
-
-    def _is_gone(self, ball: int) -> bool:
-        x0, y0, x1, y1 = self.scene.walls.box()
-        ox, oy = self.modelled.origin
-        x, y, vx, vy = self._states[ball][0:4]
-        r = float(self.modelled.radii[ball])
-        return bool(
-            (x + ox > x1 + r and vx >= 0)
-            or (x + ox < x0 - r and vx <= 0)
-            or (y + oy > y1 + r and vy >= 0)
-            or (y + oy < y0 - r and vy <= 0)
         )
 
     def contacts(self, logs: list[FloatArray], owners: list[NDArray[np.int32]]) -> NDArray[Any]:
@@ -217,7 +208,16 @@ def initial_states(modelled: Modelled, position: FloatArray, velocity: FloatArra
     return states
 
 
-def _limits(until: float | None, bounces: int | None) -> tuple[float, int]:
+def is_gone(
+    box: tuple[float, float, float, float], position: FloatArray, velocity: FloatArray, radii: FloatArray
+) -> NDArray[np.bool_]:
+    """Tell which balls are outside the walls' box and fly away from it."""
+    low, high = np.array(box[0:2]) - radii[:, None], np.array(box[2:4]) + radii[:, None]
+    return np.any(((position > high) & (velocity >= 0)) | ((position < low) & (velocity <= 0)), axis=1)
+
+
+def limits(until: float | None, bounces: int | None) -> tuple[float, int]:
+    """Check the two limits of a run and give them as numbers: (until or inf, bounces or the guard)."""
     if until is None and bounces is None:
         raise SceneError(
             "neither a time nor a number of bounces was given", code="no-limit", fix="give until= or bounces="

@@ -27,7 +27,7 @@ STILL_LIMIT = 20_000
 
 
 @kernel
-def fly(model, radius, state, counts, until, limit, log, capacity):
+def fly(model, radius, state, counts, until, limit, hits, log, capacity):
     """Fly one ball until its time, its bounce limit, an ending, or a full log.
 
     Args:
@@ -37,6 +37,7 @@ def fly(model, radius, state, counts, until, limit, log, capacity):
         counts: integers of the ball, see ``Counts``: last feature, bounces, ending, contacts without time.
         until: time at which to stop, or inf.
         limit: number of bounces at which to stop.
+        hits: bounces by wall, added to, or None.
         log: flat floats, ``LOG_STRIDE`` a contact, or None.
         capacity: contacts that fit in ``log``.
 
@@ -95,6 +96,8 @@ def fly(model, radius, state, counts, until, limit, log, capacity):
         vx, vy, energy = reflect(model.restitution, wall, nx, ny, twice, vx, vy, energy)
         last = feature
         bounces += 1
+        if hits is not None:
+            hits[wall] += 1
         if log is not None:
             note(log, noted, time + lost, x, y, vx, vy, radius, nx, ny, feature)
             noted += 1
@@ -109,6 +112,13 @@ def fly(model, radius, state, counts, until, limit, log, capacity):
     state[7], state[8], state[9], state[10] = from_x, from_y, from_vx, from_vy
     counts[0], counts[1], counts[2], counts[3] = last, bounces, ending, still
     return noted
+
+
+@kernel
+def fly_all(model, radii, states, counts, until, limit, hits):
+    """Fly balls one after the other; only their last states and the bounces by wall are kept."""
+    for ball in range(len(radii)):
+        fly(model, radii[ball], states[ball], counts[ball], until, limit, hits, None, limit + 1)
 
 
 @kernel

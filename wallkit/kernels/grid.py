@@ -20,7 +20,7 @@ def scan(model, cell_edges, cell_corners, radius, x, y, vx, vy, energy, last, to
         return best, feature, touched
     best, feature = scan_disc(
         model.edges, model.edge_ids, cell_edges[0], cell_edges[1], model.one_sided, model.edge_wall,
-        radius, x, y, vx, vy, last, best, feature,
+        radius, x, y, vx, vy, last, tolerance, best, feature,
     )  # fmt: skip
     best, feature = scan_corners(
         model.corners, model.corner_ids, cell_corners[0], cell_corners[1], model.one_sided, model.corner_wall,

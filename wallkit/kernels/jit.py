@@ -39,7 +39,7 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     from numba.extending import register_jitable
 
     _register_all(register_jitable)
-    options: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
+    options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False}
     theirs = getattr(config, "CACHE_DIR", "")
     setattr(config, "CACHE_DIR", str(_cache_folder()))  # noqa: B010 - numba makes its settings at run time
     try:
@@ -58,7 +58,7 @@ def compiler_is_loaded() -> bool:
 @cache
 def _register_all(register: Callable[..., Any]) -> None:
     for function in _marked:
-        register(function)
+        register(forceinline=True, _nrt=False)(function)
 
 
 def _cache_folder() -> Path:

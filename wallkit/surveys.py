@@ -1,0 +1,112 @@
+"""``survey``: many balls, only totals."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.kernels.flight import fly_all
+from wallkit.kernels.jit import compiled
+from wallkit.kernels.model import NO_HIT, RUNNING, STATE_SIZE
+from wallkit.modelling import Modelled
+from wallkit.run import Ending
+from wallkit.scene import FloatArray, Scene
+from wallkit.simulation import initial_states, is_gone, limits
+
+CHUNK = 512
+"""Balls a task: enough to forget the cost of a task, few enough to share the work out evenly."""
+
+
+@dataclass(eq=False)
+class Totals:
+    """What is left of a survey.
+
+    Attributes:
+        bounces: (n,) int64, of each ball.
+        position: (n, 2) where each ball ended.
+        velocity: (n, 2) its last velocity.
+        time: (n,) when it ended.
+        hits: (W,) int64, bounces of all balls by wall.
+        ending: (n,) uint8, see :class:`wallkit.run.Ending`.
+    """
+
+    bounces: NDArray[np.int64]
+    position: FloatArray
+    velocity: FloatArray
+    time: FloatArray
+    hits: NDArray[np.int64]
+    ending: NDArray[np.uint8]
+
+
+def survey(
+    scene: Scene,
+    until: float | None = None,
+    bounces: int | None = None,
+    *,
+    threads: int | None = None,
+    executor: Executor | None = None,
+) -> Totals:
+    """Fly every ball until a time, a number of bounces, or an ending of its own, and keep only totals.
+
+    Balls do not meet, so each is flown alone; the result is the same, bit for bit, for any number of threads, and
+    the same as that of :func:`wallkit.simulate`. Kernels are compiled and release the interpreter's lock.
+
+    Args:
+        scene: walls, balls, and what acts.
+        until: seconds; None for no end in time.
+        bounces: bounces a ball; None for the guard of ``simulate``. At least one of the two must be given.
+        threads: how many to use; None for one a core.
+        executor: threads of your own to use instead (a ``ThreadPoolExecutor``).
+
+    Raises:
+        SceneError: neither limit was given, or the scene cannot be simulated.
+    """
+    limit_time, limit_bounces = limits(until, bounces)
+    modelled = Modelled(scene)
+    position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
+    states = initial_states(modelled, position, velocity)
+    counts = np.tile(np.array([NO_HIT, 0, RUNNING, 0], dtype=np.int64), (len(states), 1))
+    work = compiled(fly_all)
+
+    def fly_chunk(first: int) -> NDArray[np.int64]:
+        part = slice(first, first + CHUNK)
+        hits = np.zeros(len(scene.walls), dtype=np.int64)
+        work(modelled.model, modelled.radii[part], states[part], counts[part], limit_time, limit_bounces, hits)
+        return hits
+
+    starts = range(0, len(states), CHUNK)
+    hits = sum(_map(fly_chunk, starts, threads, executor), np.zeros(len(scene.walls), dtype=np.int64))
+    return _totals(scene, modelled, states, counts, hits)
+
+
+def _map(task: Any, starts: range, threads: int | None, executor: Executor | None) -> list[NDArray[np.int64]]:
+    if executor is not None:
+        return list(executor.map(task, starts))
+    threads = threads if threads is not None else os.cpu_count() or 1
+    if threads <= 1 or len(starts) <= 1:
+        return [task(first) for first in starts]
+    with ThreadPoolExecutor(threads) as pool:
+        return list(pool.map(task, starts))
+
+
+def _totals(
+    scene: Scene, modelled: Modelled, states: FloatArray, counts: NDArray[np.int64], hits: NDArray[np.int64]
+) -> Totals:
+    states = states.reshape(-1, STATE_SIZE)
+    position = states[:, 0:2] + modelled.origin
+    ending = counts[:, 2].astype(np.uint8)
+    gone = is_gone(scene.walls.box(), position, states[:, 2:4], modelled.radii)
+    ending[(ending == Ending.TIME_REACHED) & gone] = Ending.LEFT_SCENE
+    return Totals(
+        bounces=counts[:, 1].copy(),
+        position=position,
+        velocity=states[:, 2:4].copy(),
+        time=states[:, 4] + states[:, 5],
+        hits=hits,
+        ending=ending,
+    )
