@@ -20,7 +20,7 @@ from wallkit.scene import FloatArray
 
 IntArray = NDArray[np.int64]
 MARGIN = 2.0**-16
-CELL = 0.7
+CELL = 0.8
 """Cell size in units of sqrt(area / edges); measured, flat between 0.5 and 1.2."""
 PIECE = math.pi / 4
 """The arc around a corner is entered in chords of at most this angle, with the bow between chord and arc."""
@@ -37,9 +37,9 @@ def build_grid(
     """Sort edges and corners into cells.
 
     Args:
-        lines: (E, 8) edges as in ``Model.lines``.
+        lines: (E, 8) columns of ``Line``.
         edge_ids: which of them to enter.
-        corners: (V, 4) corners as in ``Model.vertices``.
+        corners: (V, 4) columns of ``Corner``.
         fans: (V, 2) angle at which the arc of each corner begins, and how far it goes, radians.
         corner_ids: which of them to enter.
         radii: smallest and largest distance of a centre at a contact.
@@ -56,10 +56,10 @@ def build_grid(
     box = (low, size, columns, rows)
     reach = spread + size * MARGIN
     beside, owners = _beside(lines[edge_ids], edge_ids, middle)
-    edge_start, sorted_edges = _enter(box, beside, owners, np.full(len(owners), reach))
+    line_start, sorted_edges = _enter(box, beside, owners, np.full(len(owners), reach))
     chords, bow, owners = _chords(corners[corner_ids, 0:2], fans[corner_ids], corner_ids, middle)
     corner_start, sorted_corners = _enter(box, chords, owners, reach + bow)
-    grid = Grid(edge_start, corner_start, float(low[0]), float(low[1]), size, columns, rows)
+    grid = Grid(line_start, corner_start, float(low[0]), float(low[1]), size, columns, rows)
     return grid, sorted_edges, sorted_corners
 
 
@@ -99,7 +99,7 @@ def _enter(
     cells, which = _cells_of_lines(box, lines, reach)
     many = int(owners.max(initial=0)) + 1
     keys = np.unique(cells * many + owners[which])
-    start = np.zeros(count + 1, dtype=np.int64)
+    start = np.zeros(count + 1, dtype=np.uint64)
     np.cumsum(np.bincount(keys // many, minlength=count), out=start[1:])
     return start, keys % many
 

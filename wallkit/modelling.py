@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.indexing import build_grid
-from wallkit.kernels.model import CORNER_STRIDE, EDGE_STRIDE, Model
+from wallkit.kernels.model import CORNER, LINE, Corner, Line, Model
 from wallkit.scene import FloatArray, Scene, SceneError
 
 IntArray = NDArray[np.int64]
@@ -89,16 +89,16 @@ def _model(scene: Scene, origin: FloatArray, least: float, radius: float, index:
     if use_grid and len(ids):
         least = 0.0 if one_sided is not None else least  # a disc may stand across a wall that it came through
         grid, ids, corner_ids = build_grid(lines, ids, corners, fans, corner_ids, (least, radius))
-    entries = lines[ids]
-    entries[:, 7] = 0.0
+    lines_as_records, corners_as_records = _records(lines, LINE), _records(corners, CORNER)
     return Model(
-        edges=np.ascontiguousarray(entries).reshape(-1),
-        edge_ids=ids,
-        corners=np.ascontiguousarray(corners[corner_ids]).reshape(-1) if radius > 0.0 else None,
+        line_entries=lines_as_records[ids],
+        line_ids=ids,
+        corner_entries=corners_as_records[corner_ids] if radius > 0.0 else None,
         corner_ids=corner_ids,
+        whole=np.array([0, len(ids), 0, len(corner_ids)], dtype=np.uint64),
         grid=grid,
-        lines=np.ascontiguousarray(lines).reshape(-1),
-        vertices=np.ascontiguousarray(corners).reshape(-1),
+        lines=lines_as_records,
+        corners=corners_as_records,
         edge_wall=wall_of_edge,
         corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)).astype(np.int64),
         restitution=_restitution(scene),
@@ -110,7 +110,7 @@ def _model(scene: Scene, origin: FloatArray, least: float, radius: float, index:
 def _lines(start: FloatArray, end: FloatArray) -> FloatArray:
     d = end - start
     length = np.sqrt(d[:, 0] * d[:, 0] + d[:, 1] * d[:, 1])
-    lines = np.zeros((len(d), EDGE_STRIDE))
+    lines = np.zeros((len(d), len(Line._fields)))
     lines[:, 0:2], lines[:, 2:4], lines[:, 6] = start, end, length
     has = length > 0.0
     lines[has, 4] = d[has, 1] / length[has]
@@ -120,7 +120,7 @@ def _lines(start: FloatArray, end: FloatArray) -> FloatArray:
 
 
 def _normals_at_vertices(walls: Any, lines: FloatArray) -> FloatArray:
-    total = np.zeros((len(walls.vertices), CORNER_STRIDE - 2))
+    total = np.zeros((len(walls.vertices), 2))
     np.add.at(total, walls.edge_starts, lines[:, 4:6])
     np.add.at(total, walls.edge_ends, lines[:, 4:6])
     return total
@@ -157,9 +157,16 @@ def _one_sided(scene: Scene) -> IntArray | None:
     return flags if flags.any() else None
 
 
+def _records(columns: FloatArray, dtype: np.dtype[Any]) -> NDArray[Any]:
+    return np.ascontiguousarray(columns).view(dtype).reshape(-1)
+
+
 def _as_lists(model: Model) -> Model:
     def convert(value: Any) -> Any:
         if isinstance(value, np.ndarray):
+            if value.dtype.names is not None:
+                record = {LINE: Line, CORNER: Corner}[value.dtype]
+                return list(map(record._make, value.tolist()))
             return value.tolist()
         if isinstance(value, tuple):
             return type(value)(*(convert(item) for item in value))

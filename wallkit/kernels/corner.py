@@ -35,7 +35,7 @@ def settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, toleranc
 def _blocking(model, first, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance):
     """The touched edge that the velocity runs against soonest, seen from the last one."""
     lines = model.lines
-    tx, ty = -lines[8 * last + 5], lines[8 * last + 4]
+    tx, ty = -lines[last].ny, lines[last].nx
     if tx * vx + ty * vy < 0.0:
         tx, ty = -tx, -ty
     found = NO_HIT
@@ -43,14 +43,14 @@ def _blocking(model, first, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy
     for edge in range(len(model.edge_wall)):
         if edge == last:
             continue
-        o = 8 * edge
-        nx, ny, length = lines[o + 4], lines[o + 5], lines[o + 6]
-        ex, ey = x - lines[o], y - lines[o + 1]
+        line = lines[edge]
+        nx, ny, length = line.nx, line.ny, line.length
+        ex, ey = x - line.ax, y - line.ay
         d = ex * nx + ey * ny
         u = ey * nx - ex * ny
         if not (-tolerance <= d <= tolerance and -tolerance <= u <= length + tolerance):
             continue
-        came = (from_x - lines[o]) * nx + (from_y - lines[o + 1]) * ny
+        came = (from_x - line.ax) * nx + (from_y - line.ay) * ny
         if -tolerance <= came <= tolerance:
             came = from_vx * nx + from_vy * ny
         toward = vx * nx + vy * ny
@@ -58,7 +58,7 @@ def _blocking(model, first, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy
             continue
         if came < 0.0 and model_is_one_sided(model.one_sided, model.edge_wall[edge]):
             continue
-        lean = _lean(lines, last, edge, u, length, tolerance, from_x, from_y, from_vx, from_vy, tx, ty)
+        lean = _lean(lines[last], line, u, tolerance, from_x, from_y, from_vx, from_vy, tx, ty)
         if lean > widest:
             widest = lean
             found = edge
@@ -74,21 +74,21 @@ def model_is_one_sided(one_sided, wall):
 
 
 @kernel
-def _lean(lines, last, edge, u, length, tolerance, from_x, from_y, from_vx, from_vy, tx, ty):
+def _lean(last, line, u, tolerance, from_x, from_y, from_vx, from_vy, tx, ty):
     """How closely an edge leans over the way along the last wall, -1 to 1; -2 if it does not rise on the ball's side.
 
     An edge that ends here and goes off behind the last wall, or along it, cannot be met when leaving that wall.
     """
-    mx, my = lines[8 * last + 4], lines[8 * last + 5]
-    side = (from_x - lines[8 * last]) * mx + (from_y - lines[8 * last + 1]) * my
+    mx, my = last.nx, last.ny
+    side = (from_x - last.ax) * mx + (from_y - last.ay) * my
     if -tolerance <= side <= tolerance:
         side = from_vx * mx + from_vy * my
     if side < 0.0:
         mx, my = -mx, -my
-    dx, dy = -lines[8 * edge + 5], lines[8 * edge + 4]
+    dx, dy = -line.ny, line.nx
     rise = dx * mx + dy * my
     starts_here = u <= tolerance
-    ends_here = u >= length - tolerance
+    ends_here = u >= line.length - tolerance
     if ends_here and not starts_here:
         dx, dy, rise = -dx, -dy, -rise
     if (starts_here or ends_here) and rise <= 0.0:
@@ -115,11 +115,11 @@ def _leave(model, first, second, vx, vy):
     edge, other, sign, other_sign = first, second, sign_a, sign_b
     receded = 0
     for _turn in range(TURNS):
-        nx, ny = sign * lines[8 * edge + 4], sign * lines[8 * edge + 5]
+        nx, ny = sign * lines[edge].nx, sign * lines[edge].ny
         if vx * nx + vy * ny < 0.0:
             receded = 0
             vx, vy, _energy = reflect(
-                model.restitution, model.edge_wall[edge], nx, ny, lines[8 * edge + 7], vx, vy, vx * vx + vy * vy
+                model.restitution, model.edge_wall[edge], nx, ny, lines[edge].twice, vx, vy, vx * vx + vy * vy
             )
         else:
             receded += 1
@@ -133,4 +133,4 @@ def _leave(model, first, second, vx, vy):
 @kernel
 def _against(lines, edge, vx, vy):
     """Sign that turns the normal of a line against a velocity."""
-    return -1.0 if vx * lines[8 * edge + 4] + vy * lines[8 * edge + 5] > 0.0 else 1.0
+    return -1.0 if vx * lines[edge].nx + vy * lines[edge].ny > 0.0 else 1.0

@@ -62,12 +62,12 @@ def fly(model, radius, state, counts, until, limit, hits, log, capacity):
             model, model.grid, radius, x, y, vx, vy, energy, last, tolerance, remaining, NO_HIT
         )
         if touched > 0 and last >= 0:
-            corner = settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still)
-            if corner == AMBIGUOUS:
+            met = settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still)
+            if met == AMBIGUOUS:
                 ending = AMBIGUOUS_CORNER
                 break
-            if corner != NO_HIT:
-                t, feature = 0.0, corner
+            if met != NO_HIT:
+                t, feature = 0.0, met
         if feature == NO_HIT:
             ending = LEFT_SCENE if until == math.inf else TIME_REACHED
             break
@@ -83,12 +83,12 @@ def fly(model, radius, state, counts, until, limit, hits, log, capacity):
                 ending = COLLAPSE
                 break
         if feature >= 0:
-            o = 8 * feature
-            nx, ny, twice = model.lines[o + 4], model.lines[o + 5], model.lines[o + 7]
+            line = model.lines[feature]
+            nx, ny, twice = line.nx, line.ny, line.twice
             wall = model.edge_wall[feature]
         else:
-            o = 4 * (-2 - feature)
-            nx, ny = x - model.vertices[o], y - model.vertices[o + 1]
+            corner = model.corners[-2 - feature]
+            nx, ny = x - corner.x, y - corner.y
             twice = 2.0 / (nx * nx + ny * ny)
             wall = model.corner_wall[-2 - feature]
         if vx * nx + vy * ny > 0.0:

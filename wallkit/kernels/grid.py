@@ -9,21 +9,21 @@ from wallkit.kernels.jit import kernel
 
 
 @kernel
-def scan(model, cell_edges, cell_corners, radius, x, y, vx, vy, energy, last, tolerance, best, feature):
-    """Earliest contact with the entries of one cell, given as (first edge, end, first corner, end) in two pairs."""
+def scan(model, first, end, first_corner, end_corner, radius, x, y, vx, vy, energy, last, tolerance, best, feature):
+    """Earliest contact with the entries of one cell."""
     touched = 0
     if radius == 0.0:
         best, feature, touched = scan_point(
-            model.edges, model.edge_ids, cell_edges[0], cell_edges[1], model.one_sided, model.edge_wall,
+            model.line_entries, model.line_ids, first, end, model.one_sided, model.edge_wall,
             x, y, vx, vy, last, tolerance, best, feature,
         )  # fmt: skip
         return best, feature, touched
     best, feature = scan_disc(
-        model.edges, model.edge_ids, cell_edges[0], cell_edges[1], model.one_sided, model.edge_wall,
+        model.line_entries, model.line_ids, first, end, model.one_sided, model.edge_wall,
         radius, x, y, vx, vy, last, tolerance, best, feature,
     )  # fmt: skip
     best, feature = scan_corners(
-        model.corners, model.corner_ids, cell_corners[0], cell_corners[1], model.one_sided, model.corner_wall,
+        model.corner_entries, model.corner_ids, first_corner, end_corner, model.one_sided, model.corner_wall,
         radius, x, y, vx, vy, energy, last, best, feature,
     )  # fmt: skip
     return best, feature, touched
@@ -33,9 +33,10 @@ def scan(model, cell_edges, cell_corners, radius, x, y, vx, vy, energy, last, to
 def search(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, feature):
     """Find the earliest contact before ``best``: (time, feature, number of edges touched at the start)."""
     if grid is None:
-        edges = (0, len(model.edge_ids))
-        corners = (0, len(model.corner_ids))
-        return scan(model, edges, corners, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
+        whole = model.whole
+        return scan(
+            model, whole[0], whole[1], whole[2], whole[3], radius, x, y, vx, vy, energy, last, tolerance, best, feature
+        )
     return _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
 
 
@@ -60,7 +61,7 @@ def _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, fea
     while True:
         c = row * grid.columns + column
         best, feature, more = scan(
-            model, (grid.edge_start[c], grid.edge_start[c + 1]), (grid.corner_start[c], grid.corner_start[c + 1]),
+            model, grid.line_start[c], grid.line_start[c + 1], grid.corner_start[c], grid.corner_start[c + 1],
             radius, x, y, vx, vy, energy, last, tolerance, best, feature,
         )  # fmt: skip
         touched += more

@@ -26,7 +26,7 @@ def precedes(feature: int, other: int) -> bool:
 
 
 @kernel
-def scan_point(edges, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last, tolerance, best, feature):
+def scan_point(lines, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last, tolerance, best, feature):
     """Earliest contact of a point with the lines of entries start to stop.
 
     The ray p + t v passes between a and b when the crosses of (a - p) and (b - p) with v differ in sign, 0
@@ -44,25 +44,25 @@ def scan_point(edges, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last
     touched = 0
     reach = best * WIDER
     for k in range(start, stop):
-        o = 8 * k
-        ex = edges[o] - x
-        ey = edges[o + 1] - y
-        nx = edges[o + 4]
-        ny = edges[o + 5]
+        line = lines[k]
+        ex = line.ax - x
+        ey = line.ay - y
+        nx = line.nx
+        ny = line.ny
         d = -(ex * nx + ey * ny)
         if -tolerance <= d <= tolerance:
             u = ex * ny - ey * nx
-            if -tolerance <= u <= edges[o + 6] + tolerance:
+            if -tolerance <= u <= line.length + tolerance:
                 if ids[k] != last:
                     touched += 1
                 continue
         cross_a = ex * vy - ey * vx
-        cross_b = (edges[o + 2] - x) * vy - (edges[o + 3] - y) * vx
+        cross_b = (line.bx - x) * vy - (line.by - y) * vx
         if (cross_a < 0.0) == (cross_b < 0.0):
             continue
         if (cross_a < 0.0) != (d > 0.0):
             continue
-        gap = abs(d) * edges[o + 6]
+        gap = abs(d) * line.length
         closing = abs(cross_b - cross_a)
         if gap > reach * closing:
             continue
@@ -78,7 +78,7 @@ def scan_point(edges, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last
 
 
 @kernel
-def scan_disc(edges, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, last, tolerance, best, feature):
+def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, last, tolerance, best, feature):
     """Earliest contact of a disc with the flat of the lines of entries start to stop.
 
     With d = (p - a).n on the side where d > 0, contact is at d + t v.n = r, t = (d - r) / -(v.n), if v.n < 0 and
@@ -94,11 +94,11 @@ def scan_disc(edges, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
     reach = best * WIDER
     slack = tolerance + radius * 2.0**-42
     for k in range(start, stop):
-        o = 8 * k
-        ex = x - edges[o]
-        ey = y - edges[o + 1]
-        nx = edges[o + 4]
-        ny = edges[o + 5]
+        line = lines[k]
+        ex = x - line.ax
+        ey = y - line.ay
+        nx = line.nx
+        ny = line.ny
         d = ex * nx + ey * ny
         closing = -(vx * nx + vy * ny)
         if d < 0.0:
@@ -116,7 +116,7 @@ def scan_disc(edges, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
         if t < 0.0:
             t = 0.0
         u = ey * nx - ex * ny + t * (vy * nx - vx * ny)
-        if u < -slack or u > edges[o + 6] + slack:
+        if u < -slack or u > line.length + slack:
             continue
         if (t < best or (t == best and precedes(ids[k], feature))) and ids[k] != last:
             best = t
@@ -141,9 +141,9 @@ def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
     per_energy = 1.0 / energy
     square = radius * radius
     for k in range(start, stop):
-        o = 4 * k
-        ex = x - corners[o]
-        ey = y - corners[o + 1]
+        corner = corners[k]
+        ex = x - corner.x
+        ey = y - corner.y
         along = ex * vx + ey * vy
         if along >= 0.0:
             continue
@@ -159,7 +159,7 @@ def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
             if -2 - ids[k] == last:
                 continue
             if one_sided is not None:
-                if one_sided[corner_wall[ids[k]]] != 0 and _behind(corners, o, ex + t * vx, ey + t * vy):
+                if one_sided[corner_wall[ids[k]]] != 0 and _behind(corner, ex + t * vx, ey + t * vy):
                     continue
             best = t
             feature = -2 - ids[k]
@@ -167,6 +167,6 @@ def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
 
 
 @kernel
-def _behind(corners, o, ex, ey):
+def _behind(corner, ex, ey):
     """A centre at e from a corner is behind it when it is against the sum of the normals there."""
-    return ex * corners[o + 2] + ey * corners[o + 3] < 0.0
+    return ex * corner.sx + ey * corner.sy < 0.0

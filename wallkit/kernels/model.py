@@ -1,7 +1,8 @@
 """What the kernels see of a scene: flat arrays of floats, and None for what the scene lacks.
 
-The same tuples hold NumPy arrays for the compiled kernels and lists of Python floats for the interpreted ones;
-both are read as ``a[i]``, so that one source serves and gives the same bits. Coordinates are local (see
+The same tuples hold NumPy arrays (of records) for the compiled kernels and lists (of named tuples) of Python floats
+for the interpreted ones; both are read as ``lines[i].ax``, so that one source serves and gives the same bits.
+Positions in arrays of entries are unsigned: they need no look whether they count from the end. Coordinates are local (see
 ``Scene.arrays``).
 """
 
@@ -9,10 +10,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-EDGE_STRIDE = 8
-"""An edge entry: ax, ay, bx, by, nx, ny, length, unused; n is the outward unit normal as rounded."""
-CORNER_STRIDE = 4
-"""A corner entry: x, y, and the sum of the outward normals of its edges (which side of a one-sided wall it is)."""
+import numpy as np
+
 STATE_SIZE = 12
 """x, y, vx, vy, time, what the time lost to rounding, speed squared; for points where the last flight began (x, y)
 and its velocity, and the tolerance: how far positions may be off by rounding."""
@@ -29,10 +28,36 @@ EDGE, VERTEX = 0, 1
 TIME_REACHED, BOUNCE_LIMIT, LEFT_SCENE, AT_REST, COLLAPSE, AMBIGUOUS_CORNER = 0, 1, 2, 3, 4, 5
 
 
+class Line(NamedTuple):
+    """An edge from a to b; n is the outward unit normal as rounded, twice = 2 / (n.n)."""
+
+    ax: float
+    ay: float
+    bx: float
+    by: float
+    nx: float
+    ny: float
+    length: float
+    twice: float
+
+
+class Corner(NamedTuple):
+    """A vertex, and the sum of the outward normals of its edges: which side of a one-sided wall a centre is on."""
+
+    x: float
+    y: float
+    sx: float
+    sy: float
+
+
+LINE = np.dtype([(name, np.float64) for name in Line._fields])
+CORNER = np.dtype([(name, np.float64) for name in Corner._fields])
+
+
 class Grid(NamedTuple):
     """Uniform cells; the entries of cell c are start[c] to start[c + 1]."""
 
-    edge_start: Any
+    line_start: Any
     corner_start: Any
     x0: float
     y0: float
@@ -44,15 +69,19 @@ class Grid(NamedTuple):
 class Model(NamedTuple):
     """All that a flight needs to know of its scene."""
 
-    edges: Any
-    edge_ids: Any
-    corners: Any
+    line_entries: Any
+    """``Line`` cell by cell, as ``line_ids`` are."""
+    line_ids: Any
+    corner_entries: Any
+    """``Corner`` cell by cell; None when all balls are points."""
     corner_ids: Any
+    whole: Any
+    """Where entries start and end, as one cell: first line, end, first corner, end."""
     grid: Any
     lines: Any
-    """By edge: ax, ay, bx, by, nx, ny, length, 2 / (n.n)."""
-    vertices: Any
-    """By corner: x, y, sum of normals."""
+    """``Line`` by edge."""
+    corners: Any
+    """``Corner`` by vertex."""
     edge_wall: Any
     corner_wall: Any
     restitution: Any
