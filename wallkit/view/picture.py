@@ -89,12 +89,12 @@ def draw_walls(
     canvas: Canvas, walls: Walls, frame: Frame, *, normals: bool = True, free: FloatArray = _NO_PLACES
 ) -> None:
     """Draw fills, outlines and normals; ``free`` is a place that is not material, such as a ball's."""
-    shades = _shades(walls)
+    numbers = shades(walls)
     for material, members, framed in solid_areas(walls, free):
         commands = [command for index in members for command in wall_path(walls, index, frame)]
         if framed:
             commands = [*_around(frame), *commands]
-        canvas.add(Shape(f"material{shades[material]}", commands))
+        canvas.add(Shape(f"material{numbers[material]}", commands))
     for index, closed in enumerate(walls.closed):
         told = " · ".join(part for part in (walls.layers[index], walls.names[index]) if part)
         canvas.add(Shape("outline" if closed else "open", wall_path(walls, index, frame), title=told))
@@ -115,7 +115,7 @@ def _around(frame: Frame) -> list[Command]:
     return [("M", x0, y0), ("L", x1, y0), ("L", x1, y1), ("L", x0, y1), ("Z",)]
 
 
-def _shades(walls: Walls) -> dict[Material, int]:
+def shades(walls: Walls) -> dict[Material, int]:
     """Number the materials in order, the plain one always 0; beyond the sixth, shades come round again."""
     others = [material for material in dict.fromkeys(walls.materials) if material != Material()]
     return {Material(): 0, **{material: 1 + index % (MATERIALS - 1) for index, material in enumerate(others)}}
@@ -127,7 +127,7 @@ def material_legend(walls: Walls) -> list[tuple[str, str]]:
         return []
     return [
         (f"material{shade}", f"restitution {m.restitution:g}, tangential {m.tangential_restitution:g}")
-        for m, shade in _shades(walls).items()
+        for m, shade in shades(walls).items()
         if m in walls.materials
     ]
 

@@ -1,0 +1,1 @@
+"""The page of ``wallkit play``: a local server, and what it shares with the replay."""

@@ -1,0 +1,142 @@
+// The exact motion of balls, drawn from contacts: the state at any time is the state after the last contact,
+// carried on in closed form. Nothing here computes a collision; the library has done that.
+(() => {
+  "use strict";
+  const W = (globalThis.Wallkit ??= {});
+  const TYPES = { f8: Float64Array, f4: Float32Array, i4: Int32Array, u1: Uint8Array };
+
+  // A column travels as little-endian numbers in base64; every browser of today runs on such machines.
+  W.column = ({ type, data }) => {
+    const text = atob(data);
+    const bytes = new Uint8Array(text.length);
+    for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i);
+    return new TYPES[type](bytes.buffer);
+  };
+
+  // How many entries of the rising `times` are at most t (or below t); `at` maps a place to an index into times.
+  const countUpTo = (t, length, at, below = false) => {
+    let low = 0;
+    let high = length;
+    while (low < high) {
+      const middle = (low + high) >>> 1;
+      const value = at(middle);
+      if (below ? value < t : value <= t) low = middle + 1;
+      else high = middle;
+    }
+    return low;
+  };
+
+  // A run as the server or the replay gives it (see payload.py): contacts in order of time, all balls together.
+  class Motion {
+    constructor(run) {
+      this.balls = run.balls;
+      this.gravity = run.gravity;
+      this.start = columns(run.start);
+      this.end = columns(run.end);
+      this.ending = run.ending;
+      this.trusted = run.trusted;
+      this.leftOut = run.left_out;
+      this.duration = run.duration;
+      this.radius = W.column(run.radius);
+      Object.assign(this, columns(run.contacts)); // time, ball, x, y, vx, vy, nx, ny, wall, kind
+      [this.originX, this.originY] = run.origin;
+      this.count = this.time.length;
+      this.sortByBall();
+    }
+
+    // Lists each ball's contacts: ball b has ofBall[first[b]] to ofBall[first[b + 1] - 1].
+    sortByBall() {
+      this.first = new Int32Array(this.balls + 1);
+      for (const ball of this.ball) this.first[ball + 1]++;
+      for (let b = 0; b < this.balls; b++) this.first[b + 1] += this.first[b];
+      const place = this.first.slice();
+      this.ofBall = new Int32Array(this.count);
+      for (let i = 0; i < this.count; i++) this.ofBall[place[this.ball[i]]++] = i;
+    }
+
+    contactX(i) {
+      return this.originX + this.x[i];
+    }
+
+    contactY(i) {
+      return this.originY + this.y[i];
+    }
+
+    // The number of this ball's contacts up to and with t.
+    bouncesOf(ball, t) {
+      const first = this.first[ball];
+      return countUpTo(t, this.first[ball + 1] - first, (k) => this.time[this.ofBall[first + k]]);
+    }
+
+    // The number of all balls' contacts up to and with t.
+    bounces(t) {
+      return countUpTo(t, this.count, (k) => this.time[k]);
+    }
+
+    // The flight number k of a ball: from its contact k - 1 (0: its start) to its contact k (or its end).
+    flight(ball, k, into) {
+      const first = this.first[ball];
+      const last = this.first[ball + 1] - first;
+      if (k > 0) {
+        const i = this.ofBall[first + k - 1];
+        into.time = this.time[i];
+        into.x = this.contactX(i);
+        into.y = this.contactY(i);
+        into.vx = this.vx[i];
+        into.vy = this.vy[i];
+        into.contact = i;
+      } else {
+        into.time = 0;
+        into.x = this.start.x[ball];
+        into.y = this.start.y[ball];
+        into.vx = this.start.vx[ball];
+        into.vy = this.start.vy[ball];
+        into.contact = -1;
+      }
+      into.until = k < last ? this.time[this.ofBall[first + k]] : this.endOf(ball);
+      return into;
+    }
+
+    // A ball that left the scene flies on; every other one stands where its run ended.
+    endOf(ball) {
+      return this.ending[ball] === "left the scene" ? Infinity : this.end.time[ball];
+    }
+
+    // Position and velocity at t: p + v dt + g dt^2 / 2 and v + g dt, from the contact before t.
+    state(ball, t, into = {}) {
+      this.flight(ball, this.bouncesOf(ball, t), into);
+      into.over = t > into.until;
+      const dt = Math.max(0, Math.min(t, into.until) - into.time);
+      const [gx, gy] = this.gravity ?? [0, 0];
+      into.x += dt * (into.vx + 0.5 * gx * dt);
+      into.y += dt * (into.vy + 0.5 * gy * dt);
+      into.vx += gx * dt;
+      into.vy += gy * dt;
+      return into;
+    }
+
+    // Energy per mass in (units/s)^2: v^2 / 2 - g . x, the height counted from where the ball began.
+    energy(ball, t) {
+      const s = this.state(ball, t);
+      const [gx, gy] = this.gravity ?? [0, 0];
+      return (s.vx * s.vx + s.vy * s.vy) / 2 - gx * (s.x - this.start.x[ball]) - gy * (s.y - this.start.y[ball]);
+    }
+
+    // The time of the next contact after t, of any ball; null without one.
+    next(t) {
+      const k = this.bounces(t);
+      return k < this.count ? this.time[k] : null;
+    }
+
+    // The time of the last contact before t; 0 without one.
+    previous(t) {
+      const k = countUpTo(t, this.count, (i) => this.time[i], true);
+      return k > 0 ? this.time[k - 1] : 0;
+    }
+  }
+
+  const columns = (table) =>
+    Object.fromEntries(Object.entries(table).map(([name, packed]) => [name, W.column(packed)]));
+
+  W.Motion = Motion;
+})();

@@ -1,0 +1,368 @@
+// Player: the clock, the transport bar and everything that moves. Each frame is drawn from the exact state at its
+// own time, so nothing depends on how many frames there are.
+(() => {
+  "use strict";
+  const W = (globalThis.Wallkit ??= {});
+
+  const RATES = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
+  const SEGMENTS = 6000; // flights drawn behind all balls together
+  const TRAIL = 80; // flights behind one ball
+  const GHOSTS = 400; // ghosts of all balls together
+  const FRAMES = 600; // draw times that are kept
+
+  class Player {
+    constructor(stage, bar) {
+      this.stage = stage;
+      this.bar = bar;
+      this.picture = null;
+      this.motion = null;
+      this.time = 0;
+      this.rate = 1;
+      this.playing = false;
+      this.normals = true;
+      this.ghosts = true;
+      this.trails = true;
+      this.problems = [];
+      this.chosen = -1;
+      this.frameTimes = []; // milliseconds that each frame took to draw, for tests and for the curious
+      this.onframe = () => {};
+      this.decorate = () => {}; // draws what a page has beside the balls
+      this.part = (name) => bar.querySelector(`[data-part=${name}]`);
+      stage.changed = () => this.wake();
+      this.fillRates();
+      this.listen();
+      matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => stage.touch());
+    }
+
+    fillRates() {
+      const select = this.part("rate");
+      for (const rate of RATES) select.add(new Option(`× ${rate}`, String(rate), rate === 1, rate === 1));
+    }
+
+    listen() {
+      this.part("play").addEventListener("click", () => this.toggle());
+      this.part("restart").addEventListener("click", () => this.seek(0));
+      this.part("back").addEventListener("click", () => this.step(-1));
+      this.part("step").addEventListener("click", () => this.step(1));
+      this.part("rate").addEventListener("change", (event) => this.setRate(Number(event.target.value)));
+      this.part("scrub").addEventListener("input", (event) => {
+        this.seek(Number(event.target.value) * this.shownDuration());
+      });
+      document.addEventListener("keydown", (event) => this.key(event));
+    }
+
+    // Keys work wherever the focus is, except where they already mean something.
+    key(event) {
+      if (event.ctrlKey || event.metaKey || event.altKey || W.typing(event.target)) return;
+      const onButton = event.target.closest?.("button, summary, a, select");
+      const act = {
+        " ": onButton ? null : () => this.toggle(),
+        k: () => this.toggle(),
+        ".": () => this.step(1),
+        ",": () => this.step(-1),
+        r: () => this.seek(0),
+        R: () => this.seek(0),
+        "[": () => this.setRate(this.neighbour(-1)),
+        "]": () => this.setRate(this.neighbour(1)),
+      }[event.key];
+      if (!act) return;
+      event.preventDefault();
+      act();
+    }
+
+    neighbour(by) {
+      const index = RATES.indexOf(this.rate) + by;
+      return RATES[Math.min(RATES.length - 1, Math.max(0, index))];
+    }
+
+    setRate(rate) {
+      this.rate = rate;
+      this.part("rate").value = String(rate);
+    }
+
+    // The rate at which the fastest ball crosses the picture in about three seconds.
+    suitRate() {
+      const { start, gravity, end } = this.motion;
+      let speed = 0;
+      for (let b = 0; b < this.motion.balls; b++) speed = Math.max(speed, Math.hypot(start.vx[b], start.vy[b]), Math.hypot(end.vx[b], end.vy[b]));
+      const [x0, y0, x1, y1] = this.stage.box;
+      const size = Math.hypot(x1 - x0, y1 - y0) || 1;
+      if (gravity) speed = Math.max(speed, Math.sqrt(2 * Math.hypot(...gravity) * size) / 2);
+      const wanted = speed > 0 ? size / speed / 3 : 1;
+      this.setRate(RATES.reduce((best, rate) => (Math.abs(Math.log(rate / wanted)) < Math.abs(Math.log(best / wanted)) ? rate : best)));
+    }
+
+    showWalls(picture, problems = []) {
+      this.picture = picture;
+      this.problems = problems;
+      this.chosen = -1;
+      this.stage.touch();
+    }
+
+    load(motion) {
+      this.motion = motion;
+      this.bar.toggleAttribute("data-empty", !motion);
+      for (const name of ["play", "restart", "back", "step", "scrub"]) this.part(name).disabled = !motion;
+      if (!motion) this.pause();
+      if (motion) this.time = Math.min(this.time, this.shownDuration());
+      this.stage.touch();
+    }
+
+    shownDuration() {
+      return this.motion ? this.motion.duration : 0;
+    }
+
+    toggle() {
+      if (this.playing) return this.pause();
+      if (!this.motion) return;
+      if (this.time >= this.shownDuration()) this.time = 0;
+      this.playing = true;
+      this.lastFrame = null;
+      this.showPlaying();
+      this.wake();
+    }
+
+    play() {
+      if (!this.playing) this.toggle();
+    }
+
+    pause() {
+      this.playing = false;
+      this.showPlaying();
+      this.wake();
+    }
+
+    showPlaying() {
+      const button = this.part("play");
+      button.toggleAttribute("data-playing", this.playing);
+      button.setAttribute("aria-label", this.playing ? "Pause" : "Play");
+      button.title = `${this.playing ? "Pause" : "Play"} (space)`;
+    }
+
+    seek(time) {
+      this.time = Math.min(Math.max(time, 0), this.shownDuration());
+      this.wake();
+    }
+
+    // To the next contact of any ball (or the one before), exactly at its time.
+    step(by) {
+      if (!this.motion) return;
+      this.pause();
+      const time = by > 0 ? this.motion.next(this.time) : this.motion.previous(this.time);
+      this.seek(time ?? this.shownDuration());
+    }
+
+    wake() {
+      if (this.asked) return;
+      this.asked = true;
+      requestAnimationFrame((now) => {
+        this.asked = false;
+        this.frame(now);
+      });
+    }
+
+    frame(now) {
+      if (this.playing) {
+        if (this.lastFrame !== null) this.time += (Math.min(now - this.lastFrame, 250) / 1000) * this.rate;
+        this.lastFrame = now;
+        if (this.time >= this.shownDuration() && !this.more?.()) {
+          this.time = this.shownDuration();
+          this.pause();
+        }
+      }
+      const began = performance.now();
+      this.draw();
+      if (this.frameTimes.push(performance.now() - began) > FRAMES) this.frameTimes.shift();
+      this.showClock();
+      this.onframe();
+      if (this.playing) this.wake();
+    }
+
+    draw() {
+      const { stage } = this;
+      const colours = W.colours();
+      if (stage.dirty) {
+        stage.dirty = false;
+        const back = stage.context(stage.back);
+        this.picture?.draw(back, stage, colours, { normals: this.normals });
+      }
+      const ctx = stage.context(stage.front);
+      ctx.lineJoin = ctx.lineCap = "round";
+      if (this.motion) this.drawMotion(ctx, colours);
+      W.drawMarks(ctx, stage, colours, this.problems, this.chosen);
+      this.decorate(ctx, colours);
+    }
+
+    drawMotion(ctx, colours) {
+      const { motion } = this;
+      const flights = Math.max(1, Math.min(TRAIL, Math.floor(SEGMENTS / motion.balls)));
+      const ghosts = Math.max(1, Math.min(8, Math.floor(GHOSTS / motion.balls)));
+      for (let b = 0; b < motion.balls; b++) {
+        ctx.strokeStyle = this.colourOf(b, colours);
+        if (this.trails) this.drawTrail(ctx, b, flights);
+        if (this.ghosts) this.drawGhosts(ctx, b, ghosts);
+      }
+      ctx.globalAlpha = 1;
+      for (let b = 0; b < motion.balls; b++) this.drawBall(ctx, b, colours);
+      if (motion.balls === 1) this.drawContact(ctx, colours);
+    }
+
+    colourOf(ball, colours) {
+      const { ramp } = colours;
+      if (this.motion.balls === 1) return colours.info;
+      return ramp[Math.round((ball * (ramp.length - 1)) / (this.motion.balls - 1))];
+    }
+
+    // The last flights: straight lines, or parabolas drawn as the quadratic curves that they are. They fade in
+    // bands, since one stroke has one opacity.
+    drawTrail(ctx, ball, flights) {
+      const last = this.motion.bouncesOf(ball, this.time);
+      const from = Math.max(0, last - flights);
+      const bands = this.motion.balls > 20 ? 2 : 8;
+      const many = this.motion.balls > 20;
+      ctx.lineWidth = many ? 1 : 1.6;
+      const size = Math.ceil((last + 1 - from) / bands);
+      for (let k = from; k <= last; k += size) {
+        const age = (last - Math.min(k + size - 1, last)) / Math.max(1, flights);
+        ctx.globalAlpha = (many ? 0.5 : 0.9) * (1 - 0.85 * age);
+        ctx.beginPath();
+        for (let i = k; i < Math.min(k + size, last + 1); i++) this.traceFlight(ctx, ball, i);
+        ctx.stroke();
+      }
+    }
+
+    traceFlight(ctx, ball, k) {
+      const { motion, stage } = this;
+      const f = motion.flight(ball, k, FLIGHT);
+      W.traceFlight(ctx, stage, f, Math.min(f.until, this.time) - f.time, motion.gravity);
+    }
+
+    drawGhosts(ctx, ball, ghosts) {
+      const { motion, stage } = this;
+      const radius = this.shownRadius(ball);
+      const last = motion.bouncesOf(ball, this.time);
+      ctx.lineWidth = 1;
+      for (let k = Math.max(1, last - ghosts + 1); k <= last; k++) {
+        const i = motion.ofBall[motion.first[ball] + k - 1];
+        ctx.globalAlpha = 0.7 * (1 - (last - k) / ghosts);
+        ctx.beginPath();
+        ctx.arc(stage.screenX(motion.contactX(i)), stage.screenY(motion.contactY(i)), radius, 0, 2 * Math.PI);
+        ctx.stroke();
+      }
+    }
+
+    // A point is shown as a small disc; a ball as large as it is.
+    shownRadius(ball) {
+      return Math.max(this.motion.radius[ball] * this.stage.scale, this.motion.balls > 20 ? 2.5 : 3.5);
+    }
+
+    drawBall(ctx, ball, colours) {
+      const { motion, stage } = this;
+      const s = motion.state(ball, this.time, STATE);
+      const [x, y] = [stage.screenX(s.x), stage.screenY(s.y)];
+      const radius = this.shownRadius(ball);
+      ctx.globalAlpha = s.over && motion.ending[ball] === "bounce limit" ? 0.35 : 1;
+      ctx.beginPath();
+      ctx.arc(x, y, radius, 0, 2 * Math.PI);
+      ctx.fillStyle = motion.balls === 1 ? colours.paper : this.colourOf(ball, colours);
+      ctx.fill();
+      ctx.lineWidth = motion.balls > 20 ? 0.8 : 2;
+      ctx.strokeStyle = colours.ink;
+      ctx.stroke();
+      if (motion.balls > 1 || s.over) return;
+      const speed = Math.hypot(s.vx, s.vy);
+      if (!(speed > 0)) return;
+      const [dx, dy] = [s.vx / speed, stage.up ? -s.vy / speed : s.vy / speed];
+      W.arrow(ctx, x + dx * radius, y + dy * radius, x + dx * (radius + 20), y + dy * (radius + 20), colours.ink);
+    }
+
+    // Exactly at a contact: its normal, so that the law of reflection can be seen.
+    drawContact(ctx, colours) {
+      const { motion, stage } = this;
+      const s = motion.state(0, this.time, STATE);
+      if (s.contact < 0 || motion.time[s.contact] !== this.time) return;
+      const nx = motion.nx[s.contact];
+      const ny = stage.up ? -motion.ny[s.contact] : motion.ny[s.contact];
+      const radius = motion.radius[0] * stage.scale;
+      const [x, y] = [stage.screenX(s.x) - nx * radius, stage.screenY(s.y) - ny * radius];
+      W.arrow(ctx, x, y, x + nx * (2 * radius + 34), y + ny * (2 * radius + 34), colours.normal);
+      ctx.beginPath();
+      ctx.arc(x, y, 4, 0, 2 * Math.PI);
+      ctx.fillStyle = colours.normal;
+      ctx.fill();
+    }
+
+    showClock() {
+      const duration = this.shownDuration();
+      const scrub = this.part("scrub");
+      if (document.activeElement !== scrub || this.playing) scrub.value = duration > 0 ? this.time / duration : 0;
+      const text = `${W.number(this.time)} s of ${W.number(duration)} s`;
+      scrub.setAttribute("aria-valuetext", text);
+      scrub.style.setProperty("--done", `${duration > 0 ? (100 * this.time) / duration : 0}%`);
+      this.part("clock").textContent = this.motion ? `${W.number(this.time)} s` : "";
+    }
+  }
+
+  const STATE = {};
+  const FLIGHT = {};
+
+  // Adds a flight's path: from p with v for `span` seconds. The control point of the parabola is p + v span / 2.
+  W.traceFlight = (ctx, stage, f, span, gravity) => {
+    if (!(span > 0)) return;
+    const far = Number.isFinite(span) ? span : (4 * (stage.width + stage.height)) / stage.scale / Math.max(Math.hypot(f.vx, f.vy), 1e-300);
+    const [gx, gy] = gravity ?? [0, 0];
+    const [ax, ay] = [stage.screenX(f.x), stage.screenY(f.y)];
+    const bx = stage.screenX(f.x + far * (f.vx + 0.5 * gx * far));
+    const by = stage.screenY(f.y + far * (f.vy + 0.5 * gy * far));
+    if (gravity) {
+      ctx.moveTo(ax, ay);
+      ctx.quadraticCurveTo(stage.screenX(f.x + 0.5 * far * f.vx), stage.screenY(f.y + 0.5 * far * f.vy), bx, by);
+      return;
+    }
+    const cut = W.cut(ax, ay, bx, by, stage);
+    if (!cut) return;
+    ctx.moveTo(cut[0], cut[1]);
+    ctx.lineTo(cut[2], cut[3]);
+  };
+
+  W.arrow = (ctx, ax, ay, bx, by, colour, width = 2) => {
+    const length = Math.hypot(bx - ax, by - ay);
+    if (!(length > 0)) return;
+    const [dx, dy] = [(bx - ax) / length, (by - ay) / length];
+    const head = Math.min(9, length);
+    ctx.beginPath();
+    ctx.moveTo(ax, ay);
+    ctx.lineTo(bx - dx * head * 0.7, by - dy * head * 0.7);
+    ctx.lineWidth = width;
+    ctx.strokeStyle = colour;
+    ctx.stroke();
+    ctx.beginPath();
+    ctx.moveTo(bx, by);
+    ctx.lineTo(bx - head * dx + head * 0.45 * dy, by - head * dy - head * 0.45 * dx);
+    ctx.lineTo(bx - head * dx - head * 0.45 * dy, by - head * dy + head * 0.45 * dx);
+    ctx.closePath();
+    ctx.fillStyle = colour;
+    ctx.fill();
+  };
+
+  // A number for people: about five figures, no digits that say nothing.
+  W.number = (value, figures = 5) => {
+    if (!Number.isFinite(value)) return "–";
+    const size = Math.abs(value);
+    if (size !== 0 && (size >= 1e7 || size < 1e-4)) return value.toExponential(2).replace("e+", "e");
+    const decimals = Math.max(0, Math.min(4, figures - 1 - Math.floor(Math.log10(Math.max(size, 1)))));
+    return value.toFixed(Math.min(decimals, 3));
+  };
+
+  W.typing = (element) =>
+    element instanceof HTMLElement && (element.isContentEditable || element.matches("input:not([type=range], [type=checkbox], [type=radio], [type=button]), textarea"));
+
+  // Light or dark as the reader prefers, or as the page was told.
+  W.theme = () => {
+    const told = document.documentElement.dataset.theme;
+    return told || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+  };
+  W.colours = () => W.data.colours[W.theme()];
+
+  W.Player = Player;
+})();

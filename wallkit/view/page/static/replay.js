@@ -1,0 +1,28 @@
+// The replay: one run, played from the contacts that the page carries.
+(() => {
+  "use strict";
+  const W = globalThis.Wallkit;
+
+  const start = () => {
+    W.data = JSON.parse(document.getElementById("wallkit-data").textContent);
+    const find = (selector) => document.querySelector(selector);
+    const stage = new W.Stage(find("#stage"));
+    const player = new W.Player(stage, find("#transport"));
+    const readOut = new W.ReadOut(find("#read-out"), player);
+    const picture = new W.WallPicture(W.data.walls);
+    find("h1").textContent = document.title = W.data.title;
+    find("#notes").textContent = W.data.run.left_out;
+    find("#notes").hidden = !W.data.run.left_out;
+    W.showBoxes(player);
+    W.viewButtons(stage);
+    player.onframe = () => readOut.refresh();
+    player.showWalls(picture);
+    stage.show(W.data.box, picture.up);
+    player.load(new W.Motion(W.data.run));
+    player.suitRate();
+    W.replay = { stage, player }; // for tests: where a place lands (stage.screenX, screenY), what the clock says
+    if (!W.stillness()) player.play();
+  };
+
+  if (document.getElementById("wallkit-replay")) start();
+})();

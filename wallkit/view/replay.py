@@ -1,0 +1,113 @@
+"""Replay: one run as one HTML file that needs nothing else, offline, for a class or a colleague."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from dataclasses import replace
+from html import escape
+
+import numpy as np
+
+from wallkit.run import Run
+from wallkit.scene import Balls
+from wallkit.view.frame import Box
+from wallkit.view.page import look
+from wallkit.view.page.payload import Table, inlined, run_table, starts, walls_table
+
+MAX_CONTACTS = 1_000_000
+"""So many contacts are in a replay at most (about 50 MB of it); a longer run is thinned, and says so."""
+
+
+def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS, trusted: Table | None = None) -> str:
+    """Write a run as one self-contained HTML document: play, pause, step, scrub, ghosts, normals, zoom.
+
+    The motion is drawn from the contacts alone: each frame shows the state after the last contact before it,
+    carried on as p + v dt + g dt^2 / 2, so it is exact at any frame rate and any speed of playing.
+
+    A run of more contacts than ``max_contacts`` is thinned: whole balls are left out, evenly, until the others fit;
+    where one ball alone has too many, its path ends early. What is shown stays exact, and the page says what is not.
+
+    Args:
+        run: what is shown.
+        title: the document's title; the source's name by default.
+        max_contacts: the largest number of contacts to carry.
+        trusted: the horizon as the page shows it: ``{"whole": bool, "time": seconds, "sentence": words}``.
+    """
+    shown, left_out = thinned(run, max_contacts)
+    name = title or run.scene.walls.source_file or "wallkit replay"
+    data = {
+        "title": name,
+        "colours": look.colours(),
+        "walls": walls_table(run.scene.walls, starts(run)[:, :2]),
+        "run": run_table(shown, left_out=left_out, trusted=trusted),
+        "box": whole_box(run),
+    }
+    style = look.theme_css() + look.part("look.css") + look.part("replay.css")
+    script = "\n".join(look.part(name) for name in (*look.SHARED_SCRIPTS, "replay.js"))
+    policy = f"default-src 'none'; img-src data:; script-src {_hash(script)}; style-src {_hash(style)}"
+    return look.filled(
+        "replay.html",
+        {"title": escape(name), "policy": policy, "style": style, "script": script, "data": inlined(data)},
+    )
+
+
+def thinned(run: Run, most: int) -> tuple[Run, str]:
+    """Leave out whole balls, then the end of the last one's path, until at most ``most`` contacts remain.
+
+    Returns:
+        The run that is left, and a sentence on what is not in it; ``""`` where all is.
+    """
+    total = len(run.contacts)
+    if total <= most:
+        return run, ""
+    balls = len(run.final)
+    stride = 2
+    while stride < balls and run.bounces[::stride].sum() > most:
+        stride += 1
+    kept = np.arange(0, balls, min(stride, balls))
+    small = _only(run, kept)
+    words = f"{len(kept):,} of {balls:,} balls" if len(kept) < balls else ""
+    if len(small.contacts) > most:
+        small = _ended(small, most)
+        until = f"the first {most:,} bounces, up to {small.final['time'].max():.6g} s"
+        words = f"{words}; {until}" if words else until
+    return small, f"Shown: {words}. The run has {total:,} bounces; a replay carries {most:,} at most."
+
+
+def _only(run: Run, kept: np.ndarray) -> Run:
+    number = np.full(len(run.final), -1, dtype=np.int32)
+    number[kept] = np.arange(len(kept), dtype=np.int32)
+    contacts = run.contacts[number[run.contacts["ball"]] >= 0]
+    contacts["ball"] = number[contacts["ball"]]
+    balls = run.scene.balls
+    position, velocity, radius = (np.asarray(values)[kept] for values in (balls.position, balls.velocity, balls.radius))
+    scene = replace(run.scene, balls=Balls(position, velocity, radius))
+    ending = tuple(run.ending[index] for index in kept)
+    return replace(run, scene=scene, contacts=contacts, final=run.final[kept], ending=ending, _start=run._start[kept])
+
+
+def _ended(run: Run, most: int) -> Run:
+    """End every ball at the time of the last contact that is kept."""
+    contacts = run.contacts[:most]
+    end = float(contacts["time"][-1])
+    state = np.hstack([run.position(end), run.velocity(end)])
+    final = run.final.copy()
+    late = final["time"] > end
+    for index, name in enumerate(("x", "y", "vx", "vy")):
+        final[name][late] = state[late, index]
+    final["time"][late] = end
+    return replace(run, contacts=contacts, final=final)
+
+
+def whole_box(run: Run) -> Box:
+    """Give the box of the walls and of where the balls start."""
+    from wallkit.view.frame import united, walls_box
+
+    places = [(x, y, x, y) for x, y, _, _ in starts(run).tolist()]
+    return united([*([walls_box(run.scene.walls)] if len(run.scene.walls) else []), *places])
+
+
+def _hash(text: str) -> str:
+    digest = hashlib.sha256(text.encode("utf-8")).digest()
+    return f"'sha256-{base64.b64encode(digest).decode('ascii')}'"
