@@ -72,7 +72,7 @@ def test_hidden_paths_on_request():
 
 def test_layers_by_glob_of_layer_or_group():
     d = drawing(
-        path(square(0, 0, 1), layer="Walls 1"),
+        path(square(10, 10, 1), layer="Walls 1"),
         path(square(0, 0, 2), layer="x", groups=("Walls 2",)),
         path(square(0, 0, 3)),
     )

@@ -13,11 +13,15 @@ import numpy as np
 from importers.drawing import Drawing, DrawnPath
 from importers.problems import Problem
 from wallkit.walls.clean import clean
+from wallkit.walls.contacts import find_contacts
+from wallkit.walls.filling import material_rings
 from wallkit.walls.flatten import Pieces, flatten
-from wallkit.walls.nesting import depths, orient, signed_areas
+from wallkit.walls.nesting import depths
 from wallkit.walls.outlines import Outlines, assemble
+from wallkit.walls.rings import signed_areas, turned
 from wallkit.walls.select import choose
 from wallkit.walls.strokes import Strokes, gather
+from wallkit.walls.validate import straight_edges, validate
 from wallkit.walls.walls import Sides, Walls, WallsError
 
 Curves = Literal["lines", "arcs"]
@@ -66,7 +70,7 @@ def import_walls(
     within = default_tolerance(strokes) if tolerance is None else tolerance * abs(scale)
     pieces = _edges(strokes, within, curves)
     outlines = clean(assemble(strokes, pieces, chosen))
-    walls = oriented(outlines, sides, arena)
+    walls = nested(outlines, sides, arena, within)
     found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *problems, *pointless)]
     return replace(
         walls,
@@ -77,7 +81,7 @@ def import_walls(
         measured_normal_error=pieces.normal_error,
         source_file=drawing.file,
         source_sha256=drawing.sha256,
-        problems=found + outlines.problems,
+        problems=found + walls.problems,
     )
 
 
@@ -139,14 +143,27 @@ def _edges(strokes: Strokes, tolerance: float, curves: Curves) -> Pieces:
     return flatten(strokes, tolerance)
 
 
-def oriented(outlines: Outlines, sides: Sides, arena: bool) -> Walls:
-    """Nest and orient: even depth a solid, odd depth a hole; with ``arena`` the other way round."""
-    depth = depths(outlines.vertices, outlines.offsets, outlines.closed)
+def nested(outlines: Outlines, sides: Sides, arena: bool, tolerance: float) -> Walls:
+    """Find out what is material, nest, orient, and check; even depth is a solid, odd depth a hole."""
+    plain = outlines.to_walls(sides)
+    plain.tolerance = tolerance
+    edges = straight_edges(plain)
+    contacts = find_contacts(edges)
+    keep, dropped = material_rings(outlines, edges, contacts.crossing_walls)
+    if not keep.all():
+        outlines = outlines.keep(keep)
+        plain = outlines.to_walls(sides)
+        plain.tolerance = tolerance
+        edges = straight_edges(plain)
+        contacts = find_contacts(edges)
+    depth = depths(edges, contacts.crossing_walls)[0] + (1 if arena else 0)
+    lines = [outlines.paths[owner].line for owner in outlines.owner.tolist()]
+    problems = validate(plain, lines=lines, edges=edges, contacts=contacts)
     area = signed_areas(outlines.vertices, outlines.bulges, outlines.offsets)
-    material = depth + (1 if arena else 0)
-    turn = outlines.closed & ((area > 0) != (material % 2 == 0)) & (area != 0)
-    vertices, bulges = orient(outlines.vertices, outlines.bulges, outlines.offsets, turn)
-    return replace(replace(outlines, vertices=vertices, bulges=bulges).to_walls(sides), depth=material)
+    turn = outlines.closed & ((area > 0) != (depth % 2 == 0)) & (area != 0)
+    vertices, bulges = turned(outlines.vertices, outlines.bulges, outlines.offsets, turn)
+    walls = replace(outlines, vertices=vertices, bulges=bulges).to_walls(sides)
+    return replace(walls, depth=depth, problems=outlines.problems + dropped + problems)
 
 
 def _flipped(axis: Literal["up", "down"]) -> Literal["up", "down"]:

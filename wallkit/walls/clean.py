@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from importers.problems import Problem
-from wallkit.walls.nesting import signed_areas
 from wallkit.walls.outlines import Outlines, without_vertices
+from wallkit.walls.rings import signed_areas
 from wallkit.walls.strokes import IntArray
+from wallkit.walls.validate import at_least
 
 
 def clean(outlines: Outlines) -> Outlines:
@@ -125,7 +126,7 @@ def _report_open(outlines: Outlines) -> Outlines:
                 "open-path",
                 "warning",
                 f"an open path: its ends are {gap:.6g} apart; taken as an open, two-sided wall",
-                f"close it in the drawing, or with --snap {_at_least(gap)} if it should be closed",
+                f"close it in the drawing, or with --snap {at_least(gap)} if it should be closed",
                 outlines.vertices[outlines.offsets[index + 1] - 1],
             )
         )
@@ -135,9 +136,3 @@ def _report_open(outlines: Outlines) -> Outlines:
 def _gap(outlines: Outlines, index: int) -> float:
     a, b = outlines.vertices[outlines.offsets[index]], outlines.vertices[outlines.offsets[index + 1] - 1]
     return float(np.hypot(*(b - a)))
-
-
-def _at_least(length: float) -> str:
-    """A short figure that is not below ``length``."""
-    text = f"{length:.3g}"
-    return text if float(text) >= length else f"{float(text) + 10.0 ** (np.floor(np.log10(length)) - 2):.3g}"

@@ -1,6 +1,16 @@
-"""Nesting: how many closed walls are around each wall, and the orientation that follows from it.
+"""Nesting: how many closed walls are around each wall; even depth is a solid, odd depth a hole.
 
-Even depth is a solid (positive shoelace area), odd depth a hole (negative); never the winding in the file.
+The parent of a ring B is the smallest ring around it. Take a point p inside B just below its highest vertex and
+look straight up, among the rings larger than B only: none of them is inside B, so p and B are in the same face
+of theirs. The first edge met belongs to a ring X with p either inside (then X is the parent) or outside (then
+the parent of X is the parent of B). Copies of a ring stand for one ring. One look per ring, in a tree of boxes:
+n log n for any depth of nesting.
+
+The point is taken close below the top, and the look goes four times as far whenever it met nothing: rings may
+be many and close together above and below.
+
+Rings that cross another are no part of faces. They are around a ring when they contain its point p, are larger
+and do not cross it.
 """
 
 from __future__ import annotations
@@ -9,88 +19,245 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from wallkit.walls.edges import Edges
+from wallkit.walls.rings import rings_of, signed_areas
 from wallkit.walls.strokes import FloatArray, IntArray
 
+_FRACTION = 0.41421  # of the chord below the top; no simple fraction, so that rays miss the vertices of tidy drawings
 
-def signed_areas(vertices: FloatArray, bulges: FloatArray, offsets: IntArray) -> FloatArray:
-    """Signed area of each ring, arcs included: (W,), positive when counter-clockwise with y up.
 
-    The shoelace sum taken from each ring's first vertex, so that a far origin costs no digits, and for an arc
-    of angle 4 atan(bulge) the circular segment R^2 (angle - sin angle) / 2 between chord and arc.
+def depths(edges: Edges, crossing: IntArray | None = None, group: IntArray | None = None) -> tuple[IntArray, IntArray]:
+    """Find depth and parent of every wall.
+
+    Args:
+        edges: straight edges of all walls, none without length.
+        crossing: (n, 2) pairs of walls that cross; both may be the same one.
+        group: (W,) only walls of the same group are around one another; None for one group.
+
+    Returns:
+        Depth (W,): closed walls around each wall, copies counted once. Parent (W,): the smallest of them among
+        those that cross no other, or -1.
     """
-    counts = np.diff(offsets)
-    following = np.arange(1, len(vertices) + 1)
-    full = counts > 0
-    following[offsets[1:][full] - 1] = offsets[:-1][full]
-    a = vertices - np.repeat(vertices[offsets[:-1][full]], counts[full], axis=0)
-    b = vertices[following] - np.repeat(vertices[offsets[:-1][full]], counts[full], axis=0)
-    parts = (a[:, 0] * b[:, 1] - b[:, 0] * a[:, 1]) / 2
-    if np.any(bulges):
-        parts = parts + _segment_areas(b - a, bulges)
-    sums = np.zeros(len(counts))
-    if len(parts):
-        sums[full] = np.add.reduceat(parts, offsets[:-1][full])
-    return sums
+    count = len(edges.closed)
+    areas = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
+    ring = edges.closed & (np.diff(edges.offsets) >= 3) & (areas > 0)
+    copy_of = copies(edges, ring, group)
+    pairs = np.empty((0, 2), dtype=np.int64) if crossing is None else crossing
+    pairs = pairs[pairs[:, 0] != pairs[:, 1]]
+    tangled = np.zeros(count, dtype=np.bool_)
+    tangled[pairs.ravel()] = True
+    points = _inner_points(edges, ring)
+    # a strict order by size; open walls come last, so that every ring is larger than they are
+    size = np.empty(count, dtype=np.int64)
+    size[np.lexsort((np.arange(count), np.where(ring, areas, -1.0)))] = np.arange(count)
+    surrounds = ring & ~tangled & (copy_of == np.arange(count))
+    parent = _parents(edges, points, size, surrounds, copy_of, group)
+    depth = _levels(parent)
+    if tangled.any():
+        depth += _tangled_around(
+            edges, points, size, np.flatnonzero(tangled & (copy_of == np.arange(count))), pairs, group
+        )
+    return depth[copy_of], parent[copy_of]
 
 
-def _segment_areas(chord: FloatArray, bulges: FloatArray) -> FloatArray:
-    """Area between chord and arc; positive where the arc bows to the right (it adds to a left-hand solid)."""
-    angle = 4 * np.arctan(bulges)
-    square = chord[:, 0] ** 2 + chord[:, 1] ** 2
-    with np.errstate(divide="ignore", invalid="ignore"):
-        radius_square = square / (4 * np.sin(angle / 2) ** 2)
-        area = radius_square * (angle - np.sin(angle)) / 2
-    # a flat arc is a parabola: 2/3 of chord times height, the height |chord| bulge / 2
-    return np.where(np.abs(bulges) > 1e-4, area, square * bulges / 3)
+def copies(edges: Edges, ring: NDArray[np.bool_], group: IntArray | None = None) -> IntArray:
+    """For each wall the first wall with the very same edges (itself, if there is none before): (W,).
 
-
-def rings_of(vertices: FloatArray, offsets: IntArray) -> NDArray[np.object_]:
-    """Make a shapely polygon of each ring of at least three vertices; None for the others."""
-    counts = np.diff(offsets)
-    full = np.flatnonzero(counts >= 3)
-    polygons = np.full(len(counts), None, dtype=object)
-    if not len(full):
-        return polygons
-    rows = np.repeat(counts >= 3, counts)
-    points = vertices[rows]
-    sizes = counts[full]
-    starts = np.cumsum(sizes) - sizes
-    index = np.repeat(np.arange(len(full)), sizes + 1)
-    take = np.insert(np.arange(len(points)), starts + sizes, starts) if len(points) else np.empty(0, dtype=np.int64)
-    polygons[full] = shapely.polygons(shapely.linearrings(points[take], indices=index))
-    return polygons
-
-
-def depths(vertices: FloatArray, offsets: IntArray, closed: NDArray[np.bool_]) -> IntArray:
-    """Count the closed walls around each wall: (W,). Copies of the same ring are not around one another."""
-    count = len(closed)
-    result = np.zeros(count, dtype=np.int64)
-    polygons = rings_of(vertices, offsets)
-    ring = closed & (polygons != None)  # noqa: E711  (elementwise)
-    rings = np.flatnonzero(ring)
-    if not len(rings) or not count:
+    Only closed walls marked in ``ring`` are compared, wherever they start and whichever way they run.
+    """
+    result = np.arange(len(ring))
+    rows = np.flatnonzero(ring)
+    if len(rows) < 2:
         return result
-    area = shapely.area(polygons[rings])
-    point = np.empty(count, dtype=object)
-    point[rings] = shapely.point_on_surface(polygons[rings])
-    others = np.flatnonzero(~ring)
-    point[others] = shapely.points(vertices[offsets[:-1][others]])
-    tree = shapely.STRtree(point)
-    outer, inner = tree.query(polygons[rings], predicate="contains")
-    size = np.zeros(count)
-    size[rings] = area
-    inside = ~ring[inner] | (size[inner] < area[outer] * (1 - 1e-12))
-    return np.bincount(inner[inside], minlength=count)
+    first = edges.offsets[:-1][rows]
+    keep = np.repeat(ring, np.diff(edges.offsets))
+    starts = np.concatenate([[0], np.cumsum(np.diff(edges.offsets)[rows])[:-1]])
+    points = edges.vertices[keep]
+    low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
+    table = np.column_stack(
+        [low, high, edges.offsets[rows + 1] - first, group[rows] if group is not None else 0 * first]
+    )
+    _, key, repeats = np.unique(table, axis=0, return_inverse=True, return_counts=True)
+    key = key.reshape(-1)
+    same: dict[bytes, int] = {}
+    for row in np.flatnonzero(repeats[key] > 1).tolist():
+        wall = int(rows[row])
+        form = _canonical(edges.vertices[edges.offsets[wall] : edges.offsets[wall + 1]]) + int(key[row]).to_bytes(
+            8, "big"
+        )
+        result[wall] = same.setdefault(form, wall)
+    return result
 
 
-def orient(
-    vertices: FloatArray, bulges: FloatArray, offsets: IntArray, turn: NDArray[np.bool_]
-) -> tuple[FloatArray, FloatArray]:
-    """Reverse the closed walls marked in ``turn``: the first vertex stays first, bulges go to the new edges."""
-    counts = np.diff(offsets)
-    position = np.arange(len(vertices))
-    first, size, turned = np.repeat(offsets[:-1], counts), np.repeat(counts, counts), np.repeat(turn, counts)
-    rank = position - first
-    vertex_from = np.where(turned, first + (size - rank) % np.maximum(size, 1), position)
-    bulge_from = np.where(turned, first + size - 1 - rank, position)
-    return vertices[vertex_from], np.where(turned, 0.0 - bulges[bulge_from], bulges)  # 0 - 0 is 0, -0 is not
+def _canonical(ring: FloatArray) -> bytes:
+    """The ring from its smallest vertex, in the direction that comes first: the same bytes for the same edges."""
+    start = np.lexsort((ring[:, 1], ring[:, 0]))[0]
+    there = np.roll(ring, -start, axis=0) + 0.0  # -0 is 0
+    back = np.roll(there[::-1], 1, axis=0)
+    return min(there.tobytes(), back.tobytes())
+
+
+def _inner_points(edges: Edges, ring: NDArray[np.bool_]) -> FloatArray:
+    """A point inside each ring, between its highest vertices and the next lower; else an edge's middle.
+
+    A 2^20th of the way down, but not so little that rounding of the coordinates could tell it from the top.
+    """
+    first = edges.offsets[:-1]
+    result = edges.vertices[np.minimum(first, len(edges.vertices) - 1)].copy()
+    more = np.diff(edges.offsets) > 1
+    result[more] = (edges.vertices[first[more]] + edges.vertices[first[more] + 1]) / 2
+    y = edges.vertices[:, 1]
+    if not ring.any():
+        return result
+    top = np.maximum.reduceat(y, first)
+    below = np.where(y < top[edges.wall_of], y, -np.inf)
+    drop = top - np.maximum(np.maximum.reduceat(below, first), -1e300)
+    level = top - np.minimum(np.maximum(drop * 2.0**-20, 1e-9 * np.abs(edges.vertices).max()), drop / 2)
+    a, b, at = edges.a, edges.b, level[edges.wall]
+    crosses = (np.minimum(a[:, 1], b[:, 1]) <= at) & (at < np.maximum(a[:, 1], b[:, 1])) & ring[edges.wall]
+    a, b, at, wall = a[crosses], b[crosses], at[crosses], edges.wall[crosses]
+    x = a[:, 0] + (at - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
+    order = np.lexsort((x, wall))
+    x, wall = x[order], wall[order]
+    new = np.flatnonzero(np.concatenate([[True], wall[1:] != wall[:-1]])) if len(wall) else np.empty(0, dtype=np.int64)
+    new = new[new + 1 < len(wall)]
+    result[wall[new], 0] = x[new] + (x[new + 1] - x[new]) * _FRACTION
+    result[wall[new], 1] = level[wall[new]]
+    return result
+
+
+def _parents(
+    edges: Edges,
+    points: FloatArray,
+    size: IntArray,
+    surrounds: NDArray[np.bool_],
+    copy_of: IntArray,
+    group: IntArray | None,
+) -> IntArray:
+    """Look up from each point: (W,) parent or -1."""
+    count = len(points)
+    parent = np.full(count, -1, dtype=np.int64)
+    beside = np.full(count, -1, dtype=np.int64)  # the ring next to it, whose parent is its parent
+    looking = np.flatnonzero(copy_of == np.arange(count))
+    if not len(edges) or not surrounds.any():
+        return parent
+    tops = np.maximum.reduceat(edges.vertices[:, 1], edges.offsets[:-1])
+    ceiling = _ceiling(tops, surrounds, group)
+    reached = np.zeros(count)
+    reach = 2 * np.abs(tops - points[:, 1]) + 1e-9 * (edges.vertices[:, 1].max() - edges.vertices[:, 1].min())
+    while len(looking):
+        x, y = points[looking].T
+        hit, edge = edges.tree.query(shapely.box(x, y + reached[looking], x, y + reach[looking]))
+        source = looking[hit]
+        wall = edges.wall[edge]
+        fits = surrounds[wall] & (size[wall] > size[source])
+        if group is not None:
+            fits &= group[wall] == group[source]
+        found = _first_above(edges, points, reach, source[fits], edge[fits])
+        _settle(edges, points, size, *found, parent, beside)
+        done = np.zeros(count, dtype=np.bool_)
+        done[found[0]] = True
+        looking = looking[~done[looking] & (points[looking, 1] + reach[looking] < ceiling[looking])]
+        reached[looking] = reach[looking]
+        reach[looking] *= 4
+    return _follow(parent, beside)
+
+
+def _ceiling(tops: FloatArray, surrounds: NDArray[np.bool_], group: IntArray | None) -> FloatArray:
+    """Above which no edge can be met: (W,)."""
+    highest = np.where(surrounds, tops, -np.inf)
+    if group is None:
+        return np.full(len(tops), highest.max())
+    by_group = np.full(int(group.max()) + 1, -np.inf)
+    np.maximum.at(by_group, group, highest)
+    return by_group[group]
+
+
+def _first_above(
+    edges: Edges, points: FloatArray, reach: FloatArray, source: IntArray, edge: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Keep, for each source, the edges that are first met going up (more than one where they lie on each other)."""
+    p, a, b = points[source], edges.a[edge], edges.b[edge]
+    spans = (np.minimum(a[:, 0], b[:, 0]) <= p[:, 0]) & (p[:, 0] < np.maximum(a[:, 0], b[:, 0]))
+    source, edge, p, a, b = source[spans], edge[spans], p[spans], a[spans], b[spans]
+    slope = (b[:, 1] - a[:, 1]) / (b[:, 0] - a[:, 0])
+    y = a[:, 1] + (p[:, 0] - a[:, 0]) * slope
+    above = (y >= p[:, 1]) & (y <= p[:, 1] + reach[source])
+    source, edge, slope, y = source[above], edge[above], slope[above], y[above]
+    # edges on one line are met at heights that differ by rounding: a few ulp of the coordinates
+    slack = 16 * np.finfo(float).eps * float(np.abs(edges.vertices).max(initial=1.0))
+    lowest = np.full(len(points), np.inf)
+    np.minimum.at(lowest, source, y)
+    tied = y <= lowest[source] + slack
+    source, edge, slope = source[tied], edge[tied], slope[tied]
+    flattest = np.full(len(points), np.inf)  # just right of p the edge with the least slope is the lowest
+    np.minimum.at(flattest, source, slope)
+    tied = slope <= flattest[source] + 1e-9 * (1 + np.abs(flattest[source]))
+    return source[tied], edge[tied]
+
+
+def _settle(
+    edges: Edges,
+    points: FloatArray,
+    size: IntArray,
+    source: IntArray,
+    edge: IntArray,
+    parent: IntArray,
+    beside: IntArray,
+) -> None:
+    """Tell parent or neighbour from the first edges met: the smallest ring that is around, else the largest beside."""
+    if not len(source):
+        return
+    area = signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets)
+    wall = edges.wall[edge]
+    leftward = edges.b[edge, 0] < edges.a[edge, 0]  # its left, where the solid is, is below
+    around = leftward == (area[wall] > 0)
+    order = np.argsort(-size[wall], kind="stable")
+    inside = order[around[order]]
+    parent[source[inside]] = wall[inside]  # the last written is the smallest
+    outside = order[::-1][~around[order[::-1]]]
+    beside[source[outside]] = wall[outside]  # the last written is the largest
+    beside[source[inside]] = -1
+
+
+def _follow(parent: IntArray, beside: IntArray) -> IntArray:
+    """Give each ring the parent of the last ring in its chain of neighbours, doubling the steps."""
+    link = np.where(beside >= 0, beside, np.arange(len(beside)))
+    while True:
+        further = link[link]
+        if (further == link).all():
+            return parent[link]
+        link = further
+
+
+def _levels(parent: IntArray) -> IntArray:
+    """Count ancestors, doubling the steps."""
+    depth = (parent >= 0).astype(np.int64)
+    link = parent.copy()
+    while (link >= 0).any():
+        up = link >= 0
+        depth[up] += depth[link[up]]
+        further = link.copy()
+        further[up] = link[link[up]]
+        link = further
+    return depth
+
+
+def _tangled_around(
+    edges: Edges, points: FloatArray, size: IntArray, tangled: IntArray, crossing: IntArray, group: IntArray | None
+) -> IntArray:
+    """Count, for each wall, the rings among ``tangled`` that are around it."""
+    count = len(points)
+    polygons = rings_of(edges.vertices, edges.offsets)[tangled]
+    there = np.array([polygon is not None for polygon in polygons], dtype=np.bool_)
+    tangled, polygons = tangled[there], polygons[there]
+    broken = ~shapely.is_valid(polygons)
+    polygons[broken] = shapely.make_valid(polygons[broken])
+    outer, inner = shapely.STRtree(shapely.points(points)).query(polygons, predicate="contains")
+    outer = tangled[outer]
+    apart = np.concatenate([crossing, crossing[:, ::-1]])
+    crosses = np.isin(outer * count + inner, apart[:, 0] * count + apart[:, 1])
+    fits = (size[outer] > size[inner]) & ~crosses
+    if group is not None:
+        fits &= group[outer] == group[inner]
+    return np.bincount(inner[fits], minlength=count)

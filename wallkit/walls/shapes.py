@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from wallkit.walls.nesting import rings_of
+from wallkit.walls.rings import rings_of
 from wallkit.walls.strokes import FloatArray, IntArray
 from wallkit.walls.walls import Walls
 

@@ -1,0 +1,222 @@
+"""The self-check: everything that is doubtful about walls, each with its place and what to do."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import shapely
+
+from importers.problems import Problem, Severity
+from wallkit.walls.contacts import Contacts, find_contacts
+from wallkit.walls.edges import Edges
+from wallkit.walls.flatten import segment_distance
+from wallkit.walls.nesting import copies
+from wallkit.walls.rings import signed_areas
+from wallkit.walls.shapes import straightened
+from wallkit.walls.strokes import FloatArray, IntArray
+from wallkit.walls.walls import Walls
+
+MOST_PLACES = 1000  # of one code; further ones are counted
+_NEAR = 0.02  # ends farther apart than this part of the drawing's diagonal are no gap but two ends
+
+
+@dataclass(slots=True)
+class Findings:
+    """Problems in the making, at most MOST_PLACES of a code, the rest counted."""
+
+    walls: Walls
+    lines: Sequence[int | None]
+    problems: list[Problem] = field(default_factory=list)
+    counts: Counter[str] = field(default_factory=Counter)
+
+    def add(self, wall: int, code: str, severity: Severity, message: str, fix: str, at: FloatArray) -> None:
+        """Note one finding about a wall at a place."""
+        self.counts[code] += 1
+        if self.counts[code] <= MOST_PLACES:
+            name, layer = self.walls.names[wall], self.walls.layers[wall]
+            line = self.lines[wall] if self.lines else None
+            x, y = float(at[0]), float(at[1])
+            self.problems.append(Problem(code, severity, message, fix, layer, name, line, None, x, y))
+
+    def closed(self) -> list[Problem]:
+        """Give all, with a count of those that are not told one by one."""
+        more = [
+            Problem(code, "warning", f"{count - MOST_PLACES} more of these are not listed", "solve the first ones")
+            for code, count in self.counts.items()
+            if count > MOST_PLACES
+        ]
+        return self.problems + more
+
+    def called(self, wall: int) -> str:
+        """Call a wall by number and name."""
+        name = self.walls.names[wall]
+        return f"wall {wall} ({name!r})" if name else f"wall {wall}"
+
+
+def validate(
+    walls: Walls,
+    *,
+    lines: Sequence[int | None] = (),
+    edges: Edges | None = None,
+    contacts: Contacts | None = None,
+) -> list[Problem]:
+    """Find every violation: crossings, doubled edges and walls, slivers, gaps between open ends.
+
+    Args:
+        walls: any walls; arcs are looked at as lines within a tenth of the tolerance.
+        lines: line in the file of each wall, for the report.
+        edges: the straight edges of the walls, if they are at hand.
+        contacts: the contacts of those edges, if they are at hand.
+
+    Returns:
+        Problems in the order crossings, duplicates, slivers, gaps; empty means valid.
+    """
+    edges = straight_edges(walls) if edges is None else edges
+    contacts = find_contacts(edges) if contacts is None else contacts
+    findings = Findings(walls, lines)
+    _crossings(findings, contacts)
+    _duplicates(findings, edges, contacts)
+    _slivers(findings, edges)
+    _gaps(findings, edges)
+    return findings.closed()
+
+
+def straight_edges(walls: Walls) -> Edges:
+    """The walls' edges, arcs as lines within a tenth of the tolerance."""
+    vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
+    return Edges(vertices, offsets, walls.closed)
+
+
+def diagonal(vertices: FloatArray) -> float:
+    """The diagonal of the points' box; 0 without any."""
+    return float(np.hypot(*(vertices.max(axis=0) - vertices.min(axis=0)))) if len(vertices) else 0.0
+
+
+def _crossings(findings: Findings, contacts: Contacts) -> None:
+    for (one, two), at in zip(contacts.crossing_walls.tolist(), contacts.crossing_at, strict=True):
+        if one == two:
+            fix = "redraw the path, or resolve its crossings (--resolve)"
+            findings.add(one, "self-crossing", "warning", f"{findings.called(one)} crosses itself", fix, at)
+        else:
+            message = f"{findings.called(one)} and {findings.called(two)} cross"
+            fix = "draw them apart, or unite overlapping solids (--union)"
+            findings.add(one, "crossing", "warning", message, fix, at)
+    if not contacts.complete:
+        message = "more edges lie close together than are looked at: not all crossings are known"
+        findings.problems.append(Problem("tangled", "warning", message, "take fewer layers, or a larger tolerance"))
+
+
+def _duplicates(findings: Findings, edges: Edges, contacts: Contacts) -> None:
+    """Walls drawn twice, walls that run over themselves, walls that share edges."""
+    first = copies(edges, edges.closed & (np.diff(edges.offsets) >= 3))
+    for wall in np.flatnonzero(first != np.arange(len(first))).tolist():
+        message = f"{findings.called(wall)} is the same as {findings.called(int(first[wall]))}"
+        fix = "delete one of them, or drop duplicates (--drop-duplicates)"
+        findings.add(wall, "duplicate-wall", "warning", message, fix, edges.vertices[edges.offsets[wall]])
+    pairs = np.sort(edges.wall[contacts.overlap_edges], axis=1)
+    pairs = pairs.reshape(-1, 2)
+    same = first[pairs[:, 0]] == first[pairs[:, 1]] if len(first) else np.empty(0, dtype=np.bool_)
+    doubled = ~same | (pairs[:, 0] == pairs[:, 1])
+    _shared(findings, pairs[doubled], contacts.overlap_at[doubled], contacts.overlap_length[doubled])
+
+
+def _shared(findings: Findings, pairs: IntArray, at: FloatArray, length: FloatArray) -> None:
+    if not len(pairs):
+        return
+    unique, row, which = np.unique(pairs, axis=0, return_index=True, return_inverse=True)
+    total = np.bincount(which.reshape(-1), length)
+    for (one, two), index, whole in zip(unique.tolist(), row.tolist(), total.tolist(), strict=True):
+        if one == two:
+            message = f"{findings.called(one)} runs over itself along {whole:.6g}"
+            fix = "redraw it, or resolve its crossings (--resolve)"
+            findings.add(one, "doubled-edge", "warning", message, fix, at[index])
+        elif findings.walls.closed[one] and findings.walls.closed[two]:
+            message = f"{findings.called(one)} and {findings.called(two)} share an edge along {whole:.6g}"
+            fix = "nothing to do if they are meant to touch; --union makes one solid of them"
+            findings.add(one, "shared-edge", "info", message, fix, at[index])
+        else:
+            message = f"{findings.called(one)} and {findings.called(two)} lie on each other along {whole:.6g}"
+            fix = "delete one of them, or drop duplicates (--drop-duplicates)"
+            findings.add(one, "doubled-edge", "warning", message, fix, at[index])
+
+
+def _slivers(findings: Findings, edges: Edges) -> None:
+    """Closed walls thinner than the tolerance: twice the area over the perimeter is the width of a thin strip."""
+    if not len(edges.closed) or not len(edges):
+        return
+    area = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
+    perimeter = np.bincount(edges.wall, np.hypot(*(edges.b - edges.a).T), len(edges.closed))
+    width = 2 * area / np.where(perimeter > 0, perimeter, 1.0)
+    limit = findings.walls.tolerance or 1e-6 * diagonal(edges.vertices)
+    for wall in np.flatnonzero(edges.closed & (width < limit)).tolist():
+        message = f"{findings.called(wall)} is a sliver about {width[wall]:.3g} wide"
+        fix = f"delete it, or remove slivers (--min-width {at_least(float(width[wall]) * 1.01)})"
+        findings.add(wall, "sliver", "warning", message, fix, edges.vertices[edges.offsets[wall]])
+
+
+def _gaps(findings: Findings, edges: Edges) -> None:
+    """Open ends that meet or nearly meet another end, and ends that stop just short of another wall."""
+    walls = np.flatnonzero(~edges.closed)
+    if not len(walls):
+        return
+    ends = np.concatenate([edges.offsets[walls], edges.offsets[walls + 1] - 1])
+    spots, spot = np.unique(edges.vertices[ends], axis=0, return_inverse=True)
+    spot = spot.reshape(-1)
+    several = np.bincount(spot) > 1
+    reach = _NEAR * diagonal(edges.vertices)
+    for index in np.flatnonzero(several).tolist():
+        wall = int(edges.wall_of[ends[np.argmax(spot == index)]])
+        message = f"{int((spot == index).sum())} ends of open walls meet"
+        findings.add(wall, "ends-meet", "info", message, "join them to one wall (--join)", spots[index])
+    lonely = np.flatnonzero(~several[spot])
+    mate, distance = _nearest_end(spots, spot[lonely], reach)
+    short = _nearest_wall(edges, ends[lonely], reach)
+    told: set[tuple[int, int]] = set()
+    for row, end in enumerate(ends[lonely].tolist()):
+        key = (min(int(spot[lonely[row]]), int(mate[row])), max(int(spot[lonely[row]]), int(mate[row])))
+        wall = int(edges.wall_of[end])
+        if distance[row] <= reach and distance[row] <= short[row]:
+            if key not in told:
+                told.add(key)
+                message = f"a gap of {distance[row]:.6g} to the nearest open end"
+                fix = f"close it in the drawing, or with --snap {at_least(float(distance[row]))}"
+                findings.add(wall, "gap", "warning", message, fix, edges.vertices[end])
+        elif 0 < short[row] <= reach:
+            message = f"an open end stops {short[row]:.6g} short of another wall"
+            fix = f"draw it on, or snap it with --snap {at_least(float(short[row]))}"
+            findings.add(wall, "gap", "warning", message, fix, edges.vertices[end])
+
+
+def _nearest_end(spots: FloatArray, rows: IntArray, reach: float) -> tuple[IntArray, FloatArray]:
+    """The nearest other spot of each spot in ``rows`` within reach, and how far; -1 and infinity without one."""
+    points = shapely.points(spots)
+    mate, distance = np.full(len(rows), -1), np.full(len(rows), np.inf)
+    if len(spots) > 1 and len(rows):
+        (source, found), far = shapely.STRtree(points).query_nearest(
+            points[rows], max_distance=reach or None, exclusive=True, return_distance=True, all_matches=False
+        )
+        mate[source], distance[source] = found, far
+    return mate, distance
+
+
+def _nearest_wall(edges: Edges, ends: IntArray, reach: float) -> FloatArray:
+    """Distance from each end (a vertex) to the nearest edge of another wall within reach; else infinity."""
+    points = edges.vertices[ends]
+    result = np.full(len(ends), np.inf)
+    boxes = shapely.box(points[:, 0] - reach, points[:, 1] - reach, points[:, 0] + reach, points[:, 1] + reach)
+    source, edge = edges.tree.query(boxes)
+    other = edges.wall[edge] != edges.wall_of[ends[source]]
+    source, edge = source[other], edge[other]
+    np.minimum.at(result, source, segment_distance(points[source], edges.a[edge], edges.b[edge]))
+    return result
+
+
+def at_least(length: float) -> str:
+    """A short figure that is not below ``length``."""
+    text = f"{length:.3g}"
+    if float(text) >= length:
+        return text
+    return f"{float(text) + 10.0 ** (np.floor(np.log10(length)) - 2):.3g}"
