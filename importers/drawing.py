@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from importers.pictured import Pictured
 from importers.problems import Problem
 
 # One segment of a subpath, in the words of SVG path data, always absolute:
@@ -122,7 +123,7 @@ class Layer:
 
 
 @dataclass(slots=True)
-class Drawing:
+class Drawing(Pictured):
     """A vector file, read: layers, paths with exact segments, and what was left out and why.
 
     Coordinates are those of the file with all transforms applied: Illustrator and PDF in points, y up, as

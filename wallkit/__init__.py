@@ -18,6 +18,7 @@ except ImportError as error:  # a user's own ``importers`` folder or an unrelate
         f"wallkit needs its own package 'importers', but {_shadow.__file__ or list(_shadow.__path__)} stands "
         "before it on the import path; rename or move that one"
     ) from error
+from importers.pictured import paint_with
 
 if TYPE_CHECKING:
     from importers.drawing import Drawing, DrawnPath, Layer, Subpath
@@ -81,6 +82,14 @@ def __getattr__(name: str) -> Any:
     value = getattr(importlib.import_module(_HOME[name]), name)
     globals()[name] = value
     return value
+
+
+def _paint(thing: object) -> str | None:
+    svg: str | None = importlib.import_module("wallkit.view.notebook").svg_of(thing)
+    return svg
+
+
+paint_with(_paint)
 
 
 def __dir__() -> list[str]:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from importers.pictured import Pictured
+
 if TYPE_CHECKING:
     from wallkit.scene import Scene
 
@@ -68,7 +70,7 @@ class Ending(enum.IntEnum):
 
 
 @dataclass(eq=False)
-class Run:
+class Run(Pictured):
     """What a simulation found.
 
     Attributes:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from importers.errors import WallkitError
+from importers.pictured import Pictured
 from wallkit.walls import Walls
 
 FloatArray = NDArray[np.float64]
@@ -55,7 +56,7 @@ class Balls:
 
 
 @dataclass(slots=True, eq=False)
-class Scene:
+class Scene(Pictured):
     """What is simulated.
 
     Attributes:

@@ -140,12 +140,12 @@ class _Reader:
             self.wrong.append(f"format: {table['format']!r} is not 'wallkit-scene'")
         if table.get("version", 1) != 1:
             self.wrong.append(f"version: {table['version']!r} is not 1, the one that this wallkit reads")
-        walls = self.walls(table)
+        walls, drawn = self.walls(table)
         if walls is None:  # the rest is still checked, on no walls
             walls = Walls.from_polylines([])
         self.materials(walls, table.get("materials", []))
         gravity = self.pair(table["gravity"], "gravity") if "gravity" in table else None
-        balls = self.balls(table.get("balls", []))
+        balls = drawn if drawn is not None and "balls" not in table else self.balls(table.get("balls", []))
         run = self.table(table.get("run", {}), "run")
         self.known_keys(run, {"until", "bounces"}, "run.")
         until = self.number(run["until"], "run.until", least=0.0) if "until" in run else None
@@ -193,11 +193,12 @@ class _Reader:
 
     # -- parts
 
-    def walls(self, table: dict[str, Any]) -> Walls | None:
+    def walls(self, table: dict[str, Any]) -> tuple[Walls | None, Balls | None]:
+        """Give the walls, and the balls that a drawing has on its layer ``balls``."""
         sources = [key for key in ("walls", "drawing") if key in table]
         if len(sources) != 1:
             self.wrong.append("walls, drawing: give exactly one of the two")
-            return None
+            return None, None
         if sources == ["drawing"]:
             return self.drawing(table)
         if "import" in table:
@@ -205,20 +206,32 @@ class _Reader:
         value = table["walls"]
         if isinstance(value, str):
             path = self.path(value, "walls")
-            return load(path) if path else None
-        if isinstance(value, dict):
-            return from_json(value, self.file)
-        return self.polylines(value)
+            return load(path) if path else None, None
+        return from_json(value, self.file) if isinstance(value, dict) else self.polylines(value), None
 
-    def drawing(self, table: dict[str, Any]) -> Walls | None:
+    def drawing(self, table: dict[str, Any]) -> tuple[Walls | None, Balls | None]:
         path = self.path(table["drawing"], "drawing")
         options = self.table(table.get("import", {}), "import")
         self.known_keys(options, _IMPORT_OPTIONS, "import.")
+        options = {key: value for key, value in options.items() if key in _IMPORT_OPTIONS}
         if path is None:
-            return None
+            return None, None
+        from importers.read import read_drawing
+        from wallkit.starts import drawn_balls
         from wallkit.walls.build import import_walls
 
-        return import_walls(path, **options)
+        drawing = read_drawing(path)
+        try:
+            walls = import_walls(drawing, **{"curves": "arcs", **options})
+        except TypeError:
+            self.wrong.append("import: an option has a value of the wrong kind")
+            return None, None
+        found, problems = drawn_balls(drawing, options.get("scale", 1.0), options.get("flip_y", False))
+        walls.problems.extend(problems)
+        velocity = [ball.velocity or (0.0, 0.0) for ball in found]
+        balls = Balls(np.array([(b.x, b.y) for b in found]).reshape(-1, 2), np.array(velocity).reshape(-1, 2),
+                      np.array([ball.radius for ball in found]))  # fmt: skip
+        return walls, balls
 
     def path(self, value: Any, key: str) -> Path | None:
         name = self.text(value, key)

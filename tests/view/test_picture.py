@@ -7,9 +7,9 @@ import pytest
 from importers.drawing import Drawing, DrawnPath, Subpath
 from importers.problems import Problem
 from wallkit import Material, Walls
-from wallkit.curves import arc_points
+from wallkit.curves import arc_points, contains
 from wallkit.view.frame import fit, walls_box
-from wallkit.view.outline import contains, solid_areas
+from wallkit.view.outline import solid_areas
 from wallkit.view.picture import drawing_svg, walls_svg
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import io
+import math
 import sys
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from importers.errors import WallkitError
 from importers.problems import Problem
@@ -129,7 +132,22 @@ def prepare_drawing(drawing: Drawing, wishes: Wishes) -> Prepared:
     walls = import_walls(drawing, **options)
     found, problems = drawn_balls(drawing, options.get("scale", 1.0), options.get("flip_y", False))
     given = _Given(drawn=[(ball.x, ball.y, ball.radius, ball.velocity) for ball in found])
-    return _complete(walls, given, wishes, drawing.kind or "drawing", problems)
+    prepared = _complete(walls, given, wishes, drawing.kind or "drawing", problems)
+    return prepared if "arena" in wishes.importing else _as_arena(prepared)
+
+
+def _as_arena(prepared: Prepared) -> Prepared:
+    """Take the outermost walls as rooms where all balls start inside them: then nobody meant them as solid."""
+    from wallkit.curves import in_material
+    from wallkit.walls.nesting import orient
+
+    walls, balls = prepared.scene.walls, prepared.scene.balls
+    if not len(balls) or not in_material(walls, np.asarray(balls.position)).all():
+        return prepared
+    vertices, bulges = orient(walls.vertices, walls.bulges, walls.offsets, walls.closed)
+    arena = replace(walls, vertices=vertices, bulges=bulges, depth=walls.depth + walls.closed)
+    words = "the outermost walls are a room, since all balls are in it (--arena)"
+    return replace(prepared, scene=replace(prepared.scene, walls=arena), assumed=[words, *prepared.assumed])
 
 
 def _of_drawing(data: bytes, file: str, wishes: Wishes) -> Prepared:
@@ -187,8 +205,6 @@ def _with_material(walls: Walls, wishes: Wishes) -> Walls:
 
 
 def _balls(walls: Walls, given: _Given, wishes: Wishes, assumed: list[str]) -> Balls:
-    import numpy as np
-
     from wallkit.scene import Balls
 
     if wishes.ball and wishes.balls is not None:
@@ -210,8 +226,6 @@ def _balls(walls: Walls, given: _Given, wishes: Wishes, assumed: list[str]) -> B
 
 def _changed(balls: Balls, wishes: Wishes) -> Balls:
     """Let options say otherwise than the scene file."""
-    import numpy as np
-
     if any(value is not None for value in (wishes.velocity, wishes.speed, wishes.angle)):
         velocity = np.tile(_velocity(wishes, []), (len(np.asarray(balls.position)), 1))
         balls = replace(balls, velocity=velocity)
@@ -219,8 +233,6 @@ def _changed(balls: Balls, wishes: Wishes) -> Balls:
 
 
 def _drawn(given: _Given, wishes: Wishes, assumed: list[str]) -> Balls:
-    import numpy as np
-
     from wallkit.scene import Balls
 
     asked = any(value is not None for value in (wishes.velocity, wishes.speed, wishes.angle))
@@ -248,10 +260,6 @@ def _at_the_roomiest_spot(walls: Walls, wishes: Wishes, assumed: list[str]) -> B
 
 
 def _scattered(walls: Walls, wishes: Wishes, assumed: list[str]) -> Balls:
-    import math
-
-    import numpy as np
-
     from wallkit.scene import Balls
     from wallkit.starts import roomiest, scattered
 
@@ -278,8 +286,6 @@ def _sensible_radius(room: float) -> float:
 
 
 def _velocity(wishes: Wishes, assumed: list[str]) -> tuple[float, float]:
-    import math
-
     if wishes.velocity is not None:
         if wishes.speed is not None or wishes.angle is not None:
             raise UsageError("--velocity and --speed or --angle do not go together", code="usage", fix="give one way")
@@ -300,8 +306,6 @@ def pair(text: str, option: str) -> tuple[float, float]:
     Raises:
         UsageError: it is not two finite numbers.
     """
-    import math
-
     parts = text.split(",")
     try:
         x, y = (float(part) for part in parts)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.curves import flattened
+from wallkit.curves import contains, flattened, in_material
 from wallkit.view.canvas import Command
 from wallkit.view.frame import Frame
 from wallkit.walls import Material, Walls
@@ -51,27 +51,12 @@ def depths(walls: Walls) -> NDArray[np.int64]:
     return depth
 
 
-def contains(ring: FloatArray, points: FloatArray) -> NDArray[np.bool_]:
-    """Tell for each of (n, 2) points whether a closed ring of points goes around it (even-odd)."""
-    low, high = ring.min(axis=0), ring.max(axis=0)
-    near = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
-    result = np.zeros(len(points), dtype=np.bool_)
-    a, b = ring, np.roll(ring, -1, axis=0)
-    rise = b[:, 1] - a[:, 1]
-    slope = np.divide(b[:, 0] - a[:, 0], rise, out=np.zeros_like(rise), where=rise != 0)
-    for index in near:
-        x, y = points[index]
-        spans = (a[:, 1] > y) != (b[:, 1] > y)
-        crossings = np.count_nonzero(spans & (a[:, 0] + (y - a[:, 1]) * slope > x))
-        result[index] = crossings % 2 == 1
-    return result
-
-
 def solid_areas(walls: Walls, free: FloatArray) -> list[tuple[Material, list[int], bool]]:
     """Tell what is filled: groups of closed walls, each filled even-odd with one material.
 
     Material is where the number of closed walls around is odd; but balls start where they can fly, so that with
-    ``free`` places of odd number (a room drawn as a plain outline) it is where that number is even.
+    ``free`` places of odd number (a room drawn as a plain outline) it is where that number is even. Without a ball
+    the winding of the largest wall says which.
 
     Args:
         walls: the walls.
@@ -90,10 +75,12 @@ def solid_areas(walls: Walls, free: FloatArray) -> list[tuple[Material, list[int
 
 
 def _is_room(walls: Walls, free: FloatArray) -> bool:
-    if not len(free):
-        return False
-    around = sum(int(contains(flattened(walls, int(i)), free[:1])[0]) for i in np.flatnonzero(walls.closed))
-    return around % 2 == 1
+    """Tell whether the outermost walls are rooms: a ball in them says so, else the largest one's clockwise winding."""
+    if len(free):
+        return bool(in_material(walls, free[:1])[0])
+    rings = [flattened(walls, int(index)) for index in np.flatnonzero(walls.closed)]
+    areas = [float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) for x, y in ((ring - ring[0]).T for ring in rings)]
+    return max(areas, key=abs, default=0.0) < 0
 
 
 def _areas_by_material(walls: Walls, turned: bool) -> list[tuple[Material, list[int], bool]]:

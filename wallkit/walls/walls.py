@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from importers.errors import WallkitError
+from importers.pictured import Pictured
 from importers.problems import Problem
 
 Sides = Literal["both", "outward"]
@@ -57,7 +58,7 @@ class Wall:
 
 
 @dataclass(slots=True, eq=False)
-class Walls:
+class Walls(Pictured):
     """Polylines whose edges are lines or circular arcs, in the units and axes of the drawing.
 
     The contract, stated once:

@@ -1,0 +1,111 @@
+import numpy as np
+import pytest
+
+from importers.drawing import Drawing, DrawnPath, Subpath
+from wallkit import SceneError, Walls
+from wallkit.starts import drawn_balls, roomiest, scattered
+
+# A unit circle of four cubics, with the factor that every drawing program uses, 4/3 (sqrt 2 - 1).
+K = 0.5522847498307936
+
+
+def circle(x, y, r, layer="balls"):
+    def c(*numbers):
+        return ("C", *(value * r + (x, y)[index % 2] for index, value in enumerate(numbers)))
+
+    segments = [
+        ("M", x + r, y),
+        c(1, K, K, 1, 0, 1),
+        c(-K, 1, -1, K, -1, 0),
+        c(-1, -K, -K, -1, 0, -1),
+        c(K, -1, 1, -K, 1, 0),
+    ]
+    return DrawnPath([Subpath(segments, closed=True)], layer=layer)
+
+
+def line(x0, y0, x1, y1, **marks):
+    return DrawnPath([Subpath([("M", x0, y0), ("L", x1, y1)], closed=False)], layer="balls", **marks)
+
+
+def test_a_circle_is_a_ball_and_a_line_from_its_centre_its_velocity():
+    drawing = Drawing(
+        "pt", "up", paths=[circle(10, 20, 3), line(10, 20, 60, 20), circle(50, 20, 2), circle(0, 0, 9, "walls")]
+    )
+    (first, second), problems = drawn_balls(drawing)
+    assert (first.x, first.y, first.radius) == pytest.approx((10, 20, 3), rel=3e-4)  # four cubics are that round
+    assert first.velocity == pytest.approx((50, 0))
+    assert second.velocity is None
+    assert problems == []
+
+
+def test_an_exact_circle_of_arcs_keeps_its_numbers():
+    arcs = Subpath([("M", 13, 20), ("A", 3, 3, 0, 0, 1, 7, 20), ("A", 3, 3, 0, 0, 1, 13, 20)], closed=True)
+    (ball,), _ = drawn_balls(Drawing("px", "down", paths=[DrawnPath([arcs], layer="balls")]))
+    assert (ball.x, ball.y, ball.radius) == pytest.approx((10, 20, 3), rel=1e-14)
+
+
+def test_scale_and_flip_act_on_places_radii_and_velocities():
+    (ball,), _ = drawn_balls(Drawing("pt", "up", paths=[circle(10, 20, 3), line(10, 20, 60, 25)]), scale=2, flip_y=True)
+    assert (ball.x, ball.y, ball.radius) == pytest.approx((20, -40, 6), rel=3e-4)
+    assert ball.velocity == pytest.approx((100, -10))
+
+
+def test_what_is_no_ball_is_reported_with_its_place_and_hidden_ones_do_not_count():
+    square = DrawnPath(
+        [Subpath([("M", 0, 0), ("L", 9, 0), ("L", 9, 9), ("L", 0, 9)], closed=True)], layer="balls", line=7
+    )
+    hidden = circle(1, 1, 1)
+    hidden.visible = False
+    found, problems = drawn_balls(Drawing("pt", "up", paths=[square, line(5, 6, 7, 8), hidden]))
+    assert found == []
+    assert [(p.code, p.x, p.y) for p in problems] == [("not-a-ball", 0, 0), ("not-a-ball", 5, 6)]
+    assert problems[0].line == 7
+
+
+def ring(x0, y0, x1, y1, way=1):
+    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)][::way]
+
+
+@pytest.mark.parametrize(
+    ("walls", "place", "room"),
+    [
+        (Walls.from_polylines([ring(0, 0, 100, 100)]), (50, 50), 50),
+        # beside an obstacle in the right half
+        (Walls.from_polylines([ring(0, 0, 200, 100), ring(100, 0, 199, 99)]), (50, 50), 50),
+        # an open wall counts: a partition
+        (Walls.from_polylines([ring(0, 0, 300, 100), [(100, 0), (100, 100)]], closed=[True, False]), (200, 50), 50),
+        # nothing but an open wall, nearly a room
+        (Walls.from_polylines([[(0, 0), (100, 0), (100, 100), (0, 100), (0, 1)]], closed=False), (50, 50), 50),
+    ],
+    ids=["box", "beside an obstacle", "partition", "leaky"],
+)
+def test_the_roomiest_spot(walls, place, room):
+    spot = roomiest(walls)
+    assert spot.room == pytest.approx(room, rel=0.02)
+    assert place[0] - 50 <= spot.x <= place[0] + 60
+    assert spot.y == pytest.approx(place[1], abs=2)
+
+
+def test_no_ball_starts_inside_what_is_solid_from_outside():
+    solid = Walls.from_polylines([ring(0, 0, 100, 100)], sides="outward")
+    assert roomiest(solid) is None
+    hollow = Walls.from_polylines([ring(0, 0, 100, 100), ring(30, 30, 90, 90, -1)], sides="outward")
+    assert roomiest(hollow).room == pytest.approx(30, rel=0.02)
+
+
+def test_walls_without_room_have_no_spot():
+    assert roomiest(Walls.from_polylines([])) is None
+    assert roomiest(Walls.from_polylines([[(0, 0), (5, 0)]])) is None
+
+
+def test_scattered_places_have_room_and_come_again_with_their_seed():
+    walls = Walls.from_polylines([ring(0, 0, 100, 60), ring(40, 20, 60, 40)])
+    spot = roomiest(walls)
+    places = scattered(walls, spot, 300, 5.0, np.random.default_rng(3))
+    assert np.array_equal(places, scattered(walls, spot, 300, 5.0, np.random.default_rng(3)))
+    x, y = places.T
+    assert ((x > 5) & (x < 95) & (y > 5) & (y < 55)).all()
+    outside = np.hypot(np.maximum(abs(x - 50) - 10, 0), np.maximum(abs(y - 30) - 10, 0))
+    assert (outside > 5).all()
+    with pytest.raises(SceneError, match="no room"):
+        scattered(walls, spot, 1, 30.0, np.random.default_rng(3))
