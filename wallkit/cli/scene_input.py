@@ -125,6 +125,7 @@ def prepare(file: str, wishes: Wishes) -> Prepared:
 
 def prepare_drawing(drawing: Drawing, wishes: Wishes) -> Prepared:
     """Make the scene of a drawing that is read already."""
+    from wallkit.curves import in_material
     from wallkit.starts import drawn_balls
     from wallkit.walls.build import import_walls
 
@@ -132,22 +133,15 @@ def prepare_drawing(drawing: Drawing, wishes: Wishes) -> Prepared:
     walls = import_walls(drawing, **options)
     found, problems = drawn_balls(drawing, options.get("scale", 1.0), options.get("flip_y", False))
     given = _Given(drawn=[(ball.x, ball.y, ball.radius, ball.velocity) for ball in found])
-    prepared = _complete(walls, given, wishes, drawing.kind or "drawing", problems)
-    return prepared if "arena" in wishes.importing else _as_arena(prepared)
-
-
-def _as_arena(prepared: Prepared) -> Prepared:
-    """Take the outermost walls as rooms where all balls start inside them: then nobody meant them as solid."""
-    from wallkit.curves import in_material
-    from wallkit.walls.nesting import orient
-
-    walls, balls = prepared.scene.walls, prepared.scene.balls
-    if not len(balls) or not in_material(walls, np.asarray(balls.position)).all():
+    kind = drawing.kind or "drawing"
+    prepared = _complete(walls, given, wishes, kind, problems)
+    balls = prepared.scene.balls
+    if options.get("arena") or not len(balls) or not in_material(walls, np.asarray(balls.position)).all():
         return prepared
-    vertices, bulges = orient(walls.vertices, walls.bulges, walls.offsets, walls.closed)
-    arena = replace(walls, vertices=vertices, bulges=bulges, depth=walls.depth + walls.closed)
-    words = "the outermost walls are a room, since all balls are in it (--arena)"
-    return replace(prepared, scene=replace(prepared.scene, walls=arena), assumed=[words, *prepared.assumed])
+    # All balls start in what would be material: then the outermost walls are meant as rooms.
+    prepared = _complete(import_walls(drawing, **options, arena=True), given, wishes, kind, problems)
+    prepared.assumed.insert(0, "the outermost walls are a room, since all balls are in it (--arena)")
+    return prepared
 
 
 def _of_drawing(data: bytes, file: str, wishes: Wishes) -> Prepared:
