@@ -60,11 +60,12 @@ class Horizon:
 
     def sentence(self) -> str:
         """Say it in one line, for people."""
+        to = f"{self.tolerance:g}".replace("e-0", "e-")
         if self.whole:
-            return f"good to {self.tolerance:g} throughout ({self.bounces} bounces)"
+            return f"good to {to} throughout ({self.bounces} bounces)"
         after = {"corner": "a corner decides after that", "graze": "a grazing hit decides after that"}
         end = after.get(self.reason, "chaos after that")
-        return f"good to {self.tolerance:g} up to bounce {self.bounces}; {end}"
+        return f"good to {to} up to bounce {self.bounces}; {end}"
 
 
 def trusted_until(
@@ -177,7 +178,7 @@ def _bends(scene: Scene, own: Any, ball: int) -> FloatArray:
         start = walls.edge_starts[edge]
         bulge = np.where(corner, 0.0, walls.bulges[start])
         round_ = bulge != 0
-        centre, curve = _circles(walls.vertices[start], walls.vertices[walls.edge_ends[edge]], bulge)
+        centre, curve = circles(walls.vertices[start], walls.vertices[walls.edge_ends[edge]], bulge)
         facing = (own["x"] - centre[:, 0]) * own["nx"] + (own["y"] - centre[:, 1]) * own["ny"]
         with np.errstate(divide="ignore"):
             outside, inside = 1 / (curve + radius), -1 / (curve - radius)
@@ -185,7 +186,7 @@ def _bends(scene: Scene, own: Any, ball: int) -> FloatArray:
     return bends
 
 
-def _circles(a: FloatArray, b: FloatArray, bulge: FloatArray) -> tuple[FloatArray, FloatArray]:
+def circles(a: FloatArray, b: FloatArray, bulge: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Centre and radius of the circles of arcs; of lines (bulge 0) something harmless."""
     k = np.where(bulge == 0, 1.0, bulge)
     d = b - a
@@ -425,7 +426,7 @@ def _near_arcs(
     edges = np.flatnonzero(walls.bulges[walls.edge_starts])
     a, b = walls.vertices[walls.edge_starts[edges]], walls.vertices[walls.edge_ends[edges]]
     bulge = walls.bulges[walls.edge_starts[edges]]
-    centres, curves = _circles(a, b, bulge)
+    centres, curves = circles(a, b, bulge)
     chord = b - a
     to_middle = np.sign(bulge)[:, None] * np.stack([chord[:, 1], -chord[:, 0]], axis=1)
     to_middle /= np.maximum(np.hypot(to_middle[:, 0], to_middle[:, 1]), 1e-300)[:, None]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from importers.pictured import Pictured
 
 if TYPE_CHECKING:
+    from wallkit.horizon import Horizon, Source
     from wallkit.scene import Scene
 
 CONTACT = np.dtype(
@@ -104,6 +105,24 @@ class Run(Pictured):
     def velocity(self, time: float) -> NDArray[np.float64]:
         """Velocities (n, 2) at a time from 0, after the contact at that time; after a ball's end, its last."""
         return self._state(time)[:, 2:4]
+
+    def trusted_until(self, tolerance: float = 1e-6, source: Source = "rounding") -> list[Horizon]:
+        """Say for each ball up to which bounce, and time, its contacts are good to ``tolerance``.
+
+        The growth of a small error is carried along the contacts; see :mod:`wallkit.horizon` for the equations.
+
+        Args:
+            tolerance: of the place of a contact, in the drawing's units.
+            source: what is wrong to begin with: ``"rounding"`` of the arithmetic, or the ``"drawing"``, whose
+                walls are off by their ``measured_error``.
+        """
+        from wallkit.horizon import trusted_until
+
+        ends = self.final["time"].tolist()
+        return [
+            trusted_until(self.scene, self.contacts_of(ball), ball, tolerance, source, end)
+            for ball, end in enumerate(ends)
+        ]
 
     @cached_property
     def _by_ball(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

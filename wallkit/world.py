@@ -9,9 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wallkit.kernels.model import NO_HIT
+from wallkit.kernels.motion import advance
+from wallkit.run import CONTACT
 from wallkit.scene import FloatArray, Scene, SceneError
 from wallkit.simulation import Flights
 
+_NO_CONTACTS = np.empty(0, dtype=CONTACT)
+_NO_CONTACTS.flags.writeable = False
 Way = Literal["exact", "stop", "full-step", "reflect-in-place"]
 
 
@@ -28,8 +32,8 @@ class World:
       a ball in a corner, or before a close second wall, passes it.
     * ``"reflect-in-place"``: at p + v' dt. Balls turn up to a frame before the wall, and pass others as above.
 
-    The last three are what frame-stepping programs do; they are here to be compared with. The frames' own
-    rounding is the only error of the time: frame ends are summed as doubles.
+    The last three are what frame-stepping programs do; they are here to be compared with. Frames are
+    summed without loss, so that time is as good as a double can be.
 
     The scene is prepared once, and each ball's next contact is found once and kept, so that a frame without
     contacts costs a comparison. Kernels are interpreted, so that no frame ever waits for a compiler; with
@@ -64,8 +68,10 @@ class World:
         self._touched = np.full(len(self._base), NO_HIT, dtype=np.int64)
         self._next_time = np.full(len(self._base), math.inf)
         self._next: list[FloatArray | None] = [None] * len(self._base)
+        self._lost = 0.0  # what the sum of the frames loses to rounding
         for ball in range(len(self)):
             self._look_ahead(ball)
+        self._soonest = float(self._next_time.min(initial=math.inf))
 
     def __len__(self) -> int:
         return len(self._base)
@@ -92,7 +98,11 @@ class World:
         """
         if not (math.isfinite(dt) and dt >= 0.0):
             raise SceneError(f"a step of {dt!r} seconds", code="bad-step", fix="give seconds, 0 or more")
-        end = self.time + dt
+        end, self._lost = advance(self.time, self._lost, dt)
+        end, self._lost = advance(end, 0.0, self._lost)
+        if self._soonest > end:
+            self.time = end
+            return _NO_CONTACTS
         rows: list[FloatArray] = []
         owners: list[int] = []
         for ball in np.flatnonzero(self._next_time <= end).tolist():
@@ -104,7 +114,7 @@ class World:
                 else:
                     self._accept_late(ball, row, end, dt)
                     break
-        self.time = end
+        self.time, self._soonest = end, float(self._next_time.min(initial=math.inf))
         return self._flights.contacts(rows, [np.array([ball], dtype=np.int32) for ball in owners])
 
     def place(self, ball: int, position: ArrayLike | None = None, velocity: ArrayLike | None = None) -> None:
@@ -124,6 +134,7 @@ class World:
         if touched != NO_HIT and speed @ normal < 0.0:
             speed = speed - 2.0 * (speed @ normal) * normal
         self._restart(ball, here, speed, self.time, touched)
+        self._soonest = float(self._next_time.min())
 
     def _look_ahead(self, ball: int) -> None:
         """Find the ball's next contact; the frames catch up with it later."""

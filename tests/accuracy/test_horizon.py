@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from wallkit import horizon
+from wallkit import horizon, simulate
 from wallkit.accuracy import scenes
 from wallkit.accuracy.reference import Reference, sure_events
 from wallkit.run import CONTACT
@@ -85,14 +85,24 @@ def test_a_hit_beside_a_corner_ends_trust():
 
 def test_sentences_are_for_people():
     assert horizon.Horizon(1e-6, 152, 3.5, False, reason="growth").sentence() == (
-        "good to 1e-06 up to bounce 152; chaos after that"
+        "good to 1e-6 up to bounce 152; chaos after that"
     )
-    assert horizon.Horizon(1e-6, 1000, 9.0, True).sentence() == "good to 1e-06 throughout (1000 bounces)"
+    assert horizon.Horizon(1e-6, 1000, 9.0, True).sentence() == "good to 1e-6 throughout (1000 bounces)"
+
+
+def test_a_run_says_it_itself():
+    scene = Scene(scenes.star(), Balls([(3.0, -7.0), (3.0, -7.0)], [(40.0, 25.0), (40.0, 26.0)], 5.0))
+    run = simulate(scene, bounces=300)
+    mine = horizon.trusted_until(scene, run.contacts, 1, 1e-3)
+    assert [said.bounces for said in run.trusted_until(1e-3)][1] == mine.bounces
+    assert run.trusted_until(1e-9)[0].bounces < run.trusted_until(1e-3)[0].bounces < 300
+    short = simulate(scene, until=5.0).trusted_until()[0]
+    assert (short.whole, short.time) == (True, 5.0)
 
 
 def test_flattened_walls_are_trusted_less_far():
     built = next(scene for scene in scenes.built_in() if scene.name == "stadium")
-    walls = built.walls(0.001)
+    walls = built.lines(0.001)
     walls.measured_error = 0.001
     scene = Scene(walls, Balls([built.position], [built.velocity]))
     contacts = as_contacts(scene, sure_events(scene, 40))

@@ -1,6 +1,7 @@
 """World: the exact way is ``simulate`` cut into frames; the classic ways do what their names say."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -149,3 +150,10 @@ def test_ways_are_named_in_the_error():
 def test_a_ball_cannot_be_put_nowhere():
     with pytest.raises(SceneError, match="cannot be put"):
         one_ball("exact").place(0, position=(math.nan, 0.0))
+
+
+def test_many_frames_lose_no_time():
+    world = one_ball("exact", velocity=(0.0, 0.0))
+    for _ in range(10_000):
+        world.step(1 / 60)
+    assert world.time == float(10_000 * Fraction(1 / 60))

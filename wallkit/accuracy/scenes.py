@@ -1,6 +1,6 @@
 """The scenes of the report and of the horizon's table: small formulas, each hard in a way of its own.
 
-Every scene has one ball of 50 units per second. They are made here rather than read from files so that the
+Every scene has one ball at 50 units per second. They are made here rather than read from files so that the
 same curve is there as lines of any tolerance and as arcs.
 """
 
@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.horizon import circles
 from wallkit.scene import Balls, Scene
 from wallkit.walls import Walls
 
@@ -28,25 +29,29 @@ class BuiltIn:
     Attributes:
         name: one word.
         story: what is hard about it.
-        walls: makes the walls; for a curved scene with a tolerance (0: as arcs, as exact as they get).
-        curved: it has curves, so that lines can only approach it.
+        lines: makes the walls as lines, within a tolerance of the curves (0 where there are none).
+        arcs: makes them with arcs, within a tolerance; None where there are no curves.
+        fitted: arcs only approach the curves; else they are exact, whatever the tolerance.
         position: where the ball starts.
         velocity: how.
-        radius: of the ball; the same ball is also run as a point.
+        radius: of the ball; the horizon's table runs the same ball as a point too.
     """
 
     name: str
     story: str
-    walls: Callable[[float], Walls]
-    curved: bool
+    lines: Callable[[float], Walls]
+    arcs: Callable[[float], Walls] | None
+    fitted: bool
     position: tuple[float, float]
     velocity: tuple[float, float] = (_COS, _SIN)
     radius: float = 5.0
 
-    def scene(self, tolerance: float = 0.0, radius: float | None = None) -> Scene:
-        """Give the scene, its curves flattened to ``tolerance`` (0: arcs)."""
-        size = self.radius if radius is None else radius
-        return Scene(self.walls(tolerance), Balls([self.position], [self.velocity], size))
+    def scene(self, tolerance: float = 1e-4, *, lines: bool = False, radius: float | None = None) -> Scene:
+        """Give the scene, with arcs unless asked for lines."""
+        make = self.lines if lines or self.arcs is None else self.arcs
+        return Scene(
+            make(tolerance), Balls([self.position], [self.velocity], self.radius if radius is None else radius)
+        )
 
 
 def room(points: FloatArray | list[tuple[float, float]], bulges: list[float] | None = None) -> Walls:
@@ -110,22 +115,42 @@ def sinai(side: float = 400.0, radius: float = 100.0, tolerance: float = 0.0) ->
     return Walls.from_polylines([square, pillar.vertices], bulges=[np.zeros(4), pillar.bulges])
 
 
-def wavy(tolerance: float = 0.0) -> Walls:
-    """Make the smooth room R(t) = 200 (1 + 0.15 cos 3t + 0.07 sin 5t).
+def wavy(tolerance: float) -> Walls:
+    """Make the smooth room R(t) = 200 (1 + 0.15 cos 3t + 0.07 sin 5t) of lines.
 
-    As lines: vertices on the curve, equally spaced in t, so many that the sagitta stays below the tolerance.
-    As arcs: each pair of equal steps is one arc through three points of the curve (400 arcs).
+    Vertices on the curve, equally spaced in t, so many that the sagitta stays below the tolerance: a chord of the
+    step h has a sagitta of at most h^2 / 8 max|P''| (Taylor), and |P''| <= |R''| + 2 |R'| + |R|.
     """
-    if tolerance > 0:
-        # The sagitta of a chord of angle h is at most h^2 / 8 max|P''| (Taylor), and |P''| <= |R''| + 2 |R'| + |R|
-        bend = 200 * ((0.15 * 9 + 0.07 * 25) + 2 * (0.15 * 3 + 0.07 * 5) + 1.22)
-        count = max(3, math.ceil(math.tau / math.sqrt(8 * tolerance / bend)))
-        return room(_wave(-np.arange(count) * math.tau / count))
-    count = 400
-    turns = -np.arange(2 * count) * math.tau / (2 * count)
-    points = _wave(turns)
+    bend = 200 * ((0.15 * 9 + 0.07 * 25) + 2 * (0.15 * 3 + 0.07 * 5) + 1.22)
+    count = max(3, math.ceil(math.tau / math.sqrt(8 * tolerance / bend)))
+    return room(_wave(-np.arange(count) * math.tau / count))
+
+
+def wavy_arcs(tolerance: float) -> Walls:
+    """Make the same room of arcs, each through three points of the curve, so many that they err by no more.
+
+    The error is of third order in the step, so it is measured with 60 arcs and the step chosen from that, with
+    a quarter more arcs since the order holds in the limit only.
+    """
+    count = max(12, math.ceil(60 * 1.25 * (_arc_error(60) / tolerance) ** (1 / 3)))
+    return _wavy_of_arcs(count)
+
+
+def _wavy_of_arcs(count: int) -> Walls:
+    points = _wave(-np.arange(2 * count) * math.tau / (2 * count))
     start, middle, end = points[0::2], points[1::2], np.roll(points[0::2], -1, axis=0)
     return room(start, list(bulge_through(start, middle, end)))
+
+
+def _arc_error(count: int) -> float:
+    """Largest distance of the curve's points at the quarters of each arc's step from that arc."""
+    walls = _wavy_of_arcs(count)
+    centre, radius = circles(walls.vertices, np.roll(walls.vertices, -1, axis=0), walls.bulges)
+    step = math.tau / count
+    errors = [
+        np.abs(np.hypot(*(_wave(-(np.arange(count) + part) * step) - centre).T) - radius) for part in (0.25, 0.75)
+    ]
+    return float(np.max(errors))
 
 
 def maze(rooms: int = 12, size: float = 400.0, seed: int = 3) -> Walls:
@@ -168,19 +193,27 @@ def bulge_through(start: FloatArray, middle: FloatArray, end: FloatArray) -> Flo
 def built_in() -> list[BuiltIn]:
     """List the scenes of the report, in its order."""
     narrow = math.radians(2)
+    slanted = (-SPEED * math.cos(0.05), SPEED * math.sin(0.05))
     return [
-        BuiltIn("box", "nothing grows but the rounding", lambda _: box(), False, (123.0, 87.0)),
-        BuiltIn("star", "convex corners spread the balls", lambda _: star(), False, (3.0, -7.0)),
+        BuiltIn("box", "nothing grows but the rounding", lambda _: box(), None, False, (123.0, 87.0)),
+        BuiltIn("star", "convex corners spread the balls", lambda _: star(), None, False, (3.0, -7.0)),
+        BuiltIn("wedge", "ninety bounces in a corner", lambda _: wedge(narrow), None, False, (900.0, 1.0), slanted),
+        BuiltIn("maze", "short walls everywhere", lambda _: maze(), None, False, (216.7, 216.7), radius=2.0),
+        BuiltIn("curve", "a smooth room, no two places alike", wavy, wavy_arcs, True, (3.0, -7.0)),
         BuiltIn(
-            "wedge",
-            "ninety bounces in a narrow corner",
-            lambda _: wedge(narrow),
+            "stadium",
+            "round ends, straight sides, chaos",
+            lambda t: stadium(tolerance=t),
+            lambda _: stadium(),
             False,
-            (900.0, 1.0),
-            (-SPEED * math.cos(0.05), SPEED * math.sin(0.05)),
+            (3.0, -7.0),
         ),
-        BuiltIn("curve", "a smooth room, no two places alike", wavy, True, (3.0, -7.0)),
-        BuiltIn("maze", "short walls everywhere", lambda _: maze(), False, (216.7, 216.7), radius=2.0),
-        BuiltIn("stadium", "straight into round, chaos between", lambda t: stadium(tolerance=t), True, (3.0, -7.0)),
-        BuiltIn("sinai", "a round pillar spreads every beam", lambda t: sinai(tolerance=t), True, (-150.0, 20.0)),
+        BuiltIn(
+            "sinai",
+            "a round pillar spreads every beam",
+            lambda t: sinai(tolerance=t),
+            lambda _: sinai(),
+            False,
+            (-150.0, 20.0),
+        ),
     ]

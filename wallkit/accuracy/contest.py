@@ -1,0 +1,255 @@
+"""Work against precision: every contestant flies the same ball, and is held against a far tighter reference."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.accuracy import engines
+from wallkit.accuracy.reference import Event, PrecisionError, Reference, sure_events
+from wallkit.accuracy.scenes import BuiltIn
+from wallkit.scene import Scene
+from wallkit.walls import Walls
+
+FloatArray = NDArray[np.float64]
+BOUNCES = 5  # the error is taken after so many: few enough that chaos has not mixed everything up
+WRONG = 0.01  # a ball is somewhere else when it is off by this part of the scene's size
+WAYS = ("exact", "stop", "full-step", "reflect-in-place")
+
+
+@dataclass(frozen=True, slots=True)
+class Effort:
+    """How much is done.
+
+    Attributes:
+        bounces: of the reference, in which the first wrong bounce is looked for.
+        runs: the time is the least of so many.
+        steps: time steps of what is stepped.
+        tolerances: of what is drawn as lines or arcs, as parts of the scene's size.
+        digits: of the reference to begin with; it adds more by itself until nothing changes.
+        fixed: take the digits as they are.
+    """
+
+    bounces: int = 60
+    runs: int = 5
+    steps: tuple[float, ...] = (1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 1000, 1 / 5000)
+    tolerances: tuple[float, ...] = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
+    digits: int = 32
+    fixed: bool = False
+
+
+QUICK = Effort(bounces=30, runs=2, steps=(1 / 60, 1 / 240, 1 / 1000), tolerances=(1e-3, 1e-5, 1e-7))
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """One contestant's result.
+
+    Attributes:
+        series: who.
+        setting: with what, for people.
+        value: the same as a number: a time step or a tolerance.
+        error: distance from the reference after :data:`BOUNCES` bounces, in the scene's units.
+        seconds: wall time per simulated second.
+        wrong: the first bounce after which the ball is somewhere else, or None.
+        drift: of the energy over the whole run, relative.
+        escaped: the ball was outside of its room at some time.
+    """
+
+    series: str
+    setting: str
+    value: float
+    error: float
+    seconds: float
+    wrong: int | None
+    drift: float
+    escaped: bool
+
+
+@dataclass(slots=True)
+class Contest:
+    """All results on one scene.
+
+    Attributes:
+        name: of the scene.
+        story: what is hard about it.
+        bounces: of the reference.
+        size: the larger side of the scene.
+        radius: of the ball.
+        points: the results, series by series.
+    """
+
+    name: str
+    story: str
+    bounces: int
+    size: float
+    radius: float
+    points: list[Point] = field(default_factory=list)
+
+    def series(self) -> dict[str, list[Point]]:
+        """Give the points by series, in order."""
+        found: dict[str, list[Point]] = {}
+        for point in self.points:
+            found.setdefault(point.series, []).append(point)
+        return found
+
+    def to_json(self) -> dict[str, Any]:
+        """Give everything as plain data; a number that is not finite is null."""
+        plain = asdict(self)
+        for point in plain["points"]:
+            point.update({k: None for k, v in point.items() if isinstance(v, float) and not math.isfinite(v)})
+        return plain
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What is flown: the same scene as lines and with arcs, at any tolerance.
+
+    Attributes:
+        name: of the scene.
+        story: what is hard about it.
+        lines: the scene of lines within a tolerance.
+        arcs: the scene with arcs, or None where it has no curves.
+        swept: its arcs depend on the tolerance.
+    """
+
+    name: str
+    story: str
+    lines: Callable[[float], Scene]
+    arcs: Callable[[float], Scene] | None
+    swept: bool
+
+    @classmethod
+    def of(cls, scene: BuiltIn) -> Subject:
+        """Take a built-in scene."""
+        arcs = None if scene.arcs is None else lambda t: scene.scene(t)
+        return cls(scene.name, scene.story, lambda t: scene.scene(t, lines=True), arcs, scene.fitted)
+
+    def truth(self, size: float) -> Scene:
+        """Give the scene that the others are held against: arcs a thousandth of the finest tolerance."""
+        return self.lines(size) if self.arcs is None else self.arcs(1e-10 * size)
+
+
+def contestants(subject: Subject, effort: Effort, size: float) -> Iterator[engines.Contestant]:
+    """Set up everybody; walls of lines are as fine as a person would draw them for all that steps."""
+    fine = subject.lines(1e-5 * size)
+    best = fine if subject.arcs is None else subject.arcs(1e-8 * size)
+    if subject.arcs is None:
+        yield engines.exact(fine, "exact, lines", "as drawn", 0.0)
+    else:
+        for part in effort.tolerances:
+            yield engines.exact(subject.lines(part * size), "exact, lines", f"within {part * size:.2g}", part * size)
+        for part in effort.tolerances if subject.swept else ():
+            yield engines.exact(subject.arcs(part * size), "exact, arcs", f"within {part * size:.2g}", part * size)
+        if not subject.swept:
+            yield engines.exact(best, "exact, arcs", "as drawn", 0.0)
+    for way in WAYS:
+        yield from (engines.stepped(best, way, dt) for dt in effort.steps)
+    yield from engines.others(fine, best, list(effort.steps))
+
+
+def contest(subject: Subject, effort: Effort, progress: Callable[[str], None] | None = None) -> Contest:
+    """Let everybody fly one scene.
+
+    Args:
+        subject: the scene.
+        effort: how much is done.
+        progress: is told who flies next.
+
+    Raises:
+        PrecisionError: mpmath is not installed, or the digits asked for cannot give the reference.
+    """
+    low_x, low_y, high_x, high_y = subject.lines(1.0).walls.box()
+    size = max(high_x - low_x, high_y - low_y) or 1.0
+    truth = subject.truth(size)
+    if progress:
+        progress("reference")
+    events = _reference(truth, effort)
+    times, places = _between(events, truth)
+    area = _room(truth.walls)
+    radius = float(np.atleast_1d(np.asarray(truth.balls.radius, dtype=np.float64))[0])
+    result = Contest(subject.name, subject.story, len(times), size, radius)
+    for contestant in contestants(subject, effort, size):
+        if progress:
+            progress(f"{contestant.series}, {contestant.setting}")
+        result.points.append(_judged(contestant, contestant.fly(times, effort.runs), places, size, area, truth))
+    return result
+
+
+def _reference(truth: Scene, effort: Effort) -> list[Event]:
+    wanted = effort.bounces + 1
+    if effort.fixed:
+        events = Reference(truth, effort.digits).run(wanted)
+    else:
+        events = sure_events(truth, wanted, digits=effort.digits)
+    if len(events) < 2:
+        raise PrecisionError("the ball does not bounce twice in this scene", code="no-bounces", fix="aim it at walls")
+    return events
+
+
+def _between(events: list[Event], truth: Scene) -> tuple[FloatArray, FloatArray]:
+    """Times in the middle of the flights after each bounce, and the exact places then (rounded to doubles)."""
+    times, places = [], []
+    for a, b in itertools.pairwise(events):
+        time = float((a.time + b.time) / 2)
+        span = type(a.time)(time) - a.time
+        pull = truth.gravity or (0.0, 0.0)
+        times.append(time)
+        places.append([float(a.position[i] + a.velocity[i] * span + pull[i] * span * span / 2) for i in (0, 1)])
+    return np.array(times), np.array(places)
+
+
+def _judged(
+    contestant: engines.Contestant, flown: engines.Flown, places: FloatArray, size: float, area: Any, truth: Scene
+) -> Point:
+    from shapely import contains_xy
+
+    got = flown.position
+    off = np.hypot(*(got - places[: len(got)]).T) if len(got) else np.empty(0)
+    error = float(off[min(BOUNCES, len(places)) - 1]) if len(off) >= min(BOUNCES, len(places)) else math.nan
+    wrong = np.flatnonzero(~(off <= WRONG * size))
+    escaped = area is not None and bool(len(got)) and not bool(contains_xy(area, got[:, 0], got[:, 1]).all())
+    first = np.atleast_2d(np.asarray(truth.balls.velocity, dtype=np.float64))[0]
+    drift = float(flown.velocity @ flown.velocity / (first @ first) - 1) if truth.gravity is None else math.nan
+    return Point(
+        contestant.series,
+        contestant.setting,
+        contestant.value,
+        error,
+        flown.seconds,
+        int(wrong[0]) + 1 if len(wrong) else None,
+        drift,
+        escaped,
+    )
+
+
+def _room(walls: Walls) -> Any:
+    """The outermost closed wall as an area, a little wider than drawn; None without one."""
+    from shapely import Polygon
+
+    if not len(walls) or not walls.closed[0]:
+        return None
+    room = walls[0]
+    points = []
+    for k, (a, b) in enumerate(zip(room.vertices, np.roll(room.vertices, -1, axis=0), strict=True)):
+        points.extend(_along(a, b, float(room.bulges[k])))
+    low_x, low_y, high_x, high_y = walls.box()
+    return Polygon(points).buffer(1e-3 * max(high_x - low_x, high_y - low_y))
+
+
+def _along(a: FloatArray, b: FloatArray, bulge: float, pieces: int = 128) -> FloatArray:
+    """Points of an edge from a to just before b: of an arc with bulge k, turned by parts of 4 atan(k)."""
+    if bulge == 0.0 or abs(bulge) < 1e-3:
+        return a[None]
+    d = b - a
+    centre = (a + b) / 2 + (1 - bulge**2) / (4 * bulge) * np.array([-d[1], d[0]])
+    turns = 4 * math.atan(bulge) * np.arange(pieces) / pieces
+    c, s = np.cos(turns), np.sin(turns)
+    x, y = a - centre
+    return np.stack([centre[0] + c * x - s * y, centre[1] + s * x + c * y], axis=1)
