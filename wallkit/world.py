@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wallkit.kernels.model import NO_HIT
-from wallkit.kernels.motion import advance
 from wallkit.run import CONTACT
 from wallkit.scene import FloatArray, Scene, SceneError
 from wallkit.simulation import Flights
@@ -98,8 +97,9 @@ class World:
         """
         if not (math.isfinite(dt) and dt >= 0.0):
             raise SceneError(f"a step of {dt!r} seconds", code="bad-step", fix="give seconds, 0 or more")
-        end, self._lost = advance(self.time, self._lost, dt)
-        end, self._lost = advance(end, 0.0, self._lost)
+        whole = dt + self._lost  # Kahan's sum: what one frame loses to rounding the next one gets
+        end = self.time + whole
+        self._lost = whole - (end - self.time)
         if self._soonest > end:
             self.time = end
             return _NO_CONTACTS

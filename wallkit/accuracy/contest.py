@@ -236,7 +236,7 @@ def _room(walls: Walls) -> Any:
     if not len(walls) or not walls.closed[0]:
         return None
     room = walls[0]
-    points = []
+    points: list[FloatArray] = []
     for k, (a, b) in enumerate(zip(room.vertices, np.roll(room.vertices, -1, axis=0), strict=True)):
         points.extend(_along(a, b, float(room.bulges[k])))
     low_x, low_y, high_x, high_y = walls.box()

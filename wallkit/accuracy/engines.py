@@ -105,7 +105,8 @@ def _through(start: Callable[[], Stepper], dt: float, times: FloatArray, runs: i
     counts = counts[counts <= MOST_STEPS]
     if not len(counts):
         return Flown(np.empty((0, 2)), np.full(2, math.nan), math.nan)
-    least, places = math.inf, []
+    least = math.inf
+    places: list[FloatArray] = []
     for _ in range(runs):
         engine = start()
         step, places, spent, done = engine.step, [], 0.0, 0
@@ -132,7 +133,7 @@ def pymunk_engine(scene: Scene, dt: float) -> Contestant:
         space = pymunk.Space()
         position, velocity, radius = _ball(scene)
         for a, b in _segments(scene.walls):
-            line = pymunk.Segment(space.static_body, tuple(a), tuple(b), 0.0)
+            line = pymunk.Segment(space.static_body, (a[0], a[1]), (b[0], b[1]), 0.0)
             line.elasticity, line.friction = 1.0, 0.0
             space.add(line)
         body = pymunk.Body(1.0, math.inf)

@@ -29,11 +29,12 @@ def wedge_bounces(tangent: float) -> int:
     The origin is in the middle of the walls and their length a power of two, so that nothing is lost far out.
     """
     angle = math.atan(tangent)
-    rest = math.pi / angle - math.floor(math.pi / angle)
-    reach = max(1.0, 1.0 / max(rest, 1e-3))  # the last crossing is rest * angle before parallel
-    length = 2.0 ** math.ceil(math.log2(1.2 * reach / tangent))
-    entry = 1.05 / tangent
-    return count(open_wedge(tangent, length, -length / 2), (entry - length / 2, 1.0), (-SPEED, 0.0))
+    rest = max(math.pi / angle - math.floor(math.pi / angle), 1e-3)  # the last crossing is rest * angle from parallel
+    length = 1.05 * max(1.0 / math.tan(rest * angle), 1.0 / tangent)
+    power = 2.0 ** math.ceil(math.log2(length))
+    distance = power / length  # as far from the corner as fits: what is narrow there is as wide as can be
+    start = (1.02 * distance / tangent - power / 2, distance)
+    return count(open_wedge(tangent, power, -power / 2), start, (-SPEED, 0.0))
 
 
 def _wedge(degrees: float, expected: int, slack: int) -> Outcome:
@@ -62,7 +63,6 @@ for _digits in range(8):
         "corners",
         "two balls and a wall, as a wedge of atan(sqrt(m / M)): their collisions count the digits of pi",
         partial(_galperin, _digits),
-        slow=_digits >= 6,
     )
 
 

@@ -147,10 +147,8 @@ def _arc_error(count: int) -> float:
     walls = _wavy_of_arcs(count)
     centre, radius = circles(walls.vertices, np.roll(walls.vertices, -1, axis=0), walls.bulges)
     step = math.tau / count
-    errors = [
-        np.abs(np.hypot(*(_wave(-(np.arange(count) + part) * step) - centre).T) - radius) for part in (0.25, 0.75)
-    ]
-    return float(np.max(errors))
+    quarters: FloatArray = -(np.arange(count) + np.array([[0.25], [0.75]])) * step
+    return max(float(np.abs(np.hypot(*(_wave(turns) - centre).T) - radius).max()) for turns in quarters)
 
 
 def maze(rooms: int = 12, size: float = 400.0, seed: int = 3) -> Walls:
