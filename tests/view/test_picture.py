@@ -99,7 +99,7 @@ def test_problems_are_numbered_marks_with_a_legend_and_the_rest_is_counted(neste
     problems = [Problem("gap", "warning", f"Gap {i}", "Join the ends", x=i, y=0) for i in range(75)]
     shown = texts(walls_svg(nested, problems))
     assert shown.count("1") == 2
-    assert "Gap 0. Join the ends" in shown
+    assert "Gap 0; Join the ends" in shown
     assert "and 15 more problems, not listed here" in shown
 
 

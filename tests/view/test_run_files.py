@@ -2,7 +2,9 @@ import csv
 import io
 import json
 import zipfile
+from importlib.resources import files
 
+import jsonschema
 import numpy as np
 import pytest
 
@@ -38,6 +40,13 @@ def test_json_has_the_columns_and_its_scene_flies_again_to_the_same_bits(run):
     read = read_scene(text.encode())
     again = wallkit.simulate(read.scene, read.until, read.bounces)
     assert again.contacts.tobytes() == run.contacts.tobytes()
+
+
+def test_json_fits_its_schema_with_and_without_a_horizon(run):
+    schema = json.loads((files("wallkit.schemas") / "run.schema.json").read_text())
+    good = [{"time": 1.5, "bounces": 2, "tolerance": 1e-6}, None]
+    for trusted in (None, good):
+        jsonschema.validate(json.loads(run_files.to_json(run, trusted)), schema)
 
 
 def test_npz_needs_no_pickle_and_is_the_same_each_time(run):

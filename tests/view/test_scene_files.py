@@ -1,5 +1,8 @@
 import json
+import tomllib
+from importlib.resources import files
 
+import jsonschema
 import numpy as np
 import pytest
 
@@ -56,6 +59,45 @@ def test_a_scene_written_as_json_reads_back_to_the_same_bits():
         assert mine.tobytes() == theirs.tobytes()
     assert again.scene.walls.vertices.tobytes() == walls.vertices.tobytes()
     assert again.scene.walls.bulges.tobytes() == walls.bulges.tobytes()
+
+
+@pytest.fixture
+def schema():
+    return json.loads((files("wallkit.schemas") / "scene.schema.json").read_text())
+
+
+def test_scenes_fit_their_schema_and_what_does_not_is_refused_by_both(schema):
+    jsonschema.validate(tomllib.loads(ROOM), schema)
+    scene = Scene(Walls.from_polylines([[(0, 0), (1, 0), (1, 1)]]), Balls([[1, 2]], [[3, 4]]), gravity=(0, 1))
+    jsonschema.validate(scene_to_json(scene, bounces=3), schema)
+    polyline = "[[walls]]\nvertices = [[0, 0], [1, 0]]\n"
+    for wrong in (
+        "frogs = 1",
+        "gravity = [1]",
+        "[[balls]]\nradius = -1",
+        "version = 2",
+        "[import]\nsnap = 1",
+        "drawing = 'x'",
+    ):
+        text = f"{wrong}\n{polyline}"
+        if wrong != "[import]\nsnap = 1":  # goes only with a drawing, which the schema leaves to the reader
+            with pytest.raises(jsonschema.ValidationError):
+                jsonschema.validate(tomllib.loads(text), schema)
+        with pytest.raises(SceneError):
+            read_scene(text.encode())
+
+
+def test_a_drawing_brings_its_balls_along(tmp_path):
+    (tmp_path / "room.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="90" height="90"><rect width="80" height="60"/>'
+        '<g id="balls"><circle cx="20" cy="30" r="4"/><path d="M20 30L50 70"/></g></svg>'
+    )
+    (tmp_path / "scene.toml").write_text('drawing = "room.svg"\n[import]\narena = true\n')
+    scene = load_scene(tmp_path / "scene.toml").scene
+    assert np.allclose(scene.balls.position, [[20, 30]])
+    assert np.allclose(scene.balls.velocity, [[30, 40]])
+    assert np.allclose(scene.balls.radius, [4])
+    assert len(scene.walls) == 1
 
 
 def test_walls_in_a_file_of_their_own_are_found_beside_the_scene(tmp_path):

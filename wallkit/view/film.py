@@ -92,7 +92,7 @@ class _Frames:
         part = (
             "" if shown >= self.duration - self.speedup / self.fps else f", first {shown:.4g} of {self.duration:.4g} s"
         )
-        pace = "" if self.speedup == 1 else f" ({self.speedup:g} times as fast{part})"
+        pace = "" if self.speedup == 1 else f" (at {self.speedup:g} times its speed{part})"
         return f"{time:.2f} s{pace or part}"
 
     def __iter__(self) -> Iterator[Image.Image]:

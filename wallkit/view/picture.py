@@ -61,7 +61,9 @@ def walls_canvas(
     width: float = WIDTH,
 ) -> Canvas:
     """Draw walls as :func:`walls_svg` does, on a canvas that can become SVG or pixels."""
-    places = [(p.x, p.y, p.x, p.y) for p in problems if p.x is not None and p.y is not None]
+    # What was left out by rule (info) may lie anywhere, such as a guide off the page; it shall not shrink the rest.
+    marked = [p for p in problems if p.severity != "info" or not len(walls)]
+    places = [(p.x, p.y, p.x, p.y) for p in marked if p.x is not None and p.y is not None]
     canvas, frame = started(united([*([walls_box(walls)] if len(walls) else []), *places]), walls.y_axis == "up",
                             title=title, width=width)  # fmt: skip
     canvas.title = title or f"{len(walls)} walls"
@@ -144,11 +146,14 @@ def draw_legend(canvas: Canvas, entries: Sequence[tuple[str, str]], row: float) 
 
 
 def draw_problems(canvas: Canvas, problems: Sequence[Problem], frame: Frame) -> None:
-    """Put a numbered mark at each problem's place (the first 60; the legend counts the rest)."""
+    """Put a numbered mark at each problem's place in the frame (the first 60; the legend counts the rest)."""
     for number, problem in enumerate(problems[:_MARKS], start=1):
         if problem.x is not None and problem.y is not None:
             x, y = frame.point(problem.x, problem.y)
-            canvas.add(*_mark(problem, number, x, y, problem.message))
+            if abs(x - frame.left - frame.width / 2) <= frame.width / 2 + MARGIN and (
+                abs(y - frame.top - frame.height / 2) <= frame.height / 2 + MARGIN
+            ):
+                canvas.add(*_mark(problem, number, x, y, problem.message))
 
 
 def _mark(problem: Problem, number: int, x: float, y: float, title: str = "") -> list[Disc | Label]:
@@ -163,7 +168,7 @@ def problem_legend(canvas: Canvas, problems: Sequence[Problem], row: float) -> N
     letters = int((canvas.width - 2 * MARGIN - 28) / 6.4)
     for number, problem in enumerate(problems[:_MARKS], start=1):
         canvas.add(*_mark(problem, number, MARGIN + 8, row - 4))
-        words = f"{problem.message.rstrip('.')}. {problem.fix}"
+        words = problem.message.rstrip(".") + (f"; {problem.fix}" if problem.fix else "")
         for line in textwrap.wrap(" ".join(words.split()), letters)[:3] or [problem.code]:
             canvas.add(Label("text", MARGIN + 26, row, line))
             row += _LINE

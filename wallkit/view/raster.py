@@ -146,14 +146,15 @@ class Raster:
         self._draw.text(place, text, fill, font, _ANCHORS[label.anchor], stroke_width=weight, stroke_fill=fill)
 
     def _bitmap(self, cells: Bitmap) -> None:
+        def edges(start: float, count: int) -> list[int]:  # shared by neighbours, or seams would show
+            return [round((start + index * cells.size) * self.zoom) for index in range(count + 1)]
+
+        xs, ys = edges(cells.x, len(cells.rows[0]) if cells.rows else 0), edges(cells.y, len(cells.rows))
         for row, steps in enumerate(cells.rows):
             for column, step in enumerate(steps):
                 if step >= 0:
-                    x, y = (cells.x + column * cells.size) * self.zoom, (cells.y + row * cells.size) * self.zoom
-                    reach = cells.size * self.zoom
-                    self._draw.rectangle(
-                        (round(x), round(y), round(x + reach) - 1, round(y + reach) - 1), ramp(step, self.theme)
-                    )
+                    box = xs[column], ys[row], xs[column + 1] - 1, ys[row + 1] - 1
+                    self._draw.rectangle(box, ramp(step, self.theme))
 
 
 def polylines(commands: list[Command]) -> list[FloatArray]:

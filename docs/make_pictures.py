@@ -1,0 +1,76 @@
+"""Make the pictures of the README and these pages: python docs/make_pictures.py, from the repository's root."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from wallkit import Run, simulate
+from wallkit.cli.scene_input import Wishes, prepare
+from wallkit.files import write_whole
+from wallkit.view.film import film
+from wallkit.view.picture import walls_svg
+from wallkit.view.raster import png
+from wallkit.view.run_picture import run_canvas, run_svg
+
+HERE = Path(__file__).parent
+SAMPLES = HERE.parent / "samples"
+IMAGES = HERE / "images"
+
+
+def flown(sample: str, wishes: Wishes) -> Run:
+    """Simulate a sample as the command line does."""
+    prepared = prepare(str(SAMPLES / sample), wishes)
+    return simulate(prepared.scene, prepared.until, prepared.bounces)
+
+
+def lagoon() -> str:
+    """The README's first picture: a ball among islands drawn in Illustrator."""
+    return run_svg(flown("lagoon.ai", Wishes(bounces=70)), title="samples/lagoon.ai, 70 bounces")
+
+
+def lagoon_walls() -> str:
+    """What `wallkit import --preview` shows."""
+    walls = flown("lagoon.ai", Wishes(bounces=0)).scene.walls
+    return walls_svg(walls, walls.problems, title="samples/lagoon.ai: walls, normals, findings")
+
+
+def pinball() -> str:
+    """Gravity and materials."""
+    return run_svg(flown("pinball.toml", Wishes()), title="samples/pinball.toml, coloured by speed", colour="speed")
+
+
+def stadium_heat() -> bytes:
+    """A heat map of many balls."""
+    run = flown("stadium.svg", Wishes(balls=200, radius=8, bounces=200, seed=1))
+    return png(run_canvas(run, title="samples/stadium.svg: where 200 balls spend their time", heat=True), scale=1.0)
+
+
+def sinai_film() -> bytes:
+    """A film in which close starts part."""
+    run = flown(
+        "sinai.svg", Wishes(ball=[f"{90 + 0.5 * k},300" for k in range(12)], velocity="240,30", radius=6, bounces=40)
+    )
+    return film(run, "gif", seconds=8.0)
+
+
+PICTURES: dict[str, Callable[[], str | bytes]] = {
+    "lagoon.svg": lagoon,
+    "lagoon-walls.svg": lagoon_walls,
+    "pinball.svg": pinball,
+    "stadium-heat.png": stadium_heat,
+    "sinai.gif": sinai_film,
+}
+
+
+def main() -> None:
+    """Write every picture."""
+    IMAGES.mkdir(exist_ok=True)
+    for name, make in PICTURES.items():
+        data = make()
+        write_whole(IMAGES / name, data)
+        print(f"{name}: {len(data):,} {'characters' if isinstance(data, str) else 'bytes'}")
+
+
+if __name__ == "__main__":
+    main()
