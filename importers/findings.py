@@ -77,8 +77,9 @@ class Findings:
         x, y = at if at is not None else (None, None)
         self._entries[key] = _Entry(kind, position, what, layer, name, x, y)
 
-    def __len__(self) -> int:
-        return len(self._entries)
+    def has(self, kind: Kind) -> bool:
+        """Tell whether there was a case of a kind."""
+        return any(entry.kind is kind for entry in self._entries.values())
 
     def problems(self, source: Source) -> list[Problem]:
         """Give the findings in the order in which they were met first."""

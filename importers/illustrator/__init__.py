@@ -7,7 +7,9 @@ import re
 
 from importers.drawing import Drawing
 from importers.errors import DrawingError
-from importers.illustrator import scanner
+from importers.findings import Findings
+from importers.illustrator import findings, scanner
+from importers.illustrator.private import PrivatePart, find_private
 from importers.illustrator.reader import ArtReader
 from importers.illustrator.text import alphabet, decode
 from importers.limits import check_input_size
@@ -17,19 +19,12 @@ __all__ = ["looks_like_illustrator", "read_illustrator"]
 
 _CREATOR = re.compile(rb"%%Creator:[ \t]*([^\r\n]{1,200})")
 _APP_VERSION = re.compile(rb"%%AI8_CreatorVersion:[ \t]*(\d+)")
-_ILLUSTRATOR = re.compile(r"Adobe Illustrator.*?(\d+(?:\.\d+)?)\s*$")
-# A point is set, or a layer named, or a group opened: how every piece of Illustrator text begins.
-_OPERATORS = re.compile(
-    rb"(?:\A|[\s\x00])(?:[-+.\deE]{1,40}\s{1,20}[-+.\deE]{1,40}\s{1,20}m|\)\s{0,20}Ln|Lb|\*u)(?=\s|\Z)"
-)
+_ILLUSTRATOR = re.compile(r"Adobe Illustrator\D*(\d+(?:\.\d+)?)?")
 
 
 def looks_like_illustrator(data: bytes) -> bool:
     """Tell by the content whether bytes are Illustrator's operators, with a PostScript header or without one."""
-    if data.startswith((b"%!", b"\x04%!", b"\xc5\xd0\xd3\xc6")):
-        return True
-    head = data[: 1 << 20]
-    return head.lstrip()[:1] != b"<" and _OPERATORS.search(head) is not None
+    return scanner.is_operator_text(data)
 
 
 def read_illustrator(data: bytes, file: str = "") -> Drawing:
@@ -43,11 +38,10 @@ def read_illustrator(data: bytes, file: str = "") -> Drawing:
         file: its name, for messages.
 
     Raises:
-        DrawingError: there is nothing in it that Illustrator would draw, and nothing that it would write.
+        DrawingError: it is not Illustrator's text.
         LimitError: it is larger or deeper than `importers.limits` allows.
     """
     check_input_size(len(data), file)
-    start, stop = scanner.postscript_part(data)
     if not looks_like_illustrator(data):
         raise DrawingError(
             "this is no drawing that Illustrator or a program like it has written",
@@ -55,15 +49,45 @@ def read_illustrator(data: bytes, file: str = "") -> Drawing:
             fix="give an .ai, .eps, .pdf or .svg file, or text such as: 24 803 m 69 828 l",
             file=file,
         )
-    drawing = read_operators(Source(data), scanner.art_start(data, start, stop), stop, file)
-    drawing.kind = kind_of(data, start)
+    start, stop = scanner.postscript_part(data)
+    private = find_private(data, start, stop, file)
+    if private is None:
+        drawing = read_operators(Source(data), scanner.art_start(data, start, stop), stop, file)
+        drawing.kind = kind_of(data, start)
+    else:
+        drawing = _read_private(private, file)
+        drawing.kind = f"{kind_of(data, start)} (EPS with Illustrator's own data)"
     drawing.sha256 = hashlib.sha256(data).hexdigest()
     return drawing
 
 
+def _read_private(private: PrivatePart, file: str) -> Drawing:
+    """Read Illustrator's own data."""
+    data, start, stop = private.data, private.start, private.stop
+    source = Source(data, has_lines=not private.decoded)
+    drawing = read_operators(source, scanner.art_start(data, start, stop), stop, file)
+    if private.damage:
+        notes = Findings()
+        notes.add(findings.PRIVATE_DAMAGED, None, what=private.damage)
+        drawing.problems[:0] = notes.problems(source)
+    return drawing
+
+
 def read_operators(source: Source, start: int, stop: int, file: str) -> Drawing:
-    """Read the operators between two positions into a Drawing."""
+    """Read the operators between two positions into a Drawing.
+
+    Raises:
+        DrawingError: there are operators, but nothing is drawn with Illustrator's.
+        LimitError: as for :func:`read_illustrator`.
+    """
     art = ArtReader(source, start, stop, file).read()
+    if art.drew_nothing():
+        raise DrawingError(
+            "the file is a PostScript program without Illustrator's own drawing in it",
+            code="postscript-program",
+            fix="save it with Illustrator's editing capabilities, or convert it: pstoedit -f plot-svg in.eps out.svg",
+            file=file,
+        )
     return Drawing("pt", "up", art.layers, art.paths, art.findings.problems(source), file=file)
 
 
@@ -77,5 +101,5 @@ def kind_of(data: bytes, start: int = 0) -> str:
     if not creator:
         return "Illustrator operators"
     name = decode(creator.group(1), alphabet(head))
-    found = _ILLUSTRATOR.search(name)
-    return f"Illustrator {found.group(1)}" if found else f"Illustrator operators by {name}"
+    found = _ILLUSTRATOR.match(name)
+    return f"Illustrator {found.group(1) or ''}".strip() if found else f"Illustrator operators by {name}"

@@ -30,11 +30,11 @@ PATH_OPERANDS = {
 }
 # What sets attributes that no wall depends on, and PostScript's own housekeeping: no word about these.
 _WITHOUT_GEOMETRY = (
-    b"O R D d i j J M Ap Ar AE Ae As Xd XW Xy XT Xs XS Np Xz XN Bn Bd BD Bm Bc Bh Bs Pb PB Pc Pn P_ Xm XP "
-    b"Tr Tf Tz Tt TA TC TW Ti Ta Tq Tl Tx TX TV Tv TK TS Tk TG Tg Th Ts TY Xb XB XQ TE TZ Tj TI Tb Td z a e o r t "
-    b"Z E TP XF XG XH Xh X= X+ ; , : / showpage gsave grestore annotatepage def bind load store begin end pop get "
-    b"put exec dict save restore initialize terminate userdict systemdict dup exch clear cleartomark mark currentdict "
-    b"cvx cvn closefile true false null"
+    b"O R D d i j J M Ap Ar An AE Ae As Xd XD XW Xy XT Xt Xs XS Np Xz XZ XN Xn Bn Bd BD Bm Bc Bh Bs Pb PB Pc "
+    b"Pn Xm XP Tr Tf Tz Tt TA TC TW Ti Ta Tq Tl Tx TX TV Tv TK TS Tk TG Tg Th Ts TY Xb XB XQ TE TZ Tj TI Tb "
+    b"Td z a e o r t Z E TP XF XG XH Xh Xi Xq Xg Xr Xv XV LB2 Lc X= X+ X# , / showpage gsave grestore "
+    b"annotatepage def bind load store begin end pop get put exec dict save restore initialize terminate "
+    b"userdict systemdict dup exch clear cleartomark mark currentdict cvx cvn closefile true false null "
 ).split()
 
 
@@ -121,7 +121,8 @@ class Art:
         handlers.update({b"Lb": self._begin_layer, b"Ln": self._name_layer, b"LB": self._end_layer})
         handlers.update({b"To": self._begin_text, b"Tp": self._ignore, b"TO": self._end_text, b"T": self._old_text})
         handlers.update({b"XI": partial(self._leave_out, findings.RASTER), b"`": self._placed, b"~": self._ignore})
-        handlers.update({b":": self._begin_object, b";": self._end_object})
+        handlers.update({b":": self._begin_object, b";": self._end_object, b"X!": self._mesh})
+        handlers.update(dict.fromkeys((b"translate", b"scale", b"rotate", b"concat", b"cm"), self._moved))
         return handlers
 
     # --- what the reader calls --------------------------------------------------------------------------
@@ -175,11 +176,15 @@ class Art:
     def set_name(self, name: str) -> None:
         """Name the object that just ended."""
         named = self.named
-        if named is None or named.name:
+        if named is None:
             return
         named.name = name
-        if isinstance(named, DrawnPath) and name == "<Slice>":
+        if isinstance(named, DrawnPath) and name.startswith("<Slice>"):
             named.guide = True  # where a picture is cut for the web
+
+    def drew_nothing(self) -> bool:
+        """Tell whether there were operators, but none that draws: a program of another kind."""
+        return not self.paths and self.findings.has(findings.UNKNOWN)
 
     def finish(self) -> None:
         """End the file: close what is open, give each path the names of its groups.
@@ -459,7 +464,8 @@ class Art:
 
     def _begin_layer(self, operands: Operands) -> None:
         """``Lb``: visible preview enabled printing ...; later versions add arguments at the end."""
-        visible, _preview, enabled, printing = (float(operand) != 0 for operand in operands[:4])
+        flags = [float(operand) != 0 for operand in operands[:4] if not isinstance(operand, Text)]
+        visible, _preview, enabled, printing = (*flags, True, True, True, True)[:4]
         record = Layer("", visible=visible, locked=not enabled, printing=printing)
         self.layers.append(record)
         outer = self._group
@@ -522,11 +528,21 @@ class Art:
         if not self._objects and names:
             kind = names[-1].decode("latin-1")[:24]
             if kind == "AI11Text":
-                self._leave_out(findings.TEXT, [])
+                self.find(findings.TEXT)
             else:
-                self.find(findings.OBJECT, what=kind)
+                self.findings.add(findings.OBJECT, self.position, what=kind, apart=True, layer=self._group.layer)
         self._objects += 1
         self.named = None
+
+    def _mesh(self, operands: Operands) -> None:
+        """``/Mesh X!`` begins a gradient mesh, ``/End X!`` ends it."""
+        if Text(b"End") not in operands:
+            self.findings.add(findings.OBJECT, self.position, what="Mesh", apart=True, layer=self._group.layer)
+        self.named = None
+
+    def _moved(self, _operands: Operands) -> None:
+        """A PostScript program moves what follows; nobody but Illustrator's own operators is listened to."""
+        self.find(findings.MOVED)
 
     def _end_object(self, _operands: Operands) -> None:
         self._flush()

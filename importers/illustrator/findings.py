@@ -30,7 +30,7 @@ OBJECT = Kind(
     "warning",
     "an object of the kind {what} is left out",
     "{count} objects of the kind {what} are left out",
-    "expand it (Object > Expand) before saving",
+    "make plain paths of it (Object > Expand, or break the link to the symbol) before saving",
 )
 UNKNOWN = Kind(
     "unknown-operator",
@@ -94,4 +94,18 @@ ATTRIBUTE = Kind(
     "the operator {what} has not the operands that it needs; it is skipped",
     "{count} operators that set attributes have not the operands that they need (first {what}); they are skipped",
     "colours, groups or layers may be wrong; the shapes are not affected",
+)
+MOVED = Kind(
+    "moved-by-program",
+    "error",
+    "a PostScript program in the file moves or scales what follows; its coordinates are taken as written",
+    "a PostScript program in the file moves or scales what follows {count} times; coordinates are taken as written",
+    "convert the file to SVG, for example with: pstoedit -f plot-svg in.eps out.svg",
+)
+PRIVATE_DAMAGED = Kind(
+    "damaged-stream",
+    "error",
+    "Illustrator's own data are damaged ({what}); what stands before the damage was read",
+    "Illustrator's own data are damaged ({what}); what stands before the damage was read",
+    "save the drawing again",
 )

@@ -152,9 +152,10 @@ class ArtReader:
             art.note = decode(data[position + 10 : min(end, position + 1000)], art.encoding)
         elif head.startswith((b"%%PageTrailer", b"%%Trailer", b"%%EOF")):
             return self._page_end(end)
-        elif head.startswith(b"%AI5_BeginRaster"):
-            art.find(findings.RASTER, position=position)
-            return self._skip_block(b"Raster", position, end)
+        elif head.startswith((b"%AI5_BeginRaster", b"%AI5_BeginPlace")):
+            raster = head.startswith(b"%AI5_BeginRaster")
+            art.find(findings.RASTER if raster else findings.PLACED, position=position)
+            return self._skip_block(b"Raster" if raster else b"Place", position, end)
         elif block := scanner.BEGIN_BLOCK.match(data, position, end):
             return self._skip_block(block.group(1), position, end)
         return end
@@ -201,12 +202,13 @@ class ArtReader:
 
     def _hidden_line(self, line: bytes) -> None:
         """Read a line that is hidden from PostScript: a name of the object before it, or art that is none."""
-        if line.startswith(b"/XMLUID"):
+        is_id = line.startswith(b"/XMLUID")
+        if is_id or b"(AIArtName)" in line:
             start = line.find(b"(")
             end = string_end(line, start, len(line)) if start >= 0 else -1
             if end > 0:
                 name = decode(unescape(line[start + 1 : end - 1]), self.art.encoding)
-                self.art.set_name(decode_xml_name(name))
+                self.art.set_name(decode_xml_name(name) if is_id else name)
             return
         last = line[-8:].split()
         if last and last[-1] in _HIDDEN_OBJECT_ENDS:

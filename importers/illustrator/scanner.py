@@ -27,9 +27,27 @@ BEGIN_BLOCK = re.compile(
     rb"|Feature|Encoding|Object|Binary)\b"
 )
 
+# A point is set, a layer named, a group opened: how every piece of Illustrator's text begins.
+_OPERATORS = re.compile(
+    rb"(?:\A|[\s\x00])(?:[-+.\deE]{1,40}\s{1,20}[-+.\deE]{1,40}\s{1,20}m|\)\s{0,20}Ln|Lb|\*u)(?=\s|\Z)"
+)
+_ILLUSTRATOR_NOTE = re.compile(rb"(?:\A|[\r\n])%AI\d+_|Adobe_Illustrator|Adobe Illustrator")
+_LOOK = 1 << 20  # bytes that are looked at to tell what a file is
+
 _DOS_EPS = b"\xc5\xd0\xd3\xc6"
 _MARKERS = (rb"%%EndSetup", rb"%%EndProlog")
 _NOTE_OF_MARKER = rb"(?:\A|(?<=[\r\n]))%s(?=[\s\x00]|\Z)"
+
+
+def is_operator_text(data: bytes) -> bool:
+    """Tell by the content whether bytes are Illustrator's operators, and not just any PostScript or text."""
+    start, stop = postscript_part(data)
+    if data[start : start + 200].lstrip(b"\xef\xbb\xbf \t\r\n\x00")[:1] == b"<":
+        return False
+    if _ILLUSTRATOR_NOTE.search(data, start, min(stop, start + (_LOOK >> 4))):
+        return True
+    begin = art_start(data, start, stop)
+    return _OPERATORS.search(data, begin, min(stop, begin + _LOOK)) is not None
 
 
 def postscript_part(data: bytes) -> tuple[int, int]:

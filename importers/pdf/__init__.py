@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 
 from importers.drawing import Drawing
+from importers.errors import DrawingError
 from importers.findings import Findings
 from importers.illustrator import findings as common
 from importers.illustrator import kind_of, read_operators, scanner
@@ -60,8 +61,11 @@ def _read_page(document: Document, page: Page, file: str) -> Drawing:
         return _read_content(document, page, file, f"PDF by {producer[:80]}" if producer else "PDF", "")
     source = Source(private.data, has_lines=False)
     start = scanner.art_start(private.data, 0, len(private.data))
-    drawing = read_operators(source, start, len(private.data), file)
     name = kind_of(private.data)
+    try:
+        drawing = read_operators(source, start, len(private.data), file)
+    except DrawingError:
+        drawing = Drawing("pt", "up")
     if not drawing.paths and not drawing.layers:
         why = f"Illustrator's own data cannot be read ({private.damage})" if private.damage else ""
         why = why or "there is no drawing in Illustrator's own data"
@@ -69,7 +73,7 @@ def _read_page(document: Document, page: Page, file: str) -> Drawing:
     drawing.kind = f"{name} (PDF with Illustrator's own data)"
     if private.damage:
         notes = Findings()
-        notes.add(findings.PRIVATE_DAMAGED, None, what=private.damage)
+        notes.add(common.PRIVATE_DAMAGED, None, what=private.damage)
         drawing.problems[:0] = notes.problems(source)
     return drawing
 

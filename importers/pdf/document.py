@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from importers import filters
 from importers.errors import DrawingError
 from importers.limits import MAX_DEPTH, Unpacker
-from importers.pdf import filters
 
 _HEADER = re.compile(rb"%PDF-\d")
 # Streams that qpdf itself decodes while it opens a file. A name may be written with #xx for any letter.

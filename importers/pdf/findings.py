@@ -11,13 +11,6 @@ PAGE_CONTENT = Kind(
     "{what}; the page's own content was read instead, without names and without what is not on the page",
     "save the drawing again with Illustrator's editing capabilities, or as SVG, if layers or objects are missing",
 )
-PRIVATE_DAMAGED = Kind(
-    "damaged-stream",
-    "error",
-    "Illustrator's own data are damaged ({what}); what stands before the damage was read",
-    "Illustrator's own data are damaged ({what}); what stands before the damage was read",
-    "save the drawing again",
-)
 STREAM = Kind(
     "damaged-stream",
     "error",

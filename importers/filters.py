@@ -1,6 +1,7 @@
-"""The stream filters of PDF besides Flate, each bounded: ASCII85, ASCIIHex, LZW and RunLength.
+"""The stream filters of PostScript and PDF besides Flate, each bounded: ASCII85, ASCIIHex, LZW and RunLength.
 
-Illustrator 5 to 8 wrote LZW and ASCII85; pikepdf decodes them too, but without a bound on what comes out.
+Old PDF files have LZW, EPS files by Illustrator have their own data in ASCII85; pikepdf decodes these too, but
+without a bound on what comes out.
 """
 
 from __future__ import annotations
