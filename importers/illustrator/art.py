@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from importers.drawing import DrawnPath, Layer, Segment, Subpath
+from importers.drawing import DrawnPath, FillRule, Layer, Segment, Subpath
 from importers.findings import Findings, Kind
 from importers.illustrator import findings
 from importers.illustrator.state import Group, Paint, colour_of
@@ -89,6 +89,7 @@ class Art:
         self._spoiled = False  # a coordinate of the path is none
         self._clip = False
         self._paint = Paint()
+        self._fill_rule: FillRule = "nonzero"  # no part of what `q` keeps: PostScript has no such thing
         self._gradient = False
         self._hidden = False
         self._locked = False
@@ -164,6 +165,8 @@ class Art:
     def unknown(self, operator: bytes) -> None:
         """Note an operator that is none of the format's."""
         self.named = None
+        if operator.startswith(b"Adobe_"):
+            return  # a set of procedures, which files name whether they hold it or not
         what = operator[:24].decode("latin-1")
         self.findings.add(findings.UNKNOWN, self.position, what=what, layer=self._group.layer)
 
@@ -331,7 +334,7 @@ class Art:
             fill=("gradient" if self._gradient else paint.fill) if fills else None,
             stroke=paint.stroke if strokes else None,
             stroke_width=paint.width if strokes else None,
-            fill_rule=paint.fill_rule,
+            fill_rule=self._fill_rule,
             line=self.source.line(begin),
         )
         if self.note:
@@ -403,7 +406,7 @@ class Art:
         self._paint.width = float(operands[-1]) if operands else self._paint.width
 
     def _set_fill_rule(self, operands: Operands) -> None:
-        self._paint.fill_rule = "evenodd" if operands and float(operands[-1]) == 1 else "nonzero"
+        self._fill_rule = "evenodd" if operands and float(operands[-1]) == 1 else "nonzero"
 
     def _begin_gradient(self, _operands: Operands) -> None:
         self._gradient = True

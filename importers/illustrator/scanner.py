@@ -29,14 +29,16 @@ BEGIN_BLOCK = re.compile(
 
 # A point is set, a layer named, a group opened: how every piece of Illustrator's text begins.
 _OPERATORS = re.compile(
-    rb"(?:\A|[\s\x00])(?:[-+.\deE]{1,40}\s{1,20}[-+.\deE]{1,40}\s{1,20}m|\)\s{0,20}Ln|Lb|\*u)(?=\s|\Z)"
+    rb"(?:\)\s{0,20}Ln|(?:\A|[\s\x00])(?:[-+.\deE]{1,40}\s{1,20}[-+.\deE]{1,40}\s{1,20}[mlL]|Lb|\*u))(?=\s|\Z)"
 )
 _ILLUSTRATOR_NOTE = re.compile(rb"(?:\A|[\r\n])%AI\d+_|Adobe_Illustrator|Adobe Illustrator")
 _LOOK = 1 << 20  # bytes that are looked at to tell what a file is
 
 _DOS_EPS = b"\xc5\xd0\xd3\xc6"
-_MARKERS = (rb"%%EndSetup", rb"%%EndProlog")
-_NOTE_OF_MARKER = rb"(?:\A|(?<=[\r\n]))%s(?=[\s\x00]|\Z)"
+_MARKERS = tuple(
+    re.compile(rb"(?:\A|(?<=[\r\n]))" + marker + rb"(?=[\s\x00]|\Z)") for marker in (rb"%%EndSetup", rb"%%EndProlog")
+)
+_PLACED_FILE = re.compile(rb"(?<=[\r\n])%%BeginDocument\b")  # has markers of its own
 
 
 def is_operator_text(data: bytes) -> bool:
@@ -70,8 +72,10 @@ def art_start(data: bytes, start: int, stop: int) -> int:
     Brushes, patterns and gradients are drawn with the same operators as art, but before this place. Adobe's
     prolog even holds ``%AI5_BeginLayer``, so layers mark nothing.
     """
+    placed = _PLACED_FILE.search(data, start, stop)
+    stop = placed.start() if placed else stop
     for marker in _MARKERS:
-        match = re.compile(_NOTE_OF_MARKER % marker).search(data, start, stop)
+        match = marker.search(data, start, stop)
         if match:
             return match.end()
     return start

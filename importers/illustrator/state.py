@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from importers import colours
-from importers.drawing import FillRule, Layer
+from importers.drawing import Layer
 
 
 @dataclass(slots=True)
@@ -16,11 +16,10 @@ class Paint:
     fill: str = "#000000"
     stroke: str = "#000000"
     width: float = 1.0
-    fill_rule: FillRule = "nonzero"
 
     def copy(self) -> Paint:
         """Give a copy for ``q``."""
-        return Paint(self.fill, self.stroke, self.width, self.fill_rule)
+        return Paint(self.fill, self.stroke, self.width)
 
 
 @dataclass(slots=True)

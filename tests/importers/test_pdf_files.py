@@ -1,0 +1,347 @@
+"""PDF drawings and newer Illustrator files, made here: pages, forms, layers, Illustrator's own data."""
+
+import io
+import zlib
+
+import pikepdf
+import pytest
+import zstandard
+from pikepdf import Array, Dictionary, Name
+
+from importers.errors import DrawingError
+from importers.pdf import looks_like_pdf, read_pdf
+
+OWN_DATA = (
+    b"%!PS-Adobe-3.0 \r%%Creator: Adobe Illustrator(R) 24.0\r%%AI8_CreatorVersion: 28.7.3\r%%EndComments\r%%EndSetup\r"
+    b"%AI5_BeginLayer\r1 1 1 1 0 0 1 0 79 128 255 0 50 0 Lb\r(Shown) Ln\r0 0 m\r9 0 L\r9 9 L\rf\r"
+    b"1 Xw\r1 1 m\r2 1 L\r2 2 L\rf\r0 Xw\rLB\r%AI5_EndLayer--\r"
+    b"%AI5_BeginLayer\r0 1 0 1 0 0 1 0 79 128 255 0 50 0 Lb\r(Hidden) Ln\r3 3 m\r4 3 L\r4 4 L\rs\rLB\r%AI5_EndLayer--\r"
+    b"%%PageTrailer\r%%Trailer\r%%EOF\r"
+)
+HEADER = b"%%BoundingBox: 0 0 9 9\r%AI7_Thumbnail: 8 8 8\r"
+
+
+def make(content=b"", resources=None, **page):
+    pdf = pikepdf.new()
+    pdf.add_blank_page(page_size=(200, 100))
+    pdf.pages[0].Contents = pdf.make_stream(content)
+    if resources is not None:
+        pdf.pages[0].Resources = resources(pdf)
+    for key, value in page.items():
+        pdf.pages[0][f"/{key}"] = value
+    return pdf
+
+
+def saved(pdf, **options):
+    out = io.BytesIO()
+    pdf.save(out, **options)
+    return out.getvalue()
+
+
+def read(content, resources=None, **page):
+    return read_pdf(saved(make(content, resources, **page)))
+
+
+def segments(path):
+    return [subpath.segments for subpath in path.subpaths]
+
+
+def with_own_data(data, size=65_536, content=b"0 0 50 50 re f"):
+    pdf = make(content)
+    blocks = [data[start : start + size] for start in range(0, len(data), size)]
+    private = Dictionary({f"/AIPrivateData{i}": pdf.make_stream(block) for i, block in enumerate(blocks, 1)})
+    pdf.pages[0].PieceInfo = Dictionary(Illustrator=Dictionary(Private=private, LastModified="D:20260101"))
+    return saved(pdf)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        OWN_DATA,
+        HEADER + b"%AI12_CompressedData" + zlib.compress(OWN_DATA),
+        b"%AI24_ZStandard_Data" + zstandard.ZstdCompressor().compress(OWN_DATA) + bytes(100),
+    ],
+    ids=["plain", "zlib", "zstd"],
+)
+@pytest.mark.parametrize("size", [50, 65_536])
+def test_illustrators_own_data_come_first(data, size):
+    drawing = read_pdf(with_own_data(data, size))
+    assert drawing.kind == "Illustrator 28 (PDF with Illustrator's own data)"
+    assert [(path.layer, path.visible, path.locked) for path in drawing.paths] == [
+        ("Shown", True, False),
+        ("Shown", False, False),
+        ("Hidden", False, True),
+    ]
+    assert [layer.visible for layer in drawing.layers] == [True, False]
+    assert [path.line for path in drawing.paths] == [None] * 3
+    assert drawing.problems == []
+
+
+def test_without_anything_in_its_own_data_the_page_is_read_and_that_is_said():
+    drawing = read_pdf(with_own_data(b"%AI12_CompressedData" + b"broken"))
+    assert [path.subpaths[0].segments[0] for path in drawing.paths] == [("M", 0, 0)]
+    assert [(problem.code, problem.severity) for problem in drawing.problems] == [("page-content", "info")]
+    assert "page content" in drawing.kind
+
+
+def test_damaged_own_data_give_what_stands_before_the_damage():
+    many = OWN_DATA.replace(b"0 0 m\r", b"".join(b"%d 7 m\r%d 9 L\rS\r" % (i * i, i) for i in range(3000)) + b"0 0 m\r")
+    packed = zlib.compress(many)
+    drawing = read_pdf(with_own_data(b"%AI12_CompressedData" + packed[: len(packed) // 2]))
+    assert 0 < len(drawing.paths) < 3000
+    assert [(problem.code, problem.severity) for problem in drawing.problems] == [("damaged-stream", "error")]
+
+
+def test_every_segment_and_every_paint_of_a_page():
+    drawing = read(
+        b"0 0 m 1 0 l 2 1 3 2 4 3 c 5 5 6 6 v 7 7 8 8 y h S\n"
+        b"10 20 30 40 re f 1 1 m 2 2 l F 1 1 m 2 1 l f* 1 1 m 2 2 l B 1 1 m 2 2 l B* 1 1 m 2 2 l b 1 1 m 2 2 l b*\n"
+        b"1 1 m 2 2 l s 0 0 200 100 re W n 0 0 5 5 re W* n 3 3 m 4 4 l n"
+    )
+    first, rectangle, *others = drawing.paths
+    assert segments(first) == [
+        [("M", 0, 0), ("L", 1, 0), ("C", 2, 1, 3, 2, 4, 3), ("C", 4, 3, 5, 5, 6, 6), ("C", 7, 7, 8, 8, 8, 8)]
+    ]
+    assert first.subpaths[0].closed
+    assert segments(rectangle) == [[("M", 10, 20), ("L", 40, 20), ("L", 40, 60), ("L", 10, 60)]]
+    marks = [(bool(p.fill), bool(p.stroke), p.subpaths[0].closed, p.fill_rule == "evenodd", p.clip) for p in others]
+    assert marks == [
+        (True, False, False, False, False),  # F
+        (True, False, False, True, False),  # f*
+        (True, True, False, False, False),  # B
+        (True, True, False, True, False),  # B*
+        (True, True, True, False, False),  # b
+        (True, True, True, True, False),  # b*
+        (False, True, True, False, False),  # s
+        (False, False, True, False, True),  # W n
+        (False, False, True, False, True),  # W* n
+        (False, False, False, False, False),  # n
+    ]
+    assert (drawing.problems, drawing.units, drawing.y_axis) == ([], "pt", "up")
+
+
+def test_transforms_are_applied_and_come_back():
+    drawing = read(b"q 2 0 0 3 10 20 cm 1 w q 0 1 -1 0 0 0 cm 1 2 m 3 4 l S Q 1 1 m 2 2 l S Q 1 1 m 2 2 l S")
+    assert [segments(path)[0] for path in drawing.paths] == [
+        [("M", 6, 23), ("L", 2, 29)],  # (x, y) -> (-y, x) -> (2 x + 10, 3 y + 20)
+        [("M", 12, 23), ("L", 14, 26)],
+        [("M", 1, 1), ("L", 2, 2)],
+    ]
+    assert [path.stroke_width for path in drawing.paths] == pytest.approx([6**0.5, 6**0.5, 1])
+
+
+def test_forms_are_drawn_where_they_are_used():
+    def resources(pdf):
+        inner = pdf.make_stream(
+            b"0 0 1 1 re f",
+            Type=Name.XObject,
+            Subtype=Name.Form,
+            BBox=Array([0, 0, 9, 9]),
+            Matrix=Array([1, 0, 0, 1, 5, 7]),
+        )
+        outer = pdf.make_stream(
+            b"2 0 0 2 0 0 cm /In Do 1 0 0 rg",
+            Type=Name.XObject,
+            Subtype=Name.Form,
+            Resources=Dictionary(XObject=Dictionary(In=inner)),
+        )
+        return Dictionary(XObject=Dictionary(Out=outer))
+
+    drawing = read(b"q 1 0 0 1 100 0 cm /Out Do Q /Out Do 0 0 1 1 re f", resources)
+    assert [path.subpaths[0].segments[0] for path in drawing.paths] == [("M", 110, 14), ("M", 10, 14), ("M", 0, 0)]
+    assert {path.fill for path in drawing.paths} == {"#000000"}  # the red does not leave its form
+
+
+def test_a_form_that_draws_itself_ends():
+    def resources(pdf):
+        form = pdf.make_indirect(pdf.make_stream(b"0 0 1 1 re f /Me Do", Subtype=Name.Form))
+        form.Resources = Dictionary(XObject=Dictionary(Me=form))
+        return Dictionary(XObject=Dictionary(Me=form))
+
+    drawing = read(b"/Me Do", resources)
+    assert len(drawing.paths) == 1
+    assert [problem.code for problem in drawing.problems] == ["recursive-form"]
+
+
+def layers_of(pdf):
+    shown, hidden, locked = (
+        pdf.make_indirect(Dictionary(Type=Name.OCG, Name=name)) for name in ("Shown", "Hidden", "Locked")
+    )
+    pdf.Root.OCProperties = Dictionary(
+        OCGs=Array([shown, hidden, locked]),
+        D=Dictionary(ON=Array([shown, locked]), OFF=Array([hidden]), Locked=Array([locked])),
+    )
+    either = Dictionary(Type=Name.OCMD, OCGs=Array([hidden, shown]))
+    both = Dictionary(Type=Name.OCMD, OCGs=Array([hidden, shown]), P=Name.AllOn)
+    return Dictionary(Properties=Dictionary(A=shown, B=hidden, C=locked, E=either, F=both))
+
+
+def test_optional_content_is_layers():
+    square = b" 0 0 1 1 re f "
+    drawing = read(
+        b"/OC /A BDC" + square + b"/OC /B BDC" + square + b"/Span BMC" + square + b"EMC EMC EMC"
+        b"/OC /C BDC" + square + b"EMC /OC /E BDC" + square + b"EMC /OC /F BDC" + square + b"EMC" + square,
+        layers_of,
+    )
+    assert [(layer.name, layer.visible, layer.locked) for layer in drawing.layers] == [
+        ("Shown", True, False),
+        ("Hidden", False, False),
+        ("Locked", True, True),
+    ]
+    assert [(path.layer, path.visible, path.locked) for path in drawing.paths] == [
+        ("Shown", True, False),
+        ("Hidden", False, False),
+        ("Hidden", False, False),
+        ("Locked", True, True),
+        ("Hidden", True, False),  # any of its layers is on
+        ("Hidden", False, False),  # not all are
+        ("", True, False),
+    ]
+
+
+def test_colours():
+    def resources(pdf):
+        spot = Array([Name.Separation, Name("/Red"), Name.DeviceCMYK, Dictionary(FunctionType=2, N=1, Domain=[0, 1])])
+        return Dictionary(ColorSpace=Dictionary(S=spot, P=Name.Pattern, I=Array([Name.ICCBased, pdf.make_stream(b"")])))
+
+    drawing = read(
+        b"0.2 g 0 0 1 1 re f 1 0 0 rg 0 0 1 1 re f 0 1 1 0 k 0 0 1 1 re f /S cs 1 scn 0 0 1 1 re f 0 scn 0 0 1 1 re f\n"
+        b"/P cs /P0 scn 0 0 1 1 re f /I cs 0 0.5 1 sc 0 0 1 1 re f 0.5 G 1 0 1 RG 0 0 0 1 K 3 w 0 0 1 1 re S",
+        resources,
+    )
+    assert [path.fill for path in drawing.paths[:-1]] == [
+        "#333333", "#ff0000", "#ff0000", "#000000", "#ffffff", "pattern", "#0080ff",
+    ]  # fmt: skip
+    assert (drawing.paths[-1].stroke, drawing.paths[-1].stroke_width) == ("#000000", 3)
+
+
+def test_what_is_left_out_is_said():
+    def resources(pdf):
+        image = pdf.make_stream(b"\x00", Subtype=Name.Image, Width=1, Height=1)
+        return Dictionary(XObject=Dictionary(I=image))
+
+    drawing = read(
+        b"BT /F0 12 Tf (Hello \\) Q S) Tj ET BT ET /I Do /Nothing Do /Sh sh 1 2 zz\n"
+        b"BI /W 1 /H 1 /BPC 8 /CS /G ID \x00 EI 0 0 1 1 re f",
+        resources,
+    )
+    assert [problem.code for problem in drawing.problems] == [
+        "text-left-out", "image-left-out", "missing-object", "shading-left-out", "unknown-operator",
+    ]  # fmt: skip
+    assert [problem.message for problem in drawing.problems][1] == "2 pixel images are left out"
+    assert len(drawing.paths) == 1
+
+
+def test_strings_dictionaries_comments_and_names_are_passed_over():
+    drawing = read(
+        b"/a#20b gs % 1 1 m 2 2 l S\n/Tag << /K [ (1 1 m) <31> << >> ] >> DP (2 2 l S) Tj <0a> Tj 0 0 1 1 re f"
+    )
+    assert len(drawing.paths) == 1
+    assert drawing.problems == []
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [
+        (b"1 1 l 2 2 l S", "no-current-point"),
+        (b"0 0 m 5 l 2 2 l S", "bad-operands"),
+        (b"0 0 m 1 2 3 l S", None),
+        (b"Q 0 0 m 1 1 l S", "unbalanced"),
+        (b"EMC 0 0 m 1 1 l S", "unbalanced"),
+        (b"0 0 m 2000000000 1 l S 0 0 m 1 1 l S", "bad-coordinate"),
+        (b"1 0 0 cm 0 0 m 1 1 l S", "bad-operands"),
+        (b"1 1 g 0 0 m 1 1 l S", "bad-attribute"),
+    ],
+)
+def test_what_is_wrong_is_said_and_the_rest_is_used(content, code):
+    drawing = read(content)
+    assert len(drawing.paths) == 1
+    assert [problem.code for problem in drawing.problems] == ([code] if code else [])
+
+
+@pytest.mark.parametrize("packing", ["/FlateDecode", "/ASCIIHexDecode", "/ASCII85Decode", "/RunLengthDecode"])
+def test_contents_in_pieces_and_packed(packing):
+    import base64
+
+    pack = {
+        "/FlateDecode": zlib.compress,
+        "/ASCIIHexDecode": lambda raw: raw.hex().encode() + b">",
+        "/ASCII85Decode": lambda raw: base64.a85encode(raw) + b"~>",
+        "/RunLengthDecode": lambda raw: bytes([len(raw) - 1]) + raw + b"\x80",
+    }[packing]
+    pdf = make()
+    pieces = [pikepdf.Stream(pdf, pack(piece), Filter=Name(packing)) for piece in (b"0 0 m 5 0", b"l 5 5 l f")]
+    pdf.pages[0].Contents = Array([pdf.make_indirect(piece) for piece in pieces])
+    drawing = read_pdf(saved(pdf, compress_streams=False))
+    assert segments(drawing.paths[0]) == [[("M", 0, 0), ("L", 5, 0), ("L", 5, 5)]]
+    assert drawing.problems == []
+
+
+def test_a_stream_that_nobody_can_read_is_said():
+    pdf = make()
+    pdf.pages[0].Contents = pikepdf.Stream(pdf, b"\xff\xd8", Filter=Name.DCTDecode)
+    drawing = read_pdf(saved(pdf))
+    assert [problem.code for problem in drawing.problems] == ["damaged-stream"]
+
+
+def test_resources_are_inherited():
+    pdf = make(b"/X Do")
+    pdf.Root.Pages.Resources = Dictionary(XObject=Dictionary(X=pdf.make_stream(b"0 0 1 1 re f", Subtype=Name.Form)))
+    del pdf.pages[0].Resources
+    assert len(read_pdf(saved(pdf)).paths) == 1
+
+
+def test_what_the_page_does_to_its_units_is_said():
+    drawing = read(b"0 0 1 1 re f", UserUnit=10, Rotate=90)
+    assert [problem.code for problem in drawing.problems] == ["user-unit", "rotated-page"]
+    assert segments(drawing.paths[0])[0][2] == ("L", 1, 1)
+
+
+def test_further_pages_are_said():
+    pdf = make(b"0 0 1 1 re f")
+    pdf.add_blank_page()
+    pdf.add_blank_page()
+    drawing = read_pdf(saved(pdf))
+    assert [problem.message for problem in drawing.problems] == ["the file has 2 more pages; only the first is read"]
+
+
+def test_a_file_with_an_empty_password_opens_and_another_does_not():
+    pdf = make(b"0 0 1 1 re f")
+    assert len(read_pdf(saved(pdf, encryption=pikepdf.Encryption(owner="o", user=""))).paths) == 1
+    with pytest.raises(DrawingError, match="encrypted"):
+        read_pdf(saved(pdf, encryption=pikepdf.Encryption(owner="o", user="u")))
+
+
+def test_object_streams_are_read():
+    data = saved(make(b"0 0 1 1 re f"), object_stream_mode=pikepdf.ObjectStreamMode.generate)
+    assert b"/ObjStm" in data
+    assert len(read_pdf(data).paths) == 1
+
+
+def test_a_broken_table_of_objects_is_mended():
+    data = saved(make(b"0 0 1 1 re f"))
+    assert len(read_pdf(data[: data.rindex(b"xref")]).paths) == 1
+    assert len(read_pdf(data.replace(b"startxref", b"startxxxx")).paths) == 1
+
+
+@pytest.mark.parametrize(
+    ("data", "code"),
+    [
+        (b"%PDF-1.4\n", "broken-pdf"),
+        (b"%PDF-1.4\n1 0 obj\n" + b"[" * 100_000, "broken-pdf"),
+        (b"%PDF-1.4\n1 0 obj<</Type/Catalog>>endobj\ntrailer<</Root 1 0 R>>", "broken-pdf"),
+        (saved(pikepdf.new()), "no-pages"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_opened_is_refused_with_advice(data, code):
+    with pytest.raises(DrawingError) as caught:
+        read_pdf(data, "plan.ai")
+    assert (caught.value.code, caught.value.file) == (code, "plan.ai")
+    assert caught.value.fix
+
+
+def test_what_it_is_is_told_by_the_content():
+    assert looks_like_pdf(b"%PDF-1.7\n")
+    assert looks_like_pdf(b"\n\n junk before %PDF-1.4\n")
+    assert not looks_like_pdf(b"%!PS-Adobe-3.0\n")
+    assert not looks_like_pdf(b"")
