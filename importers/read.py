@@ -70,8 +70,7 @@ def read_drawing_text(text: str | bytes, file: str = "") -> Drawing:
         LimitError: it is larger than one of the limits in importers.limits.
     """
     if isinstance(text, str):
-        # surrogates cannot be encoded; the readers judge what is odd in a text, not this line
-        text = text.removeprefix("\ufeff").encode("utf-8", "surrogateescape" if _only_bytes(text) else "replace")
+        text = _to_bytes(text.removeprefix("\ufeff"))
     check_input_size(len(text), file)
     drawing = _read_by_content(text, file)
     drawing.file = file
@@ -79,8 +78,14 @@ def read_drawing_text(text: str | bytes, file: str = "") -> Drawing:
     return drawing
 
 
-def _only_bytes(text: str) -> bool:  # a text stream decoded with surrogateescape gives its bytes back
-    return all(0xDC80 <= ord(c) <= 0xDCFF for c in text if 0xD800 <= ord(c) <= 0xDFFF)
+def _to_bytes(text: str) -> bytes:
+    """Encode a text; one that was decoded with surrogateescape gives its bytes back."""
+    for errors in ("strict", "surrogateescape"):
+        try:
+            return text.encode("utf-8", errors)
+        except UnicodeEncodeError:
+            continue
+    return text.encode("utf-8", "replace")
 
 
 def _read_by_content(data: bytes, file: str) -> Drawing:
@@ -178,6 +183,6 @@ def _read_stream(stream: IO[Any], file: str) -> bytes:
         message = "the stream cannot be decoded"
         raise DrawingError(message, code="bad-encoding", fix="open it in binary mode", file=file) from None
     if isinstance(data, str):
-        data = data.encode("utf-8", "surrogateescape" if _only_bytes(data) else "replace")
+        data = _to_bytes(data)
     check_input_size(len(data), file)
     return bytes(data)

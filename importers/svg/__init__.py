@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
+import contextlib
+import gc
 import hashlib
 import re
+from collections.abc import Iterator
 
 from importers.drawing import Drawing
 from importers.errors import DrawingError
 
 _SVG_TAG = re.compile(rb"<(?:[A-Za-z_][\w.-]*:)?svg[\s>/]")
+
+
+@contextlib.contextmanager
+def _collector_paused() -> Iterator[None]:
+    """Pause Python's cycle collector: it would look through a growing drawing over and over, and find nothing."""
+    running = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if running:
+            gc.enable()
 
 
 def looks_like_svg(data: bytes) -> bool:
@@ -42,6 +57,7 @@ def read_svg(data: bytes, file: str = "") -> Drawing:
         tag = source.root.tag.rpartition("}")[2]
         fix = "give a file whose outermost element is svg"
         raise DrawingError(f"an XML file of <{tag}>, not SVG", code="not-a-drawing", fix=fix, file=file)
-    drawing = Reader(source).read()
+    with _collector_paused():
+        drawing = Reader(source).read()
     drawing.sha256 = hashlib.sha256(data).hexdigest()
     return drawing

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from importers.svg.notes import Notes
-from importers.svg.sheet import Sheet
-from importers.svg.style import PRESENTATION, Declared, parse_declaration, parse_declarations
+from importers.svg.sheet import Sheet, matches_media
+from importers.svg.style import PRESENTATION, Declared, parse_declaration, parse_inline
 
 _NOTHING: Declared = {}
 
@@ -19,7 +19,7 @@ class Cascade:
         for element in root.iter(prefix + "style"):
             kind = (element.get("type") or "text/css").strip().lower()
             media = " ".join((element.get("media") or "").lower().split())
-            if kind in ("text/css", "") and media in ("", "all", "screen"):
+            if kind in ("text/css", "") and matches_media(media):
                 texts.append((element, "".join(element.itertext())))
             else:
                 notes.count("css-skipped", "info", f"a style sheet for {media or kind} is left out", element)
@@ -36,7 +36,7 @@ class Cascade:
         found: Declared = {}
         for name, text in attributes.items():
             if name in PRESENTATION:
-                value = parse_declaration(name, text, True)
+                value = parse_declaration(name, text, "attribute")
                 if value is not None:
                     found[name] = value
                 elif name == "transform":
@@ -46,7 +46,7 @@ class Cascade:
         if self._sheet.empty and style is None:
             return found or _NOTHING
         rules = [] if self._sheet.empty else self._sheet.declarations(element)
-        inline = parse_declarations(style) if style is not None else ()
+        inline = parse_inline(style) if style is not None else ()
         for wanted in (False, True):
             for source in (rules, inline):
                 found.update((name, value) for name, value, important in source if important is wanted)

@@ -2,54 +2,56 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
+from importers.boxes import Box
 from importers.svg.matrix import IDENTITY, Matrix, multiply, translation
-from importers.svg.shapes import Lengths, Shape
+from importers.svg.shapes import Lengths
 from importers.svg.style import Declared, Style
 from importers.svg.transforms import resolve
 from importers.svg.units import Font, Viewport, parse_length, to_px
 from importers.svg.viewbox import fit, parse_view_box
 
-if TYPE_CHECKING:
-    from importers.svg.reader import Reader
-
+# In the order in which they apply, outermost first.
+_PROPERTIES = ("translate", "rotate", "scale", "transform")
 # What an svg without any size is given by browsers.
 DEFAULT_SIZE = (300.0, 150.0)
 
 
-def root_viewport(root: Any, declared: Declared, font: Font) -> tuple[Matrix, Viewport] | None:
+def root_viewport(root: Any, declared: Declared, font: Font) -> tuple[Matrix, Viewport, bool]:
     """Give the outermost viewport: the matrix into its px and the size that percentages refer to.
 
-    A size that is missing or a percentage is that of the viewBox, so that one user unit is one px. None when
-    nothing is shown.
+    A size that is missing or a percentage is that of the viewBox: one user unit is one px. The last
+    is False where browsers show nothing, for want of a size; the matrix is then that of the user units.
     """
     box = parse_view_box(root.get("viewBox"))
     size = []
     for index, name in enumerate(("width", "height")):
-        given = declared.get(name)
-        if given is None:
-            given = parse_length(root.get(name) or "")
         natural = box[2 + index] if box else DEFAULT_SIZE[index]
-        if not isinstance(given, tuple) or (box and any(unit == "%" for _, unit in given)):
-            size.append(natural)
-        else:
-            size.append(to_px(given, natural, font))
+        size.append(_root_length(root.get(name), declared.get(name), natural, box is not None, font))
     width, height = size
-    if width <= 0 or height <= 0 or (box and (box[2] <= 0 or box[3] <= 0)):
-        return None
-    matrix = fit(box, root.get("preserveAspectRatio"), width, height)
-    viewport = Viewport(box[2], box[3]) if box else Viewport(width, height)
-    if "transform" in declared:
+    shown = width > 0 and height > 0 and not (box and (box[2] <= 0 or box[3] <= 0))
+    matrix = fit(box, root.get("preserveAspectRatio"), width, height) if shown else IDENTITY
+    viewport = Viewport(box[2], box[3]) if box and shown else Viewport(width, height)
+    if has_transform(declared):
         matrix = multiply(_root_transform(declared, width, height, font), matrix)
-    return matrix, viewport
+    return matrix, viewport, shown
+
+
+def _root_length(text: str | None, declared: Any, natural: float, boxed: bool, font: Font) -> float:
+    if isinstance(declared, tuple):
+        return to_px(declared, natural, font)
+    terms = parse_length(text) if text is not None else None
+    if terms is None or (boxed and any(unit == "%" for _, unit in terms)):
+        return natural
+    return max(0.0, to_px(terms, natural, font))
 
 
 def _root_transform(declared: Declared, width: float, height: float, font: Font) -> Matrix:
     """Give the transform of the outermost svg, moved so that the transformed viewport begins at (0, 0)."""
-    value = declared["transform"]
-    matrix = _functions(value, width, height, font)
-    a, b, c, d, _, _ = matrix
+    a, b, c, d, _, _ = _whole_transform(declared, width, height, font)
     left = min(0.0, a * width) + min(0.0, c * height)
     top = min(0.0, b * width) + min(0.0, d * height)
     return (a, b, c, d, -left, -top)
@@ -65,6 +67,8 @@ def nested_viewport(
         lengths: of it.
         size: what the ``use`` says, None where it says nothing.
     """
+    # browsers take these from the attributes alone
+    lengths = replace(lengths, declared={})
     x, y = lengths.get("x") or 0.0, lengths.get("y") or 0.0
     width = size[0] if size[0] is not None else lengths.get("width")
     height = size[1] if size[1] is not None else lengths.get("height")
@@ -78,28 +82,53 @@ def nested_viewport(
 
 
 def use_size(tag: str, use: Any, lengths: Lengths) -> tuple[float | None, float | None]:
-    """Give the size that a ``use`` asks for its symbol or svg."""
-    return lengths.get("width"), lengths.get("height")
+    """Give the size that a ``use`` asks for its symbol or svg; a symbol without one fills the viewport."""
+    width, height = lengths.get("width"), lengths.get("height")
+    if tag == "symbol":
+        width = lengths.viewport.width if width is None else width
+        height = lengths.viewport.height if height is None else height
+    return width, height
 
 
-def element_matrix(
-    reader: Reader, element: Any, declared: Declared, style: Style, viewport: Viewport, shape: Shape | None = None
-) -> Matrix:
-    """Give the matrix of an element's ``transform`` about its ``transform-origin``."""
-    value = declared["transform"]
-    box = (0.0, 0.0, viewport.width, viewport.height)
-    matrix = _functions(value, box[2], box[3], style.font)
+def has_transform(declared: Declared) -> bool:
+    """Tell whether any of the four properties that transform is declared."""
+    return any(name in declared for name in _PROPERTIES)
+
+
+def element_matrix(declared: Declared, style: Style, viewport: Viewport, own_box: Callable[[], Box | None]) -> Matrix:
+    """Give the matrix of an element's transform properties about its ``transform-origin``.
+
+    Args:
+        declared: of the element, one of the transform properties among them.
+        style: of the element.
+        viewport: the nearest, for percentages.
+        own_box: gives the box of what the element draws, in its own coordinates; called where it is needed.
+    """
+    which = declared.get("transform-box", "view-box")
+    box: Box | None = None
+    if which in ("fill-box", "stroke-box", "content-box", "border-box"):
+        box = own_box() or (0.0, 0.0, 0.0, 0.0)
+        if which in ("stroke-box", "border-box") and style.stroke is not None:
+            half = to_px(style.stroke_width, viewport.diagonal, style.font) / 2
+            box = (box[0] - half, box[1] - half, box[2] + half, box[3] + half)
+    left, top, right, bottom = box if box is not None else (0.0, 0.0, viewport.width, viewport.height)
+    width, height = right - left, bottom - top
+    matrix = _whole_transform(declared, width, height, style.font)
     origin = declared.get("transform-origin")
     if isinstance(origin, tuple):
-        x = box[0] + to_px(origin[0], box[2], style.font)
-        y = box[1] + to_px(origin[1], box[3], style.font)
-        matrix = multiply(multiply(translation(x, y), matrix), translation(-x, -y))
+        left += to_px(origin[0], width, style.font)
+        top += to_px(origin[1], height, style.font)
+    if left == 0.0 and top == 0.0:
+        return matrix
+    return multiply(multiply(translation(left, top), matrix), translation(-left, -top))
+
+
+def _whole_transform(declared: Declared, width: float, height: float, font: Font) -> Matrix:
+    matrix = IDENTITY
+    for name in _PROPERTIES:
+        value = declared.get(name)
+        if not isinstance(value, tuple) or not value:
+            continue
+        written = isinstance(value[0], float)  # by the attribute, which is a matrix already
+        matrix = multiply(matrix, value if written else resolve(value, width, height, font))
     return matrix
-
-
-def _functions(value: Any, width: float, height: float, font: Font) -> Matrix:
-    if not isinstance(value, tuple) or not value:
-        return IDENTITY
-    if isinstance(value[0], float):
-        return (value[0], value[1], value[2], value[3], value[4], value[5])
-    return resolve(value, width, height, font)

@@ -8,14 +8,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
+from importers.boxes import Box, box_of, box_of_segments
 from importers.drawing import Drawing, DrawnPath, Layer, Subpath
 from importers.limits import MAX_COORDINATE, MAX_DEPTH, limit_error
 from importers.svg.cascade import Cascade
 from importers.svg.conditions import chosen, holds
-from importers.svg.matrix import Matrix, mean_scale, multiply, transform, translation
+from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transform, translation
 from importers.svg.names import INKSCAPE, SODIPODI, name_of, tags_of
 from importers.svg.notes import Notes
-from importers.svg.placing import element_matrix, nested_viewport, root_viewport, use_size
+from importers.svg.placing import element_matrix, has_transform, nested_viewport, root_viewport, use_size
 from importers.svg.references import References
 from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
 from importers.svg.source import SVG_NS, Source
@@ -49,6 +50,10 @@ _NO_GEOMETRY = {
     "image": "trace the image in the drawing program",
     "foreignObject": "draw its content as shapes",
 }
+
+
+# Groups with a transform-box inside of groups with one: each level reads its content once more.
+_MAX_ASIDE = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +90,8 @@ class Reader:
         self.inkscape_layers = bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
         self.layers: dict[str, Layer] = {}
         self.stack: list[tuple[Any, Around]] = []
+        self.boxes: dict[Any, Box | None] = {}
+        self.aside = 0
 
     def read(self) -> Drawing:
         """Walk the document and give the Drawing."""
@@ -93,22 +100,25 @@ class Reader:
             fix = f'add xmlns="{SVG_NS}" to the svg element'
             self.notes.add("missing-namespace", "warning", "browsers show nothing of this file", root, fix=fix)
         self._enter_root(root)
-        while self.stack:
-            element, around = self.stack.pop()
-            self._visit(element, around)
+        self._walk()
         self.references.report(self.notes)
         self.drawing.layers = list(self.layers.values())
         self.drawing.problems += self.notes.problems()
         return self.drawing
 
+    def _walk(self) -> None:
+        while self.stack:
+            element, around = self.stack.pop()
+            self._visit(element, around)
+
     def _enter_root(self, root: Any) -> None:
         declared = self.cascade.declared(root)
         style = inherit(Style(), declared)
-        placed = root_viewport(root, declared, style.font)
-        if placed is None:
-            self.notes.add("nothing-drawn", "warning", "the drawing has no size, so browsers show nothing", root)
-            return
-        matrix, viewport = placed
+        matrix, viewport, shown = root_viewport(root, declared, style.font)
+        if not shown:
+            fix = "give the svg element a width, a height and a viewBox above 0"
+            message = "the drawing has no size, so browsers show nothing of it; its outlines are in user units"
+            self.notes.add("no-size", "warning", message, root, fix=fix)
         hidden = declared.get("display") == "none"
         self._push_children(root, Around(matrix, style, viewport, hidden=hidden, tags={}))
 
@@ -176,9 +186,13 @@ class Reader:
     def _inside(self, tag: str, element: Any, declared: Declared, around: Around) -> Around:
         style = inherit(around.style, declared) if declared else around.style
         matrix = around.matrix
-        if "transform" in declared:
-            matrix = multiply(matrix, element_matrix(self, element, declared, style, around.viewport))
-        hidden = around.hidden or declared.get("display") == "none"
+        display = declared.get("display")
+        hidden = around.hidden or display == "none" or (display == "contents" and tag in ("svg", "use", "symbol"))
+        if has_transform(declared) and display != "contents":
+            matrix = multiply(
+                matrix,
+                element_matrix(declared, style, around.viewport, lambda: self._box_of(tag, element, around, style)),
+            )
         name = name_of(element, self.illustrator)
         locked = around.locked or element.get(SODIPODI + "insensitive") == "true"
         layer, groups = around.layer, around.groups
@@ -200,6 +214,29 @@ class Reader:
             locked=locked,
             depth=around.depth + 1,
         )
+
+    def _box_of(self, tag: str, element: Any, around: Around, style: Style) -> Box | None:
+        """Give the box of what a group draws, in its own coordinates, by reading its content on the side."""
+        key = (element, around.viewport, around.style)
+        if key not in self.boxes:
+            if self.aside >= _MAX_ASIDE:
+                fix = "write the transform without transform-box"
+                self.notes.count("box-in-box", "error", "transform-box in transform-box is too deep", element, fix=fix)
+                return None
+            saved = self.stack, self.drawing, self.notes, self.layers
+            self.stack, self.drawing = [], Drawing(units="px", y_axis="down")
+            self.notes, self.layers = Notes(self.source), {}
+            self.aside += 1
+            inside = replace(around, matrix=IDENTITY, style=style, depth=around.depth + 1)
+            if tag == "use":
+                self._use(element, {}, inside)
+            else:
+                self._push_children(element, inside)
+            self._walk()
+            self.boxes[key] = box_of(self.drawing.paths)
+            self.aside -= 1
+            self.stack, self.drawing, self.notes, self.layers = saved
+        return self.boxes[key]
 
     def _is_layer(self, tag: str, element: Any, around: Around) -> bool:
         if tag != "g" or around.chain:
@@ -240,6 +277,7 @@ class Reader:
         placed = nested_viewport(element, lengths, size)
         if placed is None:
             self.notes.count("nothing-drawn", "info", "<svg> or <symbol> without a size draws nothing", element)
+            self._push_children(element, replace(inside, hidden=True))
             return
         matrix, viewport = placed
         self._push_children(element, replace(inside, matrix=multiply(inside.matrix, matrix), viewport=viewport))
@@ -250,8 +288,9 @@ class Reader:
         lengths = Lengths(element.attrib, declared, around.viewport, style.font)
         shape = make_shape(tag, element.attrib, lengths)
         matrix = around.matrix
-        if "transform" in declared:
-            matrix = multiply(matrix, element_matrix(self, element, declared, style, around.viewport, shape))
+        if has_transform(declared):
+            own = [segment for sub in shape.subpaths for segment in sub.segments]
+            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: box_of_segments(own)))
         name = name_of(element, self.illustrator) or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
             self._report_shape(tag, element, shape, lengths, around.layer, name, matrix)
@@ -270,7 +309,7 @@ class Reader:
                 name=name,
                 layer=around.layer,
                 groups=around.groups,
-                visible=style.visible and not around.hidden and declared.get("display") != "none",
+                visible=style.visible and not around.hidden and declared.get("display") not in ("none", "contents"),
                 locked=around.locked or element.get(SODIPODI + "insensitive") == "true",
                 fill=fill,
                 stroke=stroke,

@@ -12,6 +12,7 @@ from importers.svg.path_data import COMMA, NUMBER, Fault, parse_path_data
 from importers.svg.style import INITIAL, Declared, parse_declaration
 from importers.svg.units import Font, Terms, Viewport, needs_metrics, needs_window, parse_length, to_px
 
+# What percentages of it refer to.
 _AXES = {
     "x": "width",
     "cx": "width",
@@ -66,7 +67,7 @@ class Lengths:
         text = self.attributes.get(name)
         if text is None:
             return None
-        value = parse_declaration(name, text, True) if name in _STYLED else parse_length(text)
+        value = parse_declaration(name, text, "attribute") if name in _STYLED else parse_length(text)
         if value is None:
             self.invalid.append(name)
         return value if isinstance(value, tuple) else None

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, Literal
 
 import tinycss2
 import tinycss2.color4
@@ -18,6 +18,9 @@ import tinycss2.color4
 from importers.svg.transforms import parse_transform_attribute, parse_transform_property
 from importers.svg.units import ROOT_FONT, Font, Terms, parse_length, to_px
 
+# Where a declaration stands: browsers read an attribute, a ``style`` attribute and a style sheet each a little
+# differently (numbers without units).
+Origin = Literal["attribute", "inline", "sheet"]
 # Declarations of one element that are valid: property name to parsed value.
 Declared = dict[str, Any]
 
@@ -70,38 +73,45 @@ class Style:
     line_factor: float | None = None
 
 
-def _keyword(name: str) -> Callable[[str, bool], Any]:
+def _keyword(name: str) -> Callable[[str, Origin], Any]:
     allowed = _KEYWORDS[name]
 
-    def parse(text: str, attribute: bool) -> str | None:
+    def parse(text: str, origin: Origin) -> str | None:
         word = text.strip().lower()
         return word if word in allowed else None
 
     return parse
 
 
-def _length(text: str, attribute: bool) -> Terms | None:
-    return parse_length(text, attribute)
+def _length(text: str, origin: Origin) -> Terms | None:  # browsers take numbers for these in style sheets too
+    return parse_length(text, True)
 
 
-def _positive(text: str, attribute: bool) -> Terms | str | None:  # a negative one is invalid, calc() is clamped
-    if text.strip().lower() == "auto":
-        return "auto"
-    terms = parse_length(text, attribute)
-    return None if terms is None or (len(terms) == 1 and terms[0][0] < 0) else terms
-
-
-def _stroke_width(text: str, attribute: bool) -> Terms | None:
+def _positive(text: str, origin: Origin) -> Terms | None:  # a negative one is invalid
     terms = parse_length(text, True)
     return None if terms is None or (len(terms) == 1 and terms[0][0] < 0) else terms
 
 
-def _display(text: str, attribute: bool) -> str | None:
+def _radius(text: str, origin: Origin) -> Terms | str | None:
+    if text.strip().lower() == "auto":
+        return ((0.0, "px"),) if origin == "attribute" else "auto"  # as an attribute it is 0 in browsers
+    return _positive(text, origin)
+
+
+def _size(text: str, origin: Origin) -> Terms | str | None:
+    """Read width, height or font-size: numbers need a unit in a style sheet, but not in a ``style`` attribute."""
+    if text.strip().lower() == "auto":
+        return "auto"
+    terms = parse_length(text, origin != "sheet")
+    return None if terms is None or (len(terms) == 1 and terms[0][0] < 0) else terms
+
+
+def _display(text: str, origin: Origin) -> str | None:
     word = text.strip().lower()
     return word if word and word.replace("-", "").replace(" ", "").isalpha() else None
 
 
-def _paint(text: str, attribute: bool) -> str | None:
+def _paint(text: str, origin: Origin) -> str | None:
     """Read fill or stroke: ``none``, a colour, ``currentcolor``, or ``url(...)`` with what stands in for it."""
     word = text.strip()
     low = word.lower()
@@ -127,23 +137,17 @@ def parse_colour(text: str) -> str | None:
         return None
 
 
-def _font_size(text: str, attribute: bool) -> Any:
+def _font_size(text: str, origin: Origin) -> Any:
     word = text.strip().lower()
     if word in _FONT_SIZES:
         return ((_FONT_SIZES[word], "px"),)
     if word in ("larger", "smaller"):
         return ((1.2 if word == "larger" else 1 / 1.2, "em"),)
-    return _stroke_width(text, attribute) if attribute else _positive_only(text)
+    value = _size(text, origin)
+    return None if value == "auto" else value
 
 
-def _positive_only(text: str) -> Terms | None:
-    value = _positive(text, False)
-    return None if isinstance(value, str) else value
-
-
-def _line_height(text: str, attribute: bool) -> Any:
-    if attribute:  # not a presentation attribute
-        return None
+def _line_height(text: str, origin: Origin) -> Any:
     word = text.strip().lower()
     if word == "normal":
         return "normal"
@@ -151,15 +155,26 @@ def _line_height(text: str, attribute: bool) -> Any:
     return None if terms is None or terms[0][0] < 0 else terms
 
 
-def _words(text: str, attribute: bool) -> str | None:
+def _words(text: str, origin: Origin) -> str | None:
     return text.strip() or None
 
 
-def _transform(text: str, attribute: bool) -> Any:
-    return parse_transform_attribute(text) if attribute else parse_transform_property(text)
+def _transform(text: str, origin: Origin) -> Any:
+    return parse_transform_attribute(text) if origin == "attribute" else parse_transform_property(text)
 
 
-def _origin(text: str, attribute: bool) -> tuple[Terms, Terms] | None:
+def _single(name: str) -> Callable[[str, Origin], Any]:
+    """Make the reader of a property that is one transform function: ``rotate: 45deg`` is ``rotate(45deg)``."""
+
+    def parse(text: str, origin: Origin) -> Any:
+        if text.strip().lower() == "none":
+            return ()
+        return parse_transform_property(f"{name}({', '.join(text.split())})")
+
+    return parse
+
+
+def _origin(text: str, origin: Origin) -> tuple[Terms, Terms] | None:
     """Read ``transform-origin``: one or two of a length, a percentage and a word; a third (z) is dropped."""
     words = {
         "left": ("x", 0.0),
@@ -176,7 +191,7 @@ def _origin(text: str, attribute: bool) -> tuple[Terms, Terms] | None:
             axis, percent = words[token.lower_value]
             parts.append((axis, ((percent, "%"),)))
             continue
-        terms = parse_length(tinycss2.serialize([token]), attribute)
+        terms = parse_length(tinycss2.serialize([token]), origin == "attribute")
         if terms is None:
             return None
         parts.append(("", terms))
@@ -194,8 +209,8 @@ def _origin(text: str, attribute: bool) -> tuple[Terms, Terms] | None:
     return first, second
 
 
-def _path(text: str, attribute: bool) -> str | None:
-    if attribute:
+def _path(text: str, origin: Origin) -> str | None:
+    if origin == "attribute":
         return text
     tokens = [t for t in tinycss2.parse_component_value_list(text, skip_comments=True) if t.type != "whitespace"]
     if len(tokens) == 1 and tokens[0].type == "ident" and tokens[0].lower_value == "none":
@@ -206,19 +221,22 @@ def _path(text: str, attribute: bool) -> str | None:
     return str(strings[0].value) if len(strings) == 1 else None
 
 
-_PARSERS: dict[str, Callable[[str, bool], Any]] = {
+_PARSERS: dict[str, Callable[[str, Origin], Any]] = {
     **{name: _keyword(name) for name in _KEYWORDS},
     **dict.fromkeys(("x", "y", "cx", "cy"), _length),
-    **dict.fromkeys(("r", "rx", "ry", "width", "height"), _positive),
+    **dict.fromkeys(("rx", "ry"), _radius),
+    **dict.fromkeys(("width", "height"), _size),
+    "r": _positive,
     "display": _display,
     "fill": _paint,
     "stroke": _paint,
-    "color": lambda text, attribute: parse_colour(text),
-    "stroke-width": _stroke_width,
+    "color": lambda text, origin: parse_colour(text),
+    "stroke-width": _positive,
     "font-size": _font_size,
     "line-height": _line_height,
     "transform": _transform,
     "transform-origin": _origin,
+    **{name: _single(name) for name in ("translate", "rotate", "scale")},
     "d": _path,
     "clip-path": _words,
     "mask": _words,
@@ -226,50 +244,50 @@ _PARSERS: dict[str, Callable[[str, bool], Any]] = {
 PROPERTIES = frozenset(_PARSERS)
 # Attributes that are not declarations by themselves: geometry is looked up on the element that has it
 _LAZY = frozenset(("x", "y", "cx", "cy", "r", "rx", "ry", "width", "height", "d"))
-PRESENTATION = PROPERTIES - _LAZY - {"line-height"}
+PRESENTATION = PROPERTIES - _LAZY - {"line-height", "translate", "rotate", "scale"}
 
 
 @lru_cache(maxsize=8192)
-def parse_declaration(name: str, text: str, attribute: bool) -> Any:
+def parse_declaration(name: str, text: str, origin: Origin) -> Any:
     """Give the parsed value of a declaration, None when it is invalid (and so is as if it were not there)."""
     wide = _WIDE.get(text.strip().lower())
     if wide is not None:
         return (INHERIT if name in _INHERITED else INITIAL) if wide == "unset" else wide
-    return _PARSERS[name](text, attribute)
+    return _PARSERS[name](text, origin)
 
 
 @lru_cache(maxsize=4096)
-def parse_declarations(text: str) -> tuple[tuple[str, Any, bool], ...]:
-    """Read a declaration list to (property, value, important), invalid and unknown ones left out."""
+def parse_inline(text: str) -> tuple[tuple[str, Any, bool], ...]:
+    """Read a ``style`` attribute to (property, value, important), invalid and unknown ones left out."""
     found = []
     for declaration in tinycss2.parse_blocks_contents(text, skip_comments=True, skip_whitespace=True):
         if declaration.type == "declaration":
-            found.extend(known_declarations(declaration))
+            found.extend(known_declarations(declaration, "inline"))
     return tuple(found)
 
 
-def known_declarations(declaration: Any) -> list[tuple[str, Any, bool]]:
+def known_declarations(declaration: Any, origin: Origin) -> list[tuple[str, Any, bool]]:
     """Give what one tinycss2 declaration sets; the ``font`` shorthand gives its size and line height."""
     name, text = declaration.lower_name, tinycss2.serialize(declaration.value)
     if name == "font":
-        return _font_shorthand(declaration)
+        return _font_shorthand(declaration, origin)
     if name not in _PARSERS:
         return []
-    value = parse_declaration(name, text, False)
+    value = parse_declaration(name, text, origin)
     return [] if value is None else [(name, value, declaration.important)]
 
 
-def _font_shorthand(declaration: Any) -> list[tuple[str, Any, bool]]:
+def _font_shorthand(declaration: Any, origin: Origin) -> list[tuple[str, Any, bool]]:
     tokens = [token for token in declaration.value if token.type != "whitespace"]
     for index, token in enumerate(tokens):
-        size = parse_declaration("font-size", tinycss2.serialize([token]), False)
+        size = parse_declaration("font-size", tinycss2.serialize([token]), origin)
         if size is None or token.type == "number":
             continue
         rest = tokens[index + 1 :]
         found: list[tuple[str, Any, bool]] = [("font-size", size, declaration.important)]
         height: Any = "normal"
         if len(rest) >= 2 and rest[0].type == "literal" and rest[0].value == "/":
-            height = parse_declaration("line-height", tinycss2.serialize([rest[1]]), False)
+            height = parse_declaration("line-height", tinycss2.serialize([rest[1]]), origin)
             rest = rest[2:]
         found.append(("line-height", height, declaration.important))
         return found if rest else []
@@ -278,6 +296,12 @@ def _font_shorthand(declaration: Any) -> list[tuple[str, Any, bool]]:
 
 def inherit(parent: Style, declared: Declared) -> Style:
     """Give the style of an element from its parent's and its own declarations."""
+    return _inherit(parent, tuple(declared.items()))
+
+
+@lru_cache(maxsize=4096)  # neighbours mostly look the same
+def _inherit(parent: Style, items: tuple[tuple[str, Any], ...]) -> Style:
+    declared = dict(items)
     changes: dict[str, Any] = {}
     font = _font(parent, declared, changes)
     if font is not parent.font:

@@ -110,12 +110,33 @@ def _css_function(token: Any) -> tuple[str, tuple[Any, ...]] | None:
         "skew": "aa",
         "skewx": "a",
         "skewy": "a",
+        "translate3d": "lll",
+        "translatez": "l",
+        "scale3d": "nnn",
+        "scalez": "n",
+        "rotatex": "a",
+        "rotatey": "a",
+        "matrix3d": "n" * 16,
     }.get(name)
     optional = name in ("translate", "scale", "skew")
     if kinds is None or not (len(arguments) == len(kinds) or (optional and len(arguments) == 1)):
         return None
     values = tuple(_css_argument(kind, token) for kind, token in zip(kinds, arguments, strict=False))
-    return None if any(value is None for value in values) else (name, values)
+    return None if any(value is None for value in values) else _flat(name, values)
+
+
+def _flat(name: str, v: tuple[Any, ...]) -> tuple[str, tuple[Any, ...]]:
+    """Give what a function does within the plane; depth does not show without perspective."""
+    if name in ("translate3d", "scale3d"):
+        return name[:-2], v[:2]
+    if name in ("translatez", "scalez"):
+        return "scale", (1.0,)
+    if name in ("rotatex", "rotatey"):
+        cosine = math.cos(math.radians(v[0]))
+        return "scale", (1.0, cosine) if name == "rotatex" else (cosine, 1.0)
+    if name == "matrix3d":
+        return "matrix", (v[0], v[1], v[4], v[5], v[12], v[13])
+    return name, v
 
 
 def _css_argument(kind: str, token: Any) -> float | Terms | None:

@@ -1,19 +1,22 @@
 """Lengths: CSS text to numbers of user units (CSS px).
 
 A length is kept as terms (factor, unit) until the element that uses it is known: ``calc(50% - 1em)`` is
-``((50, "%"), (-1, "em"))``. Percentages and font units need the viewport and the font there.
+``((50, "%"), (-1, "em"))``. Percentages and font units need the viewport and the font there. Where a term is
+``min()``, ``max()`` or ``clamp()``, its unit is that word with the terms of its arguments.
 """
 
 from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import tinycss2
 
-Terms = tuple[tuple[float, str], ...]
+Terms = tuple[tuple[float, Any], ...]
 
 # A file has no window, no screen and no fonts. These are those of the browser that the tests measure with:
 # headless Chromium opened at 1600 by 1600 (143 of them are its own frame), a page with the default font.
@@ -104,6 +107,10 @@ def to_px(terms: Terms, percent_of: float, font: Font) -> float:
     """
     total = 0.0
     for value, unit in terms:
+        if isinstance(unit, tuple):
+            pick, arguments = unit
+            total += value * _PICKS[pick]([to_px(argument, percent_of, font) for argument in arguments])
+            continue
         factor = _PX.get(unit)
         if factor is None:
             factor = percent_of / 100 if unit == "%" else _WINDOW_UNITS.get(unit)
@@ -111,14 +118,30 @@ def to_px(terms: Terms, percent_of: float, font: Font) -> float:
     return total
 
 
+_PICKS: dict[str, Callable[[list[float]], float]] = {
+    "min": min,
+    "max": max,
+    "clamp": lambda values: max(values[0], min(values[1], values[2])),
+}
+
+
 def needs_window(terms: Terms) -> bool:
     """Tell whether a length depends on the browser's window."""
-    return any(unit in _WINDOW_UNITS for _, unit in terms)
+    return any(unit in _WINDOW_UNITS for unit in _units(terms))
 
 
 def needs_metrics(terms: Terms) -> bool:
     """Tell whether a length depends on the proportions of a font that is not at hand."""
-    return any(unit in _FONT_UNITS and unit not in ("em", "rem") for _, unit in terms)
+    return any(unit in _FONT_UNITS and unit not in ("em", "rem") for unit in _units(terms))
+
+
+def _units(terms: Terms) -> Iterator[str]:
+    for _, unit in terms:
+        if isinstance(unit, tuple):
+            for argument in unit[1]:
+                yield from _units(argument)
+        else:
+            yield unit
 
 
 def _font_unit(unit: str, font: Font) -> float:
@@ -138,22 +161,29 @@ def _normal_line_height(font: Font) -> float:  # ascent and descent are each rou
     return float(round(0.928 * font.size) + round(0.236 * font.size))
 
 
+_Sum = dict[Any, float]  # unit to factor
+
+
 def _parse_calc(text: str, unitless: bool) -> Terms | None:
     tokens = [t for t in tinycss2.parse_component_value_list(text, skip_comments=True) if t.type != "whitespace"]
-    if len(tokens) != 1 or tokens[0].type != "function" or tokens[0].lower_name != "calc":
+    if len(tokens) != 1 or tokens[0].type != "function":
         return None
     try:
-        terms = _sum([t for t in tokens[0].arguments if t.type not in ("whitespace", "comment")])
+        terms = _value(tokens[0])
     except (ValueError, IndexError, ZeroDivisionError, RecursionError, OverflowError):
         return None
-    if not all(math.isfinite(value) and unit in UNITS for unit, value in terms.items()):
+    if not all(math.isfinite(value) and (isinstance(unit, tuple) or unit in UNITS) for unit, value in terms.items()):
         return None
     if "" in terms and not unitless:
         return None
     return tuple((value, unit) for unit, value in terms.items())
 
 
-def _sum(tokens: list[tinycss2.ast.Node]) -> dict[str, float]:
+def _solid(tokens: list[Any]) -> list[Any]:
+    return [token for token in tokens if token.type not in ("whitespace", "comment")]
+
+
+def _sum(tokens: list[Any]) -> _Sum:
     total, rest = _product(tokens)
     while rest:
         sign = {"+": 1.0, "-": -1.0}[_operator(rest[0])]
@@ -163,7 +193,7 @@ def _sum(tokens: list[tinycss2.ast.Node]) -> dict[str, float]:
     return total
 
 
-def _product(tokens: list[tinycss2.ast.Node]) -> tuple[dict[str, float], list[tinycss2.ast.Node]]:
+def _product(tokens: list[Any]) -> tuple[_Sum, list[Any]]:
     left, rest = _value(tokens[0]), tokens[1:]
     while rest and _operator(rest[0]) in "*/":
         divide, right = _operator(rest[0]) == "/", _value(rest[1])
@@ -177,7 +207,7 @@ def _product(tokens: list[tinycss2.ast.Node]) -> tuple[dict[str, float], list[ti
     return left, rest
 
 
-def _value(token: tinycss2.ast.Node) -> dict[str, float]:
+def _value(token: Any) -> _Sum:
     if token.type == "number":
         return {"": token.value}
     if token.type == "percentage":
@@ -185,13 +215,28 @@ def _value(token: tinycss2.ast.Node) -> dict[str, float]:
     if token.type == "dimension":
         return {token.lower_unit: token.value}
     if token.type == "() block":
-        return _sum([t for t in token.content if t.type not in ("whitespace", "comment")])
-    if token.type == "function" and token.lower_name == "calc":
-        return _sum([t for t in token.arguments if t.type not in ("whitespace", "comment")])
-    raise ValueError(token.type)
+        return _sum(_solid(token.content))
+    if token.type != "function":
+        raise ValueError(token.type)
+    if token.lower_name == "calc":
+        return _sum(_solid(token.arguments))
+    if token.lower_name not in _PICKS:
+        raise ValueError(token.lower_name)
+    arguments: list[list[Any]] = [[]]
+    for argument in _solid(token.arguments):
+        if argument.type == "literal" and argument.value == ",":
+            arguments.append([])
+        else:
+            arguments[-1].append(argument)
+    if token.lower_name == "clamp" and len(arguments) != 3:
+        raise ValueError("clamp takes three")
+    sums = tuple(tuple((value, unit) for unit, value in _sum(one).items()) for one in arguments)
+    if any(not isinstance(unit, tuple) and unit not in UNITS for terms in sums for _, unit in terms):
+        raise ValueError("an unknown unit")
+    return {(token.lower_name, sums): 1.0}
 
 
-def _operator(token: tinycss2.ast.Node) -> str:
+def _operator(token: Any) -> str:
     if token.type != "literal" or token.value not in "+-*/":
         raise ValueError(token.type)
     return str(token.value)
