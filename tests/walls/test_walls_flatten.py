@@ -32,7 +32,7 @@ coordinate = st.floats(-100, 100).map(lambda x: round(x, 3))
 point = st.tuples(coordinate, coordinate)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(st.tuples(point, point, point, point), st.sampled_from([1.0, 0.1, 0.01]))
 def test_every_point_of_the_curve_is_within_tolerance(points, tolerance):
     strokes = cubic(points)

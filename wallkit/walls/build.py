@@ -12,6 +12,7 @@ import numpy as np
 
 from importers.drawing import Drawing, DrawnPath
 from importers.problems import Problem
+from wallkit.walls.arcs import fit_arcs
 from wallkit.walls.clean import clean
 from wallkit.walls.contacts import find_contacts
 from wallkit.walls.filling import material_rings
@@ -140,7 +141,7 @@ def _one_point(path: DrawnPath, x: float, y: float) -> Problem:
 
 
 def _edges(strokes: Strokes, tolerance: float, curves: Curves) -> Pieces:
-    return flatten(strokes, tolerance)
+    return fit_arcs(strokes, tolerance) if curves == "arcs" else flatten(strokes, tolerance)
 
 
 def nested(outlines: Outlines, sides: Sides, arena: bool, tolerance: float) -> Walls:

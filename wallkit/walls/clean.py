@@ -82,9 +82,9 @@ def _drop_points(outlines: Outlines) -> Outlines:
 
 
 def _open_flat(outlines: Outlines) -> Outlines:
-    """A closed outline of two vertices and straight edges is a line there and back: keep it once, open."""
+    """A closed outline of two vertices without area is a line there and back: keep it once, open."""
     flat = outlines.closed & (np.diff(outlines.offsets) == 2)
-    flat &= outlines.bulges[outlines.offsets[:-1]] == 0
+    flat &= signed_areas(outlines.vertices, outlines.bulges, outlines.offsets) == 0
     problems = [
         outlines.problem(
             index,
