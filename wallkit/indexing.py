@@ -93,7 +93,7 @@ def _chords(
 
 def _enter(
     box: tuple[FloatArray, float, int, int], lines: FloatArray, owners: IntArray, reach: FloatArray
-) -> tuple[IntArray, IntArray]:
+) -> tuple[NDArray[np.uint64], IntArray]:
     """Enter lines into cells: (start of each cell, owners by cell, each once)."""
     count = box[2] * box[3]
     cells, which = _cells_of_lines(box, lines, reach)

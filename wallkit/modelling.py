@@ -165,7 +165,7 @@ def _as_lists(model: Model) -> Model:
     def convert(value: Any) -> Any:
         if isinstance(value, np.ndarray):
             if value.dtype.names is not None:
-                record = {LINE: Line, CORNER: Corner}[value.dtype]
+                record: Any = {LINE: Line, CORNER: Corner}[value.dtype]
                 return list(map(record._make, value.tolist()))
             return value.tolist()
         if isinstance(value, tuple):

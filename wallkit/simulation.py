@@ -213,7 +213,10 @@ def is_gone(
 ) -> NDArray[np.bool_]:
     """Tell which balls are outside the walls' box and fly away from it."""
     low, high = np.array(box[0:2]) - radii[:, None], np.array(box[2:4]) + radii[:, None]
-    return np.any(((position > high) & (velocity >= 0)) | ((position < low) & (velocity <= 0)), axis=1)
+    gone: NDArray[np.bool_] = np.any(
+        ((position > high) & (velocity >= 0)) | ((position < low) & (velocity <= 0)), axis=1
+    )
+    return gone
 
 
 def limits(until: float | None, bounces: int | None) -> tuple[float, int]:

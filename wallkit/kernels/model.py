@@ -2,8 +2,8 @@
 
 The same tuples hold NumPy arrays (of records) for the compiled kernels and lists (of named tuples) of Python floats
 for the interpreted ones; both are read as ``lines[i].ax``, so that one source serves and gives the same bits.
-Positions in arrays of entries are unsigned: they need no look whether they count from the end. Coordinates are local (see
-``Scene.arrays``).
+Positions in arrays of entries are unsigned: they need no look whether they count from the end.
+Coordinates are local (see ``wallkit.modelling``).
 """
 
 from __future__ import annotations
