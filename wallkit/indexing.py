@@ -11,56 +11,76 @@ contact.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.model import Grid
+from wallkit.kernels.model import Cells, Grid
 from wallkit.scene import FloatArray
 
 IntArray = NDArray[np.int64]
 MARGIN = 2.0**-16
 CELL = 0.8
 """Cell size in units of sqrt(area / edges); measured, flat between 0.5 and 1.2."""
-PIECE = math.pi / 4
-"""The arc around a corner is entered in chords of at most this angle, with the bow between chord and arc."""
+BOW = 1.0 / 8.0
+"""Arcs are entered in chords that miss them by at most this part of a cell, and by what they miss them."""
 
 
-def build_grid(
-    lines: FloatArray,
-    edge_ids: IntArray,
-    corners: FloatArray,
-    fans: FloatArray,
-    corner_ids: IntArray,
-    radii: tuple[float, float],
-) -> tuple[Grid, IntArray, IntArray]:
+class Places(NamedTuple):
+    """What is to be indexed: edges and corners of the model, with the numbers they go by."""
+
+    lines: FloatArray
+    """(n, 8) columns of ``Line``."""
+    line_ids: IntArray
+    arcs: FloatArray
+    """(n, 11) columns of ``Arc``."""
+    arc_ids: IntArray
+    corners: FloatArray
+    """(n, 2)."""
+    fans: FloatArray
+    """(n, 2) angle at which the arc around a corner begins, and how far it goes, radians."""
+    corner_ids: IntArray
+
+
+def build_grid(places: Places, radii: tuple[float, float]) -> tuple[Grid, IntArray, IntArray, IntArray]:
     """Sort edges and corners into cells.
 
     Args:
-        lines: (E, 8) columns of ``Line``.
-        edge_ids: which of them to enter.
-        corners: (V, 4) columns of ``Corner``.
-        fans: (V, 2) angle at which the arc of each corner begins, and how far it goes, radians.
-        corner_ids: which of them to enter.
+        places: what to enter.
         radii: smallest and largest distance of a centre at a contact.
 
     Returns:
-        The grid, and the ids of edges and corners cell by cell.
+        The grid, and the ids of lines, arcs and corners cell by cell.
     """
     middle, spread = (radii[0] + radii[1]) / 2, (radii[1] - radii[0]) / 2
-    ends = np.concatenate([lines[edge_ids, 0:2], lines[edge_ids, 2:4]])
-    low, high = ends.min(axis=0) - radii[1], ends.max(axis=0) + radii[1]
-    size = _cell_size(high - low, len(edge_ids))
+    low, high = _box(places)
+    low, high = low - radii[1], high + radii[1]
+    size = _cell_size(high - low, len(places.lines) + len(places.arcs))
     low, high = low - size * MARGIN * 4, high + size * MARGIN * 4
     columns, rows = (int(n) + 1 for n in np.floor((high - low) / size))
     box = (low, size, columns, rows)
     reach = spread + size * MARGIN
-    beside, owners = _beside(lines[edge_ids], edge_ids, middle)
-    line_start, sorted_edges = _enter(box, beside, owners, np.full(len(owners), reach))
-    chords, bow, owners = _chords(corners[corner_ids, 0:2], fans[corner_ids], corner_ids, middle)
-    corner_start, sorted_corners = _enter(box, chords, owners, reach + bow)
-    grid = Grid(line_start, corner_start, float(low[0]), float(low[1]), size, columns, rows)
-    return grid, sorted_edges, sorted_corners
+    beside, owners = _beside(places.lines, places.line_ids, middle)
+    line_start, lines = _enter(box, beside, owners, np.full(len(owners), reach))
+    chords, bow, owners = _around_arcs(places.arcs, places.arc_ids, middle, size)
+    arc_start, arcs = _enter(box, chords, owners, reach + bow)
+    radius = np.full(len(places.corners), middle)
+    chords, bow, owners = _chords(places.corners, places.fans, places.corner_ids, radius, size)
+    corner_start, corners = _enter(box, chords, owners, reach + bow)
+    cells = Cells(line_start, arc_start, corner_start)
+    return Grid(cells, float(low[0]), float(low[1]), size, columns, rows), lines, arcs, corners
+
+
+def _box(places: Places) -> tuple[FloatArray, FloatArray]:
+    """Give the lowest and highest coordinates of edges; an arc may bow out as far as its circle."""
+    a, b = places.arcs[:, 0:2], places.arcs[:, 2:4]
+    chord = np.hypot(*(b - a).T)[:, None]
+    radius, wide = places.arcs[:, 8:9], places.arcs[:, 10:11]
+    half = np.sqrt(np.maximum(radius * radius - chord * chord / 4, 0.0))
+    bow = np.where(wide > 0.0, radius + half, chord * chord / (4.0 * np.maximum(radius + half, 1e-300)))
+    ends = np.concatenate([places.lines[:, 0:2], places.lines[:, 2:4], *(p + s * bow for p in (a, b) for s in (1, -1))])
+    return ends.min(axis=0), ends.max(axis=0)
 
 
 def _cell_size(extent: FloatArray, count: int) -> float:
@@ -77,18 +97,31 @@ def _beside(lines: FloatArray, ids: IntArray, distance: float) -> tuple[FloatArr
     return np.concatenate([lines[:, 0:4] + shift, lines[:, 0:4] - shift]), np.concatenate([ids, ids])
 
 
-def _chords(
-    centres: FloatArray, fans: FloatArray, ids: IntArray, radius: float
+def _around_arcs(
+    arcs: FloatArray, ids: IntArray, distance: float, size: float
 ) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Cut the arc around each corner into chords: (chords, how far each arc bows out, whose they are)."""
-    pieces = np.maximum(np.ceil(fans[:, 1] / PIECE), 1).astype(np.int64)
+    """Cut the arcs at a distance outside and inside each arc into chords, as ``_chords`` does."""
+    centre, radius = arcs[:, 0:2] - arcs[:, 4:6], arcs[:, 8]
+    start, end = np.arctan2(arcs[:, 5], arcs[:, 4]), np.arctan2(arcs[:, 7], arcs[:, 6])
+    fans = np.stack([start, np.remainder(end - start, 2 * np.pi)], axis=1)
+    both = [_chords(centre, fans, ids, np.abs(radius + side), size) for side in (distance, -distance)]
+    chords, bow, owners = (np.concatenate(parts) for parts in zip(*both, strict=True))
+    return chords, bow, owners
+
+
+def _chords(
+    centres: FloatArray, fans: FloatArray, ids: IntArray, radius: FloatArray, size: float
+) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Cut arcs into chords: (chords, how far each arc bows out, whose they are)."""
+    piece = 2.0 * np.arccos(np.clip(1.0 - BOW * size / np.maximum(radius, 1e-300), 0.0, 1.0))
+    pieces = np.maximum(np.ceil(fans[:, 1] / np.maximum(piece, 2.0**-20)), 1).astype(np.int64)
     which, number = _spread(np.zeros_like(pieces), pieces - 1)
     angle = fans[which, 1] / pieces[which]
     start = fans[which, 0] + number * angle
-    centre = centres[which]
-    a = centre + radius * np.stack([np.cos(start), np.sin(start)], axis=1)
-    b = centre + radius * np.stack([np.cos(start + angle), np.sin(start + angle)], axis=1)
-    return np.hstack([a, b]), radius * (1.0 - np.cos(angle / 2)), ids[which]
+    centre, size_of = centres[which], radius[which][:, None]
+    a = centre + size_of * np.stack([np.cos(start), np.sin(start)], axis=1)
+    b = centre + size_of * np.stack([np.cos(start + angle), np.sin(start + angle)], axis=1)
+    return np.hstack([a, b]), radius[which] * (1.0 - np.cos(angle / 2)), ids[which]
 
 
 def _enter(

@@ -8,13 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.indexing import build_grid
-from wallkit.kernels.model import CORNER, LINE, Corner, Line, Model
+from wallkit.indexing import Places, build_grid
+from wallkit.kernels.model import ARC, CORNER, LINE, Arc, Cells, Corner, Line, Model
 from wallkit.scene import FloatArray, Scene, SceneError
+from wallkit.walls import Walls
 
 IntArray = NDArray[np.int64]
 SMOOTH = 2.0**-44
 """Edges that meet at less than this angle (radians) have no corner: see ``scan_disc`` for how they overlap."""
+FLAT = 2.0**-44
+"""An arc with a smaller bulge is its chord, to rounding."""
 BRUTE_FORCE = 16
 """Up to this many edges looking at all of them beats any index."""
 
@@ -31,8 +34,6 @@ class Modelled:
     def __init__(self, scene: Scene, *, index: str = "auto") -> None:
         if scene.gravity is not None and scene.gravity != (0.0, 0.0):
             raise SceneError("gravity is not simulated yet", code="not-yet")
-        if scene.walls.has_arcs:
-            raise SceneError("walls of arcs are not simulated yet", code="not-yet")
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
         self.origin = local_origin(scene.walls.vertices)
         least = float(self.radii.min()) if len(self.radii) else 0.0
@@ -78,33 +79,69 @@ def _model(scene: Scene, origin: FloatArray, least: float, radius: float, index:
     walls = scene.walls
     vertices = walls.vertices - origin
     lines = _lines(vertices[walls.edge_starts], vertices[walls.edge_ends])
+    arcs, arc_of_edge, angles = _arcs(lines, walls.bulges[walls.edge_starts])
     wall_of_edge = np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)).astype(np.int64)
-    ids = np.flatnonzero(lines[:, 6] > 0.0).astype(np.int64)
-    corners = np.hstack([vertices, _normals_at_vertices(walls, lines)])
-    fans = _fans(walls, lines)
+    line_ids = np.flatnonzero((lines[:, 6] > 0.0) & (arc_of_edge < 0)).astype(np.int64)
+    arc_ids = np.flatnonzero(arc_of_edge >= 0).astype(np.int64)
+    fans, corners = _fans(walls, vertices, lines, angles)
     corner_ids = np.flatnonzero(fans[:, 1] > SMOOTH).astype(np.int64) if radius > 0.0 else np.empty(0, np.int64)
     one_sided = _one_sided(scene)
-    use_grid = index == "grid" or (index == "auto" and len(ids) > BRUTE_FORCE)
+    whole = Cells(*(np.array([0, len(ids)], dtype=np.uint64) for ids in (line_ids, arc_ids, corner_ids)))
     grid = None
-    if use_grid and len(ids):
+    if index == "grid" or (index == "auto" and len(line_ids) + len(arc_ids) > BRUTE_FORCE):
         least = 0.0 if one_sided is not None else least  # a disc may stand across a wall that it came through
-        grid, ids, corner_ids = build_grid(lines, ids, corners, fans, corner_ids, (least, radius))
-    lines_as_records, corners_as_records = _records(lines, LINE), _records(corners, CORNER)
+        places = Places(
+            lines[line_ids], line_ids, arcs, arc_ids, corners[corner_ids, 0:2], fans[corner_ids], corner_ids
+        )
+        grid, line_ids, arc_ids, corner_ids = build_grid(places, (least, radius))
+    line_records, arc_records, corner_records = _records(lines, LINE), _records(arcs, ARC), _records(corners, CORNER)
     return Model(
-        line_entries=lines_as_records[ids],
-        line_ids=ids,
-        corner_entries=corners_as_records[corner_ids] if radius > 0.0 else None,
+        line_entries=line_records[line_ids],
+        line_ids=line_ids,
+        arc_entries=arc_records[arc_of_edge[arc_ids]] if len(arcs) else None,
+        arc_ids=arc_ids,
+        corner_entries=corner_records[corner_ids] if radius > 0.0 else None,
         corner_ids=corner_ids,
-        whole=np.array([0, len(ids), 0, len(corner_ids)], dtype=np.uint64),
+        whole=whole,
         grid=grid,
-        lines=lines_as_records,
-        corners=corners_as_records,
+        lines=line_records,
+        arcs=arc_records if len(arcs) else None,
+        arc_of_edge=arc_of_edge,
+        corners=corner_records,
         edge_wall=wall_of_edge,
         corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)).astype(np.int64),
         restitution=_restitution(scene),
         one_sided=one_sided,
         extent=float(np.abs(vertices).max(initial=0.0)) + radius,
     )
+
+
+def _arcs(lines: FloatArray, bulges: FloatArray) -> tuple[FloatArray, IntArray, FloatArray]:
+    """Make arcs of edges with a bulge: (columns of ``Arc``, number of each edge's arc or -1, angle of each edge).
+
+    With chord d, its left normal m and bulge b = tan(angle / 4) the centre lies at (a + b) / 2 + m d (1 - b^2) / (4 b)
+    and R = d (1 + b^2) / (4 |b|) (as in DXF). An arc that bows less than 2^-44 of its chord is the chord.
+    """
+    length = lines[:, 6]
+    is_arc = (np.abs(bulges) > FLAT) & (length > 0.0)
+    number = np.where(is_arc, np.cumsum(is_arc) - 1, -1).astype(np.int64)
+    angles = np.where(is_arc, 4.0 * np.arctan(bulges), 0.0)
+    chord, b = lines[is_arc], bulges[is_arc]
+    start, end = chord[:, 0:2], chord[:, 2:4]
+    off = (chord[:, 6] * (1.0 - b * b) / (4.0 * b))[:, None]
+    to_centre = (end - start) / 2 - off * chord[:, 4:6]
+    from_centre = -to_centre, (end - start) / 2 + off * chord[:, 4:6]
+    left = (b > 0.0)[:, None]
+    columns = [
+        np.where(left, start, end),
+        np.where(left, end, start),
+        np.where(left, from_centre[0], from_centre[1]),
+        np.where(left, from_centre[1], from_centre[0]),
+        (chord[:, 6] * (1.0 + b * b) / (4.0 * np.abs(b)))[:, None],
+        np.sign(b)[:, None],
+        (np.abs(b) > 1.0)[:, None].astype(np.float64),
+    ]
+    return np.hstack(columns), number, angles
 
 
 def _lines(start: FloatArray, end: FloatArray) -> FloatArray:
@@ -119,23 +156,19 @@ def _lines(start: FloatArray, end: FloatArray) -> FloatArray:
     return lines
 
 
-def _normals_at_vertices(walls: Any, lines: FloatArray) -> FloatArray:
-    total = np.zeros((len(walls.vertices), 2))
-    np.add.at(total, walls.edge_starts, lines[:, 4:6])
-    np.add.at(total, walls.edge_ends, lines[:, 4:6])
-    return total
-
-
-def _fans(walls: Any, lines: FloatArray) -> FloatArray:
+def _fans(walls: Walls, vertices: FloatArray, lines: FloatArray, angles: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Give for each vertex where a disc can touch it: the angles between the normals of its edges, (start, how far).
 
     Where the wall turns left the fan opens to its right, and the other way round; a free end has half a circle, a
     vertex at an edge without length a whole one.
+
+    Returns:
+        The fans (V, 2), and columns of ``Corner``.
     """
-    count = len(walls.vertices)
-    heading = np.arctan2(lines[:, 4], -lines[:, 5])
+    count = len(vertices)
+    chord = np.arctan2(lines[:, 4], -lines[:, 5])
     arriving, leaving = np.full(count, np.nan), np.full(count, np.nan)
-    arriving[walls.edge_ends], leaving[walls.edge_starts] = heading, heading
+    arriving[walls.edge_ends], leaving[walls.edge_starts] = chord + angles / 2, chord - angles / 2
     end, start = np.isnan(leaving), np.isnan(arriving)
     turn = np.remainder(leaving - arriving + np.pi, 2 * np.pi) - np.pi
     right = np.where(turn >= 0.0, arriving - np.pi / 2, leaving + np.pi / 2)
@@ -144,7 +177,9 @@ def _fans(walls: Any, lines: FloatArray) -> FloatArray:
     bare = np.zeros(count, dtype=np.bool_)
     none = lines[:, 6] == 0.0
     bare[walls.edge_starts[none]] = bare[walls.edge_ends[none]] = True
-    return np.stack([np.where(bare, 0.0, first), np.where(bare, 2 * np.pi, span)], axis=1)
+    fans = np.stack([np.where(bare, 0.0, first), np.where(bare, 2 * np.pi, span)], axis=1)
+    outward = [np.where(np.isnan(a), 0.0, f(np.nan_to_num(a))) for f in (np.sin, np.cos) for a in (arriving, leaving)]
+    return fans, np.stack([vertices[:, 0], vertices[:, 1], outward[0] + outward[1], -outward[2] - outward[3]], axis=1)
 
 
 def _restitution(scene: Scene) -> FloatArray | None:
@@ -165,7 +200,7 @@ def _as_lists(model: Model) -> Model:
     def convert(value: Any) -> Any:
         if isinstance(value, np.ndarray):
             if value.dtype.names is not None:
-                record: Any = {LINE: Line, CORNER: Corner}[value.dtype]
+                record: Any = {LINE: Line, ARC: Arc, CORNER: Corner}[value.dtype]
                 return list(map(record._make, value.tolist()))
             return value.tolist()
         if isinstance(value, tuple):

@@ -7,7 +7,11 @@ receding from them.
 
 from __future__ import annotations
 
-from wallkit.kernels.jit import kernel
+import math
+
+from wallkit.kernels.arcs import holds
+from wallkit.kernels.grid import home
+from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import AMBIGUOUS, NO_HIT
 from wallkit.kernels.motion import reflect
 
@@ -16,121 +20,165 @@ SAME = 1e-9
 TURNS = 200_000
 
 
-@kernel
+@rare_kernel
 def settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still):
     """Find the edge that a point in a corner meets next, at once; or NO_HIT if it is free to go.
 
     Returns AMBIGUOUS if starting with the other wall would send the point elsewhere: an exact corner hit that
     has no limit.
     """
-    second = _blocking(model, last, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
-    if second == NO_HIT:
-        return NO_HIT
-    if still == 0 and not _order_is_free(model, last, second, from_vx, from_vy):
-        return AMBIGUOUS
-    return second
-
-
-@kernel
-def _blocking(model, first, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance):
-    """The touched edge that the velocity runs against soonest, seen from the last one."""
-    lines = model.lines
-    tx, ty = -lines[last].ny, lines[last].nx
-    if tx * vx + ty * vy < 0.0:
-        tx, ty = -tx, -ty
+    cells, c = home(model, model.grid, x, y)
     found = NO_HIT
-    widest = -2.0
-    for edge in range(len(model.edge_wall)):
-        if edge == last:
-            continue
-        line = lines[edge]
-        nx, ny, length = line.nx, line.ny, line.length
-        ex, ey = x - line.ax, y - line.ay
-        d = ex * nx + ey * ny
-        u = ey * nx - ex * ny
-        if not (-tolerance <= d <= tolerance and -tolerance <= u <= length + tolerance):
-            continue
-        came = (from_x - line.ax) * nx + (from_y - line.ay) * ny
-        if -tolerance <= came <= tolerance:
-            came = from_vx * nx + from_vy * ny
-        toward = vx * nx + vy * ny
-        if (came > 0.0) == (toward > 0.0) or toward == 0.0:
-            continue
-        if came < 0.0 and model_is_one_sided(model.one_sided, model.edge_wall[edge]):
-            continue
-        lean = _lean(lines[last], line, u, tolerance, from_x, from_y, from_vx, from_vy, tx, ty)
-        if lean > widest:
-            widest = lean
-            found = edge
+    closest = -2.0
+    for k in range(cells.line_start[c], cells.line_start[c + 1]):
+        edge = model.line_ids[k]
+        lean = _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
+        if lean > closest:
+            closest, found = lean, edge
+    for k in range(cells.arc_start[c], cells.arc_start[c + 1]):
+        edge = model.arc_ids[k]
+        lean = _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
+        if lean > closest:
+            closest, found = lean, edge
+    if found == NO_HIT:
+        return NO_HIT
+    if still == 0 and not _order_is_free(model, last, found, x, y, from_vx, from_vy):
+        return AMBIGUOUS
     return found
 
 
-@kernel
-def model_is_one_sided(one_sided, wall):
-    """Tell whether a wall is solid from its outward side alone."""
-    if one_sided is None:
-        return False
-    return one_sided[wall] != 0
-
-
-@kernel
-def _lean(last, line, u, tolerance, from_x, from_y, from_vx, from_vy, tx, ty):
-    """How closely an edge leans over the way along the last wall, -1 to 1; -2 if it does not rise on the ball's side.
+@rare_kernel
+def _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance):
+    """How closely an edge leans over the way along the last wall, -1 to 1; -2 if the point does not run against it.
 
     An edge that ends here and goes off behind the last wall, or along it, cannot be met when leaving that wall.
     """
-    mx, my = last.nx, last.ny
-    side = (from_x - last.ax) * mx + (from_y - last.ay) * my
-    if -tolerance <= side <= tolerance:
+    if edge == last:
+        return -2.0
+    touches, starts, ends = _touch(model, model.arcs, edge, x, y, tolerance)
+    if not touches:
+        return -2.0
+    nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
+    came = _side(model, model.arcs, edge, from_x, from_y, tolerance)
+    if came == 0.0:
+        came = from_vx * nx + from_vy * ny
+    toward = vx * nx + vy * ny
+    if (came > 0.0) == (toward > 0.0) or toward == 0.0:
+        return -2.0
+    if _passes(model.one_sided, model, model.arcs, edge, came):
+        return -2.0
+    mx, my, _twice = normal_at(model, model.arcs, last, x, y)
+    side = _side(model, model.arcs, last, from_x, from_y, tolerance)
+    if side == 0.0:
         side = from_vx * mx + from_vy * my
     if side < 0.0:
         mx, my = -mx, -my
-    dx, dy = -line.ny, line.nx
+    dx, dy = -ny, nx
     rise = dx * mx + dy * my
-    starts_here = u <= tolerance
-    ends_here = u >= line.length - tolerance
-    if ends_here and not starts_here:
+    if ends and not starts:
         dx, dy, rise = -dx, -dy, -rise
-    if (starts_here or ends_here) and rise <= 0.0:
+    if (starts or ends) and rise <= 0.0:
         return -2.0
     if rise < 0.0:
         dx, dy = -dx, -dy
-    return dx * tx + dy * ty
+    tx, ty = -my, mx
+    if tx * vx + ty * vy < 0.0:
+        tx, ty = -tx, -ty
+    scale = math.sqrt((dx * dx + dy * dy) * (tx * tx + ty * ty))
+    return (dx * tx + dy * ty) / scale
 
 
 @kernel
-def _order_is_free(model, first, second, vx, vy):
+def normal_at(model, arcs, edge, x, y):
+    """A normal of an edge at a point on it, any length, and 2 / (n.n): outward of a line, out of an arc's circle.
+
+    The normal of an arc, turned a quarter to the left, points from its a to its b, as that of a line does.
+    """
+    if arcs is not None:
+        if model.arc_of_edge[edge] >= 0:
+            arc = arcs[model.arc_of_edge[edge]]
+            nx, ny = x - arc.ax + arc.sx, y - arc.ay + arc.sy
+            return nx, ny, 2.0 / (nx * nx + ny * ny)
+    line = model.lines[edge]
+    return line.nx, line.ny, line.twice
+
+
+@rare_kernel
+def _touch(model, arcs, edge, x, y, tolerance):
+    """Tell whether a point is on an edge, and at its start or its end: (touches, starts here, ends here)."""
+    if arcs is not None:
+        if model.arc_of_edge[edge] >= 0:
+            arc = arcs[model.arc_of_edge[edge]]
+            touches = _side(model, arcs, edge, x, y, tolerance) == 0.0 and holds(
+                arc, x - arc.ax + arc.sx, y - arc.ay + arc.sy, tolerance
+            )
+            return touches, _near(x - arc.ax, y - arc.ay, tolerance), _near(x - arc.bx, y - arc.by, tolerance)
+    line = model.lines[edge]
+    ex, ey = x - line.ax, y - line.ay
+    u = ey * line.nx - ex * line.ny
+    touches = _side(model, arcs, edge, x, y, tolerance) == 0.0 and -tolerance <= u <= line.length + tolerance
+    return touches, u <= tolerance, u >= line.length - tolerance
+
+
+@rare_kernel
+def _near(dx, dy, tolerance):
+    return abs(dx) <= 2.0 * tolerance and abs(dy) <= 2.0 * tolerance
+
+
+@rare_kernel
+def _side(model, arcs, edge, x, y, tolerance):
+    """Which side of an edge's line or circle a point is on: that of ``normal_at`` above 0; 0 within rounding."""
+    if arcs is not None:
+        if model.arc_of_edge[edge] >= 0:
+            arc = arcs[model.arc_of_edge[edge]]
+            wx, wy = x - arc.ax, y - arc.ay
+            power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
+            return 0.0 if abs(power) <= (2.0 * arc.radius + tolerance) * tolerance else power
+    line = model.lines[edge]
+    d = (x - line.ax) * line.nx + (y - line.ay) * line.ny
+    return 0.0 if abs(d) <= tolerance else d
+
+
+@rare_kernel
+def _passes(one_sided, model, arcs, edge, came):
+    """Tell whether a ball on the side ``came`` (see ``_side``) passes an edge of a one-sided wall."""
+    if one_sided is None:
+        return False
+    if one_sided[model.edge_wall[edge]] == 0:
+        return False
+    outward = 1.0
+    if arcs is not None:
+        if model.arc_of_edge[edge] >= 0:
+            outward = arcs[model.arc_of_edge[edge]].turn
+    return came * outward < 0.0
+
+
+@rare_kernel
+def _order_is_free(model, first, second, x, y, vx, vy):
     """Bouncing off the two walls in turn gives the same outgoing velocity whichever comes first."""
-    ax, ay = _leave(model, first, second, vx, vy)
-    bx, by = _leave(model, second, first, vx, vy)
+    ax, ay = _leave(model, first, second, x, y, vx, vy)
+    bx, by = _leave(model, second, first, x, y, vx, vy)
     return (ax - bx) * (ax - bx) + (ay - by) * (ay - by) <= SAME * SAME * (vx * vx + vy * vy)
 
 
-@kernel
-def _leave(model, first, second, vx, vy):
-    """Velocity after bouncing off two lines in turn until it recedes from both."""
-    lines = model.lines
-    sign_a = _against(lines, first, vx, vy)
-    sign_b = _against(lines, second, vx, vy)
-    edge, other, sign, other_sign = first, second, sign_a, sign_b
-    receded = 0
+@rare_kernel
+def _leave(model, first, second, x, y, vx, vy):
+    """Velocity after bouncing off two edges in turn until it recedes from both."""
+    ax, ay, a_twice = normal_at(model, model.arcs, first, x, y)
+    bx, by, b_twice = normal_at(model, model.arcs, second, x, y)
+    if vx * ax + vy * ay > 0.0:
+        ax, ay = -ax, -ay
+    if vx * bx + vy * by > 0.0:
+        bx, by = -bx, -by
+    a_wall, b_wall = model.edge_wall[first], model.edge_wall[second]
     for _turn in range(TURNS):
-        nx, ny = sign * lines[edge].nx, sign * lines[edge].ny
-        if vx * nx + vy * ny < 0.0:
-            receded = 0
-            vx, vy, _energy = reflect(
-                model.restitution, model.edge_wall[edge], nx, ny, lines[edge].twice, vx, vy, vx * vx + vy * vy
-            )
-        else:
-            receded += 1
-            if receded == 2:
-                break
-        edge, other = other, edge
-        sign, other_sign = other_sign, sign
+        receding = True
+        if vx * ax + vy * ay < 0.0:
+            vx, vy, _energy = reflect(model.restitution, a_wall, ax, ay, a_twice, vx, vy, vx * vx + vy * vy)
+            receding = False
+        if vx * bx + vy * by < 0.0:
+            vx, vy, _energy = reflect(model.restitution, b_wall, bx, by, b_twice, vx, vy, vx * vx + vy * vy)
+            receding = False
+        if receding:
+            break
     return vx, vy
-
-
-@kernel
-def _against(lines, edge, vx, vy):
-    """Sign that turns the normal of a line against a velocity."""
-    return -1.0 if vx * lines[edge].nx + vy * lines[edge].ny > 0.0 else 1.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.corner import settle
+from wallkit.kernels.corner import normal_at, settle
 from wallkit.kernels.grid import search
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.model import (
@@ -22,8 +22,8 @@ from wallkit.kernels.model import (
 )
 from wallkit.kernels.motion import advance, reflect
 
-STILL_LIMIT = 20_000
-"""Contacts in a row without any time passing: a ball caught between walls. A wedge of 0.01 degrees needs 18,000."""
+STILL_LIMIT = 1000
+"""Contacts in a row without any time passing: a ball caught between walls, or one that rolls into a hollow."""
 
 
 @kernel
@@ -71,20 +71,20 @@ def fly(model, radius, state, counts, until, limit, hits, log, capacity):
         if feature == NO_HIT:
             ending = LEFT_SCENE if until == math.inf else TIME_REACHED
             break
-        if t > 0.0:
-            from_x, from_y, from_vx, from_vy = x, y, vx, vy
+        if time + t > time:
             still = 0
-            x += t * vx
-            y += t * vy
-            time, lost = advance(time, lost, t)
         else:
             still += 1
             if still > STILL_LIMIT:
                 ending = COLLAPSE
                 break
+        if t > 0.0:
+            from_x, from_y, from_vx, from_vy = x, y, vx, vy
+            x += t * vx
+            y += t * vy
+            time, lost = advance(time, lost, t)
         if feature >= 0:
-            line = model.lines[feature]
-            nx, ny, twice = line.nx, line.ny, line.twice
+            nx, ny, twice = normal_at(model, model.arcs, feature, x, y)
             wall = model.edge_wall[feature]
         else:
             corner = model.corners[-2 - feature]

@@ -4,40 +4,58 @@ from __future__ import annotations
 
 import math
 
+from wallkit.kernels.arcs import scan_arcs_disc, scan_arcs_point
 from wallkit.kernels.impact import scan_corners, scan_disc, scan_point
 from wallkit.kernels.jit import kernel
 
 
 @kernel
-def scan(model, first, end, first_corner, end_corner, radius, x, y, vx, vy, energy, last, tolerance, best, feature):
-    """Earliest contact with the entries of one cell."""
+def scan(model, cells, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature):
+    """Earliest contact with the entries of one cell: (time, feature, edges touched by a point where it starts)."""
+    first, end = cells.line_start[c], cells.line_start[c + 1]
+    first_arc, end_arc = cells.arc_start[c], cells.arc_start[c + 1]
     touched = 0
     if radius == 0.0:
         best, feature, touched = scan_point(
             model.line_entries, model.line_ids, first, end, model.one_sided, model.edge_wall,
             x, y, vx, vy, last, tolerance, best, feature,
         )  # fmt: skip
-        return best, feature, touched
+        best, feature, more = scan_arcs_point(
+            model.arc_entries, model.arc_ids, first_arc, end_arc, model.one_sided, model.edge_wall,
+            x, y, vx, vy, energy, last, tolerance, best, feature,
+        )  # fmt: skip
+        return best, feature, touched + more
     best, feature = scan_disc(
         model.line_entries, model.line_ids, first, end, model.one_sided, model.edge_wall,
         radius, x, y, vx, vy, last, tolerance, best, feature,
     )  # fmt: skip
+    best, feature = scan_arcs_disc(
+        model.arc_entries, model.arc_ids, first_arc, end_arc, model.one_sided, model.edge_wall,
+        radius, x, y, vx, vy, energy, last, tolerance, best, feature,
+    )  # fmt: skip
     best, feature = scan_corners(
-        model.corner_entries, model.corner_ids, first_corner, end_corner, model.one_sided, model.corner_wall,
-        radius, x, y, vx, vy, energy, last, best, feature,
+        model.corner_entries, model.corner_ids, cells.corner_start[c], cells.corner_start[c + 1],
+        model.one_sided, model.corner_wall, radius, x, y, vx, vy, energy, last, best, feature,
     )  # fmt: skip
     return best, feature, touched
 
 
 @kernel
 def search(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, feature):
-    """Find the earliest contact before ``best``: (time, feature, number of edges touched at the start)."""
+    """Find the earliest contact before ``best``: (time, feature, edges touched by a point where it starts)."""
     if grid is None:
-        whole = model.whole
-        return scan(
-            model, whole[0], whole[1], whole[2], whole[3], radius, x, y, vx, vy, energy, last, tolerance, best, feature
-        )
+        return scan(model, model.whole, 0, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
     return _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
+
+
+@kernel
+def home(model, grid, x, y):
+    """Cells and the number of the one that lists what a point at (x, y) touches."""
+    if grid is None:
+        return model.whole, 0
+    column = _cell(x - grid.x0, grid.size, grid.columns)
+    row = _cell(y - grid.y0, grid.size, grid.rows)
+    return grid.cells, row * grid.columns + column
 
 
 @kernel
@@ -61,8 +79,7 @@ def _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, fea
     while True:
         c = row * grid.columns + column
         best, feature, more = scan(
-            model, grid.line_start[c], grid.line_start[c + 1], grid.corner_start[c], grid.corner_start[c + 1],
-            radius, x, y, vx, vy, energy, last, tolerance, best, feature,
+            model, grid.cells, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature,
         )  # fmt: skip
         touched += more
         exit_x = _leaving(grid.x0, grid.size, column, step_x, x, per_vx)

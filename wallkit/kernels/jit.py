@@ -18,11 +18,18 @@ from typing import Any, TypeVar
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 _marked: list[Callable[..., Any]] = []
+_rare: list[Callable[..., Any]] = []
 
 
 def kernel(function: Function) -> Function:
     """Mark a function of floats and arrays as one that may be compiled."""
     _marked.append(function)
+    return function
+
+
+def rare_kernel(function: Function) -> Function:
+    """Mark a kernel that is seldom called: it stays a call, which keeps compiling short."""
+    _rare.append(function)
     return function
 
 
@@ -34,7 +41,7 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     the cache lives in a folder named by a digest of all kernel sources. ``WALLKIT_CACHE_DIR`` moves it; where
     no folder can be written, compiled code lasts as long as the process.
     """
-    import numba
+    import numba  # no kernel allocates, so none counts references (_nrt): that alone is a factor of two
     from numba import config
     from numba.extending import register_jitable
 
@@ -59,6 +66,8 @@ def compiler_is_loaded() -> bool:
 def _register_all(register: Callable[..., Any]) -> None:
     for function in _marked:
         register(forceinline=True, _nrt=False)(function)
+    for function in _rare:
+        register(_nrt=False)(function)
 
 
 def _cache_folder() -> Path:

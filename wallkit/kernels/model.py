@@ -41,6 +41,26 @@ class Line(NamedTuple):
     twice: float
 
 
+class Arc(NamedTuple):
+    """A circular arc, counter-clockwise from a to b, a = c + s, b = c + f.
+
+    turn is 1 if the wall runs so, -1 if it runs clockwise (then its outward side is the inside of the circle); wide is
+    1 for more than half a circle, else 0.
+    """
+
+    ax: float
+    ay: float
+    bx: float
+    by: float
+    sx: float
+    sy: float
+    fx: float
+    fy: float
+    radius: float
+    turn: float
+    wide: float
+
+
 class Corner(NamedTuple):
     """A vertex, and the sum of the outward normals of its edges: which side of a one-sided wall a centre is on."""
 
@@ -51,14 +71,22 @@ class Corner(NamedTuple):
 
 
 LINE = np.dtype([(name, np.float64) for name in Line._fields])
+ARC = np.dtype([(name, np.float64) for name in Arc._fields])
 CORNER = np.dtype([(name, np.float64) for name in Corner._fields])
 
 
-class Grid(NamedTuple):
-    """Uniform cells; the entries of cell c are start[c] to start[c + 1]."""
+class Cells(NamedTuple):
+    """Where entries start: those of cell c are start[c] to start[c + 1]."""
 
     line_start: Any
+    arc_start: Any
     corner_start: Any
+
+
+class Grid(NamedTuple):
+    """Square cells, row by row."""
+
+    cells: Any
     x0: float
     y0: float
     size: float
@@ -72,14 +100,21 @@ class Model(NamedTuple):
     line_entries: Any
     """``Line`` cell by cell, as ``line_ids`` are."""
     line_ids: Any
+    arc_entries: Any
+    """``Arc`` cell by cell; None when all edges are lines."""
+    arc_ids: Any
     corner_entries: Any
     """``Corner`` cell by cell; None when all balls are points."""
     corner_ids: Any
     whole: Any
-    """Where entries start and end, as one cell: first line, end, first corner, end."""
+    """All entries as the ``Cells`` of one cell."""
     grid: Any
     lines: Any
-    """``Line`` by edge."""
+    """``Line`` by edge; the chord of an arc."""
+    arcs: Any
+    """``Arc`` by number; None when all edges are lines."""
+    arc_of_edge: Any
+    """Number of the arc of each edge, -1 for a line."""
     corners: Any
     """``Corner`` by vertex."""
     edge_wall: Any
