@@ -17,12 +17,11 @@ EPS = 2.0**-53
 
 def _circle(radius: float, spread: float) -> Outcome:
     """Every chord of a circle makes the same angle with it; the angular momentum stays."""
-    run = fly(
-        scenes.circle(100.0), (10.0, 20.0), (SPEED * math.cos(spread), SPEED * math.sin(spread)), radius, bounces=5000
-    )
+    x, y = 10.0 * (1 - radius / 100.0), 20.0 * (1 - radius / 100.0)  # within what the disc leaves free
+    run = fly(scenes.circle(100.0), (x, y), (SPEED * math.cos(spread), SPEED * math.sin(spread)), radius, bounces=5000)
     c = run.contacts
     spin = c["x"] * c["vy"] - c["y"] * c["vx"]
-    first = 10.0 * SPEED * math.sin(spread) - 20.0 * SPEED * math.cos(spread)
+    first = x * SPEED * math.sin(spread) - y * SPEED * math.cos(spread)
     # A bounce leaves the spin but for the roundings of place (100) and speed (50), and of the normal: 8 EPS each,
     # growing at worst as their number.
     bound = len(c) * 8 * EPS * 100.0 * SPEED
