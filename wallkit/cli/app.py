@@ -40,11 +40,12 @@ def _root(
 
 def _register_commands() -> None:
     """Attach one module a command. The modules import what is heavy only when their command runs."""
-    from wallkit.cli import import_, inspect, simulate
+    from wallkit.cli import import_, inspect, play, simulate
 
     inspect.register(app)
     import_.register(app)
     simulate.register(app)
+    play.register(app)
 
 
 def main() -> None:

@@ -106,9 +106,13 @@ def read_input(file: str) -> bytes:
 
 def prepare(file: str, wishes: Wishes) -> Prepared:
     """Read FILE, whatever it is, and make the scene that the options ask for."""
+    return prepare_data(read_input(file), file, wishes, Path() if file == "-" else Path(file).parent)
+
+
+def prepare_data(data: bytes, file: str, wishes: Wishes, folder: Path | None) -> Prepared:
+    """Make the scene of a file's bytes; a scene finds the files that it names in ``folder``, None forbids any."""
     from wallkit.scene_files import kind_of, read_scene
 
-    data = read_input(file)
     kind = kind_of(data)
     if kind == "drawing":
         return _of_drawing(data, file, wishes)
@@ -118,7 +122,6 @@ def prepare(file: str, wishes: Wishes) -> Prepared:
 
         walls = loads(data, file)
         return _complete(walls, _Given(), wishes, "walls", [])
-    folder = Path() if file == "-" else Path(file).parent
     read = read_scene(data, file=file, folder=folder)
     return _complete(read.scene.walls, _Given(scene=read), wishes, "scene", [])
 

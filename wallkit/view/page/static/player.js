@@ -188,8 +188,8 @@
       }
       const ctx = stage.context(stage.front);
       ctx.lineJoin = ctx.lineCap = "round";
-      if (this.motion) this.drawMotion(ctx, colours);
       W.drawMarks(ctx, stage, colours, this.problems, this.chosen);
+      if (this.motion) this.drawMotion(ctx, colours);
       this.decorate(ctx, colours);
     }
 

@@ -21,7 +21,10 @@
       if (!force && player.playing && now - this.shown < PERIOD) return;
       this.shown = now;
       this.list.toggleAttribute("data-empty", !motion);
-      if (!motion) return;
+      if (!motion) {
+        for (const part of this.list.querySelectorAll("dd")) part.textContent = "–";
+        return;
+      }
       this.set("bounces", `${motion.bounces(time).toLocaleString("en")} of ${motion.count.toLocaleString("en")}`);
       this.set("speed", this.speed(motion, time));
       this.set("energy", this.energy(motion, time));

@@ -248,7 +248,7 @@
       if (problem.x === null || problem.y === null) return;
       const [x, y] = [stage.screenX(problem.x), stage.screenY(problem.y)];
       if (!(x > -20 && y > -20 && x < stage.width + 20 && y < stage.height + 20)) return;
-      disc(ctx, x, y, 9, colours[problem.severity], colours.paper);
+      disc(ctx, x, y, problem.severity === "info" ? 7.5 : 9, colours[problem.severity], colours.paper);
       if (index === chosen) {
         ctx.beginPath();
         ctx.arc(x, y, 15, 0, 2 * Math.PI);
@@ -256,7 +256,7 @@
         ctx.strokeStyle = colours[problem.severity];
         ctx.stroke();
       }
-      ctx.font = `600 ${index < 99 ? 10.5 : 8}px system-ui, sans-serif`;
+      ctx.font = `600 ${index > 98 || problem.severity === "info" ? 8.5 : 10.5}px system-ui, sans-serif`;
       ctx.fillStyle = colours.paper;
       ctx.fillText(String(index + 1), x, y + 0.5);
     });

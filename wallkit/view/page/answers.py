@@ -1,0 +1,274 @@
+"""Answers: what the page may ask of the library. Each takes JSON, checks and bounds it, and gives JSON or a file."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from importers.errors import WallkitError
+from importers.limits import MAX_COORDINATE
+from wallkit.run import Run
+from wallkit.samples import samples
+from wallkit.scene import Balls, Scene
+from wallkit.view.page.documents import Document, Reader, Shelf
+from wallkit.view.page.payload import Table, run_table, starts, walls_table
+from wallkit.view.page.warmth import Warmth
+from wallkit.walls import Walls
+
+MOST_BALLS = 1_000
+MOST_CONTACTS = 100_000
+"""In one answer, of all balls together."""
+MOST_PROBLEMS = 500
+MOST_TIME = 1e12
+_HORIZON_CONTACTS = 5_000  # a longer run's horizon would take longer than its flight
+
+
+class QuestionError(WallkitError):
+    """The page asked for something that is no question."""
+
+
+@dataclass(frozen=True, slots=True)
+class Download:
+    """A file for the person to keep."""
+
+    name: str
+    content: str
+    media: str
+
+
+class Answers:
+    """All questions by name; the server knows nothing of what they mean."""
+
+    def __init__(self, reader: Reader) -> None:
+        self.reader = reader
+        self.shelf = Shelf()
+        self.warmth = Warmth()
+        self.by_name: dict[str, Callable[[Table], Table | Download]] = {
+            "sample": self.sample,
+            "walls": self.walls,
+            "simulate": self.simulate,
+            "save": self.save,
+        }
+
+    def open(self, data: bytes, name: str, folder: Path | None = None) -> Table:
+        """Open a file's bytes; only a file of this machine's own owner may name others, in its folder."""
+        opened = self.reader.open(data, name, folder)
+        document = Document(name, opened, {"curves": "arcs" if opened.scene.walls.has_arcs else "lines"})
+        self.shelf.put(document)
+        return self.document_table(document)
+
+    def sample(self, body: Table) -> Table:
+        """Open a sample by name."""
+        for sample in samples():
+            if sample.name == body.get("name"):
+                return self.open(sample.path.read_bytes(), sample.name, sample.path.parent)
+        raise QuestionError("there is no such sample", code="no-sample", fix="choose one of the gallery")
+
+    def walls(self, body: Table) -> Table:
+        """Import a document's drawing again, with another tolerance or other curves."""
+        document = self.shelf.get(body.get("document"))
+        if document.opened.drawing is None:
+            raise QuestionError("these walls do not come from a drawing", code="no-drawing", fix="open the drawing")
+        curves = body.get("curves", "arcs")
+        if curves not in ("lines", "arcs"):
+            raise QuestionError(f"curves is {curves!r}", code="bad-request", fix='give "lines" or "arcs"')
+        tolerance = body.get("tolerance")
+        options = {"curves": curves}
+        if tolerance is not None:
+            options["tolerance"] = number(tolerance, "tolerance", 0.0, MAX_COORDINATE)
+        document.opened = self.reader.again(document.opened.drawing, options)
+        document.options = options
+        return self.document_table(document)
+
+    def simulate(self, body: Table) -> Table:
+        """Fly balls: to a time, or for a number of bounces each."""
+        from wallkit.simulation import simulate
+
+        scene = self.scene_of(body)
+        until, bounces = self.limits_of(body, len(scene.balls))
+        run = simulate(scene, until, bounces, mode=self.warmth.mode(scene, short="until" not in body))
+        return run_table(run, trusted=horizon_table(run) if "until" in body else None)
+
+    def save(self, body: Table) -> Download:
+        """Give the scene, the replay of its run or the walls as a file."""
+        document = self.shelf.get(body.get("document"))
+        stem = re.sub(r"[^A-Za-z0-9_-]+", "-", Path(document.name).stem).strip("-")[:60] or "wallkit"
+        what = body.get("what")
+        if what == "walls":
+            from wallkit.walls.files import to_json
+
+            return Download(f"{stem}.walls.json", json.dumps(to_json(document.opened.scene.walls)), "application/json")
+        scene = self.scene_of(body)
+        until, bounces = self.limits_of(body, len(scene.balls))
+        if what == "scene":
+            from wallkit.scene_files import scene_to_json
+
+            content = json.dumps(scene_to_json(scene, until), allow_nan=False)
+            return Download(f"{stem}.scene.json", content, "application/json")
+        if what == "replay":
+            from wallkit.simulation import simulate
+            from wallkit.view.replay import replay_html
+
+            run = simulate(scene, until, bounces)
+            page = replay_html(run, title=document.name, trusted=horizon_table(run))
+            return Download(f"{stem}.html", page, "text/html; charset=utf-8")
+        raise QuestionError(f"what is {what!r}", code="bad-request", fix='give "scene", "replay" or "walls"')
+
+    def scene_of(self, body: Table) -> Scene:
+        """Make the scene that a question is about: the document's, with the balls and the world of the page."""
+        document = self.shelf.get(body.get("document"))
+        scene = document.opened.scene
+        walls = with_material(scene.walls, body)
+        return replace(scene, walls=walls, balls=balls_of(body), gravity=pair_or_none(body.get("gravity"), "gravity"))
+
+    def limits_of(self, body: Table, balls: int) -> tuple[float | None, int]:
+        """Bound a run: at most MOST_CONTACTS bounces of all balls together, whatever was asked for."""
+        until = body.get("until")
+        end = None if until is None else number(until, "until", 0.0, MOST_TIME)
+        bounces = body.get("bounces")
+        most = MOST_CONTACTS // max(balls, 1)
+        asked = most if bounces is None else int(number(bounces, "bounces", 0, MOST_CONTACTS))
+        return end, min(asked, most)
+
+    def document_table(self, document: Document) -> Table:
+        """Give all that the page shows of a document."""
+        from wallkit.view.frame import united, walls_box
+
+        opened, walls = document.opened, document.opened.scene.walls
+        begin = starts_of(opened.scene)
+        boxes = [walls_box(walls)] if len(walls) else []
+        materials = set(walls.materials)
+        first = walls.materials[0] if walls.materials else None
+        return {
+            "id": document.key,
+            "name": document.name,
+            "facts": facts(walls, opened.kind),
+            "exactness": exactness(walls),
+            "drawn": opened.drawing is not None,
+            "curves": document.options.get("curves", "arcs"),
+            "tolerance": walls.tolerance,
+            "walls": walls_table(walls, begin[:, :2]),
+            "problems": self.problems_table(document),
+            "balls": balls_table(opened.scene.balls),
+            "gravity": opened.scene.gravity,
+            "materials": {
+                "restitution": first.restitution if first else 1.0,
+                "tangential_restitution": first.tangential_restitution if first else 1.0,
+                "mixed": len(materials) > 1,
+            },
+            "box": united([*boxes, *((x, y, x, y) for x, y, _, _ in begin.tolist())]),
+        }
+
+    def problems_table(self, document: Document) -> list[Table]:
+        """Give the findings with the command line's words; of very many the first, and how many there are more."""
+        problems = document.opened.problems
+        table = [
+            {**problem.to_json(), "text": self.reader.describe_problem(problem, document.name)}
+            for problem in problems[:MOST_PROBLEMS]
+        ]
+        if len(problems) > MOST_PROBLEMS:
+            more = f"and {len(problems) - MOST_PROBLEMS:,} more; wallkit check lists them all"
+            table.append({**table[-1], "severity": "info", "message": more, "fix": "", "text": more, "layer": "",
+                          "name": "", "x": None, "y": None})  # fmt: skip
+        return table
+
+
+def number(value: object, name: str, least: float = -math.inf, most: float = math.inf) -> float:
+    """Take a finite number within bounds.
+
+    Raises:
+        QuestionError: it is something else.
+    """
+    real = value if isinstance(value, int | float) and not isinstance(value, bool) else math.nan
+    if not (math.isfinite(real) and least <= real <= most):
+        words = str(value)[:60]
+        raise QuestionError(f"{name} is {words}", code="bad-request", fix=f"give a number, {least:g} to {most:g}")
+    return float(real)
+
+
+def pair_or_none(value: object, name: str) -> tuple[float, float] | None:
+    """Take [x, y] or null."""
+    if value is None:
+        return None
+    if not isinstance(value, list) or len(value) != 2:
+        raise QuestionError(f"{name} is {str(value)[:60]}", code="bad-request", fix="give [x, y]")
+    x, y = (number(part, name, -MAX_COORDINATE, MAX_COORDINATE) for part in value)
+    return x, y
+
+
+def balls_of(body: Table) -> Balls:
+    """Take the balls of a question: ``[{"x", "y", "vx", "vy", "radius"}, ...]``."""
+    rows = body.get("balls")
+    if not isinstance(rows, list) or not 0 < len(rows) <= MOST_BALLS:
+        raise QuestionError("balls is not a list of balls", code="bad-request", fix=f"give 1 to {MOST_BALLS}")
+    table = np.empty((len(rows), 5))
+    for row, ball in zip(table, rows, strict=True):
+        if not isinstance(ball, dict):
+            raise QuestionError("a ball is not an object", code="bad-request")
+        for index, name in enumerate(("x", "y", "vx", "vy")):
+            row[index] = number(ball.get(name), name, -MAX_COORDINATE, MAX_COORDINATE)
+        row[4] = number(ball.get("radius", 0.0), "radius", 0.0, MAX_COORDINATE)
+    return Balls(table[:, 0:2].copy(), table[:, 2:4].copy(), table[:, 4].copy())
+
+
+def with_material(walls: Walls, body: Table) -> Walls:
+    """Set the restitutions that the page asks for on every wall; null leaves them as they are."""
+    changes = {
+        name: number(body[name], name, 0.0, 1.0)
+        for name in ("restitution", "tangential_restitution")
+        if body.get(name) is not None
+    }
+    if not changes:
+        return walls
+    return replace(walls, materials=tuple(replace(material, **changes) for material in walls.materials))
+
+
+def starts_of(scene: Scene) -> np.ndarray:
+    """Give (n, 4) x, y, vx, vy of a scene's balls."""
+    return starts(Run(scene, np.empty(0), np.empty(0), ()))
+
+
+def balls_table(balls: Balls) -> list[Table]:
+    """Give balls as the page keeps them, MOST_BALLS at most."""
+    position, velocity, radius = (
+        np.asarray(part)[:MOST_BALLS] for part in (balls.position, balls.velocity, balls.radius)
+    )
+    rows = np.column_stack([position, velocity, np.broadcast_to(radius, len(position))])
+    return [dict(zip(("x", "y", "vx", "vy", "radius"), row, strict=True)) for row in rows.tolist()]
+
+
+def facts(walls: Walls, kind: str) -> str:
+    """Say in one line what is open."""
+    return f"{kind}, {counted(len(walls), 'wall')}, {counted(len(walls.edge_starts), 'edge')}"
+
+
+def exactness(walls: Walls) -> str:
+    """Say in one line what the import cost in exactness."""
+    arcs = int(np.count_nonzero(walls.bulges))
+    words = counted(len(walls.edge_starts), "edge") + (f", {arcs:,} of them arcs" if arcs else "")
+    if walls.tolerance > 0:
+        words += f"; at most {walls.measured_error:.3g} from the drawn curves"
+    if walls.measured_normal_error:
+        words += f", normals to {walls.measured_normal_error:.2g} rad"
+    return words
+
+
+def counted(count: int, word: str) -> str:
+    """Give ``1 wall`` or ``1,200 walls``."""
+    return f"{count:,} {word if count == 1 else word + 's'}"
+
+
+def horizon_table(run: Run) -> Table | None:
+    """Give up to where a single ball's run can be trusted; None for many balls or a very long run."""
+    if len(run.final) != 1 or not 0 < len(run.contacts) <= _HORIZON_CONTACTS:
+        return None
+    from wallkit.horizon import trusted_until
+
+    horizon = trusted_until(run.scene, run.contacts, 0, end=float(run.final["time"][0]))
+    return {"whole": horizon.whole, "time": horizon.time, "sentence": horizon.sentence()}

@@ -1,0 +1,161 @@
+// Aim: the balls at their start, drawn with their velocities and the path that the library predicts for the chosen
+// one; a drag from a ball sets its velocity, as an arrow per second.
+(() => {
+  "use strict";
+  const W = (globalThis.Wallkit ??= {});
+
+  const REACH = 24; // pixels around a ball that still grab it
+  const FORETOLD = 24; // bounces
+  const SPANS = [1, 0.5, 2, 0.2, 5, 0.1, 10, 0.05, 20, 0.02, 50, 0.01, 100, 0.005, 0.002, 0.001, 1e-4, 1e-5, 1e-6];
+
+  class Aim {
+    constructor(player) {
+      this.player = player;
+      this.stage = player.stage;
+      this.balls = []; // {x, y, vx, vy, radius}
+      this.chosen = 0;
+      this.seconds = 1;
+      this.foretold = null;
+      this.changed = () => {};
+      this.placed = () => {};
+      this.placing = false;
+      this.stage.grab = (place, event) => this.grab(place, event);
+      this.stage.front.addEventListener("pointermove", (event) => this.hover(event));
+      player.decorate = (ctx, colours) => this.draw(ctx, colours);
+    }
+
+    get ball() {
+      return this.balls[this.chosen];
+    }
+
+    // The arrow is the way in so many seconds: one, unless that is too long or too short to be drawn.
+    suitArrow(size) {
+      const { ball } = this;
+      const speed = ball ? Math.hypot(ball.vx, ball.vy) : 0;
+      const good = (seconds) => speed * seconds < 0.45 * size && speed * seconds > 0.03 * size;
+      if (!(speed > 0) || good(this.seconds)) return;
+      this.seconds = SPANS.find(good) ?? this.seconds;
+    }
+
+    set(balls, chosen = 0) {
+      this.balls = balls;
+      this.chosen = chosen;
+      this.foretold = null;
+    }
+
+    setPlacing(on) {
+      this.placing = on;
+      this.stage.host.classList.toggle("placing", on);
+    }
+
+    near({ x, y }) {
+      let best = -1;
+      let least = Infinity;
+      this.balls.forEach((ball, index) => {
+        const away = Math.hypot(this.stage.screenX(ball.x) - x, this.stage.screenY(ball.y) - y);
+        const reach = Math.max(REACH, ball.radius * this.stage.scale);
+        if (away <= reach && away < least) [best, least] = [index, away];
+      });
+      return best;
+    }
+
+    hover(event) {
+      if (event.pointerType === "touch") return;
+      this.stage.host.classList.toggle("over-ball", !this.placing && this.near(this.stage.place(event)) >= 0);
+    }
+
+    // A press on a ball is an aim; in placing mode a press anywhere moves the chosen ball there.
+    grab(place) {
+      if (this.placing) {
+        this.moveTo(place);
+        return { move: (to) => this.moveTo(to), end: () => this.placed() };
+      }
+      const index = this.near(place);
+      if (index < 0) return null;
+      this.chosen = index;
+      const before = { ...this.ball };
+      return {
+        move: (to) => this.pull(to),
+        end: (_to, cancelled) => {
+          if (cancelled) Object.assign(this.ball, { vx: before.vx, vy: before.vy });
+          this.changed("velocity", true);
+        },
+      };
+    }
+
+    pull(to) {
+      this.ball.vx = (this.stage.drawingX(to.x) - this.ball.x) / this.seconds;
+      this.ball.vy = (this.stage.drawingY(to.y) - this.ball.y) / this.seconds;
+      this.changed("velocity");
+    }
+
+    moveTo(to) {
+      if (!this.ball) return;
+      this.ball.x = this.stage.drawingX(to.x);
+      this.ball.y = this.stage.drawingY(to.y);
+      this.changed("position");
+    }
+
+    foretell(lane, question) {
+      if (this.ball) lane.ask({ ...question, balls: [this.ball], bounces: FORETOLD });
+    }
+
+    // Once balls fly, only their start is marked; else they stand there with arrow and foretold path.
+    draw(ctx, colours) {
+      const flying = this.player.motion && this.player.time > 0;
+      if (this.foretold && !this.player.motion) this.drawForetold(ctx, colours);
+      this.balls.forEach((ball, index) => {
+        const [x, y] = [this.stage.screenX(ball.x), this.stage.screenY(ball.y)];
+        const radius = Math.max(ball.radius * this.stage.scale, 4);
+        ctx.globalAlpha = flying ? 0.55 : 1;
+        ctx.beginPath();
+        ctx.arc(x, y, radius, 0, 2 * Math.PI);
+        ctx.lineWidth = 1.5;
+        ctx.strokeStyle = colours.ink;
+        if (flying) ctx.setLineDash([3, 3]);
+        if (!flying) {
+          ctx.fillStyle = index === this.chosen ? colours.info : colours.paper;
+          ctx.fill();
+        }
+        ctx.stroke();
+        ctx.setLineDash([]);
+        this.drawArrow(ctx, ball, x, y, colours);
+      });
+      ctx.globalAlpha = 1;
+    }
+
+    drawArrow(ctx, ball, x, y, colours) {
+      const tipX = this.stage.screenX(ball.x + ball.vx * this.seconds);
+      const tipY = this.stage.screenY(ball.y + ball.vy * this.seconds);
+      W.arrow(ctx, x, y, tipX, tipY, colours.ink, 2.2);
+    }
+
+    drawForetold(ctx, colours) {
+      const motion = this.foretold;
+      ctx.strokeStyle = colours.info;
+      ctx.lineWidth = 1.6;
+      ctx.setLineDash([7, 5]);
+      const last = motion.first[1] - motion.first[0];
+      for (let k = 0; k <= last; k++) {
+        ctx.globalAlpha = 0.95 - (0.75 * k) / (last + 1);
+        const f = motion.flight(0, k, FLIGHT);
+        ctx.beginPath();
+        W.traceFlight(ctx, this.stage, f, f.until - f.time, motion.gravity);
+        ctx.stroke();
+      }
+      ctx.setLineDash([]);
+      ctx.lineWidth = 1;
+      for (let i = 0; i < motion.count; i++) {
+        ctx.globalAlpha = 0.8 - (0.6 * i) / motion.count;
+        ctx.beginPath();
+        const radius = Math.max(motion.radius[0] * this.stage.scale, 2);
+        ctx.arc(this.stage.screenX(motion.contactX(i)), this.stage.screenY(motion.contactY(i)), radius, 0, 2 * Math.PI);
+        ctx.stroke();
+      }
+      ctx.globalAlpha = 1;
+    }
+  }
+
+  const FLIGHT = {};
+  W.Aim = Aim;
+})();

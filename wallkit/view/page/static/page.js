@@ -1,0 +1,250 @@
+// The page of `wallkit play`: it holds what the person chose, asks the library for walls and contacts, and shows both.
+(() => {
+  "use strict";
+  const W = globalThis.Wallkit;
+  const $ = (id) => document.getElementById(id);
+
+  const FAN = 100;
+  const FIRST = 12; // crossings of the picture that the first request covers; more is asked for while it plays
+
+  class Page {
+    constructor() {
+      this.stage = new W.Stage($("stage"));
+      this.player = new W.Player(this.stage, $("transport"));
+      this.readOut = new W.ReadOut($("read-out"), this.player);
+      this.aim = new W.Aim(this.player);
+      this.document = null;
+      this.shot = null; // {balls, until} of the run that is shown
+      this.player.onframe = () => this.eachFrame();
+      this.player.more = () => this.wantsMore();
+      this.aim.changed = (what, done) => this.aimed(what, done);
+      this.aim.placed = () => this.togglePlacing(false);
+      this.stage.tap = (place) => this.tapped(place);
+      this.foretelling = new W.Lane("api/simulate", (answer) => this.foretold(answer), (words) => this.unclear(words));
+      this.flying = new W.Lane("api/simulate", (answer, asked) => this.flown(answer, asked), (words) => this.complain(words));
+      this.importing = new W.Lane("api/walls", (answer) => this.show(answer, true), (words) => this.complain(words));
+      W.viewButtons(this.stage);
+      W.showBoxes(this.player);
+      this.gallery = new W.Gallery(this);
+      this.controls = new W.Panel(this);
+      this.listen();
+    }
+
+    listen() {
+      $("shoot").addEventListener("click", () => this.shoot());
+      $("fan").addEventListener("click", () => this.shootFan());
+      $("place").addEventListener("click", () => this.togglePlacing());
+      $("message").querySelector("button").addEventListener("click", () => ($("message").hidden = true));
+      for (const button of document.querySelectorAll("[data-save]")) {
+        button.addEventListener("click", () => this.save(button.dataset.save));
+      }
+      document.addEventListener("keydown", (event) => this.key(event));
+    }
+
+    key(event) {
+      if (event.ctrlKey || event.metaKey || event.altKey || W.typing(event.target) || !this.document) return;
+      const act = {
+        Enter: event.target.closest?.("button, summary, a, select, label, input") ? null : () => this.shoot(),
+        s: () => this.shoot(),
+        f: () => this.shootFan(),
+        p: () => this.togglePlacing(),
+        0: () => this.stage.fit(),
+        Escape: () => this.togglePlacing(false),
+      }[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+      if (!act || (event.key === "0" && event.target === this.stage.front)) return;
+      event.preventDefault();
+      act();
+    }
+
+    // A document has arrived: its walls, problems and balls. `again` keeps the view, the balls and the shot.
+    show(document, again = false) {
+      this.document = document;
+      $("message").hidden = true;
+      this.gallery.close();
+      const picture = new W.WallPicture(document.walls);
+      this.player.showWalls(picture, document.problems);
+      if (!again) {
+        this.stage.show(document.box, picture.up);
+        this.aim.set(document.balls.map((ball) => ({ ...ball })));
+        this.aim.suitArrow(this.size);
+        this.forgetShot();
+      }
+      this.controls.show(document, again);
+      if (this.shot) this.rerun();
+      else this.foretell();
+    }
+
+    get size() {
+      const [x0, y0, x1, y1] = this.document.box;
+      return Math.hypot(x1 - x0, y1 - y0) || 1;
+    }
+
+    question() {
+      return { document: this.document.id, ...this.controls.world() };
+    }
+
+    foretell() {
+      if (this.document && this.aim.ball) this.aim.foretell(this.foretelling, this.question());
+    }
+
+    foretold(answer) {
+      this.aim.foretold = new W.Motion(answer);
+      this.say("");
+      this.player.wake();
+    }
+
+    // The library cannot tell (a ball inside a wall, mostly): said quietly, since aiming goes on.
+    unclear(words) {
+      this.aim.foretold = null;
+      this.say(words.split("\n")[0].replace(/^wallkit: /, ""));
+      this.player.wake();
+    }
+
+    say(words) {
+      $("toast").textContent = words;
+      $("toast").hidden = !words;
+    }
+
+    complain(words) {
+      $("message").querySelector("pre").textContent = words;
+      $("message").hidden = false;
+    }
+
+    aimed(what) {
+      this.forgetShot();
+      this.controls.showAim();
+      this.foretell();
+    }
+
+    forgetShot() {
+      this.shot = null;
+      this.flying.forget();
+      this.player.pause();
+      this.player.time = 0;
+      this.player.load(null);
+      this.readOut.refresh(true);
+    }
+
+    // World or walls changed: the run that is shown is computed anew, from its start, and shown at the same time.
+    changed() {
+      if (this.shot) this.rerun();
+      else this.foretell();
+    }
+
+    rerun() {
+      this.flying.ask({ ...this.question(), ...this.shot, again: true });
+    }
+
+    shoot() {
+      if (this.document && this.aim.ball) this.fly(this.aim.balls.map((ball) => ({ ...ball })));
+    }
+
+    // A hundred balls from the chosen one's place, spread evenly around its direction.
+    shootFan() {
+      if (!this.document || !this.aim.ball) return;
+      const { ball } = this.aim;
+      const speed = Math.hypot(ball.vx, ball.vy);
+      const middle = Math.atan2(ball.vy, ball.vx);
+      const spread = this.controls.spread();
+      this.fly(Array.from({ length: FAN }, (_, i) => {
+        const way = middle + spread * (i / (FAN - 1) - 0.5);
+        return { ...ball, vx: speed * Math.cos(way), vy: speed * Math.sin(way) };
+      }));
+    }
+
+    fly(balls) {
+      this.say("");
+      this.togglePlacing(false);
+      const speed = Math.max(...balls.map((ball) => Math.hypot(ball.vx, ball.vy)));
+      const { gravity } = this.controls.world();
+      const falling = gravity ? Math.sqrt(Math.hypot(...gravity) * this.size) : 0;
+      const until = (FIRST * this.size) / Math.max(speed, falling, 1e-6 * this.size);
+      this.shot = { balls, until };
+      this.flying.ask({ ...this.question(), ...this.shot });
+    }
+
+    flown(answer, asked) {
+      const motion = new W.Motion(answer);
+      motion.openEnded = true;
+      motion.full = answer.full;
+      this.asking = false;
+      this.shot = { balls: asked.balls, until: asked.until };
+      if (asked.again) return this.player.load(motion);
+      this.player.time = 0;
+      this.player.load(motion);
+      this.player.suitRate();
+      this.player.play();
+    }
+
+    // While playing, more of the run is asked for in good time: the same run, to a later end.
+    wantsMore() {
+      const { motion } = this.player;
+      if (!motion || !this.shot || motion.full) return false;
+      if (!motion.ending.includes("time reached") && !motion.ending.includes("left the scene")) return false;
+      if (!motion.ending.includes("time reached")) return false;
+      if (!this.asking) {
+        this.asking = true;
+        this.flying.ask({ ...this.question(), balls: this.shot.balls, until: 2 * this.shot.until, again: true });
+      }
+      return true;
+    }
+
+    eachFrame() {
+      const { motion } = this.player;
+      if (this.player.playing && motion && this.player.time > 0.6 * motion.duration) this.wantsMore();
+      this.readOut.refresh();
+    }
+
+    tapped(place) {
+      const { problems } = this.document ?? { problems: [] };
+      const hit = problems.findIndex((problem) => problem.x !== null && Math.hypot(this.stage.screenX(problem.x) - place.x, this.stage.screenY(problem.y) - place.y) < 14);
+      if (hit >= 0) this.controls.choose(hit, false);
+    }
+
+    togglePlacing(on = !this.aim.placing) {
+      this.aim.setPlacing(on);
+      $("place").setAttribute("aria-pressed", String(on));
+      if (on) this.say("Click where the ball shall be");
+      else if ($("toast").textContent.startsWith("Click")) this.say("");
+    }
+
+    async open(name, blob) {
+      await this.asked(`api/open?name=${encodeURIComponent(name)}`, blob);
+    }
+
+    async asked(path, body) {
+      document.body.classList.add("busy");
+      try {
+        this.show(await W.ask(path, body));
+      } catch (error) {
+        if (!(error instanceof W.Refused)) throw error;
+        this.complain(error.message);
+      } finally {
+        document.body.classList.remove("busy");
+      }
+    }
+
+    async save(what) {
+      if (!this.document) return;
+      const until = this.player.motion ? this.player.motion.duration : undefined;
+      const balls = this.shot ? this.shot.balls : this.aim.balls;
+      try {
+        const response = await W.ask("api/save", { ...this.question(), balls, until, what });
+        const name = /filename="([^"]+)"/.exec(response.headers.get("Content-Disposition"))[1];
+        const link = document.createElement("a");
+        link.href = URL.createObjectURL(await response.blob());
+        link.download = name;
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+        this.say(`${name} is saved`);
+      } catch (error) {
+        if (!(error instanceof W.Refused)) throw error;
+        this.complain(error.message);
+      }
+    }
+  }
+
+  W.data = JSON.parse($("wallkit-data").textContent);
+  W.page = new Page(); // for tests: .stage (screenX, screenY), .player (time, motion, frameTimes), .aim, .document
+  W.page.gallery.begin();
+})();
