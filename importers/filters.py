@@ -8,11 +8,15 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
+
 from importers.limits import MAX_STREAM_BYTES, limit_error
 
-_SPACE = re.compile(rb"[\s\x00]+")
+_NOT_ASCII85 = bytes(byte for byte in range(256) if not 33 <= byte <= 117 and byte != 0x7A)
+_ASCII85_PIECE = 5 << 18
+_POWERS_OF_85 = np.array([85**4, 85**3, 85**2, 85, 1], np.uint64)
 _NOT_HEX = re.compile(rb"[^0-9A-Fa-f]+")
-_CLEAR, _END, _FIRST_CODE = 256, 257, 258
+_CLEAR, _END = 256, 257
 
 
 def ascii_hex(data: bytes) -> bytes:
@@ -21,19 +25,22 @@ def ascii_hex(data: bytes) -> bytes:
     return bytes.fromhex((digits + b"0" * (len(digits) % 2)).decode("ascii"))
 
 
-def ascii85(data: bytes) -> bytes:
-    """Decode groups of five letters to four bytes up to ``~>``; letters that are none are skipped."""
-    text = _SPACE.sub(b"", data.partition(b"~")[0])
-    text = text.removeprefix(b"<").replace(b"z", b"!!!!!")
-    text = bytes(byte for byte in text if 33 <= byte <= 117)
+def ascii85(data: bytes, file: str = "") -> bytes:
+    """Decode groups of five letters to four bytes up to ``~>``; letters that are none are skipped.
+
+    Raises:
+        LimitError: more than MAX_STREAM_BYTES come out.
+    """
+    text = data.partition(b"~")[0].translate(None, _NOT_ASCII85)
+    _check(len(text) * 4 // 5 + text.count(b"z") * 4, file)
+    text = text.replace(b"z", b"!!!!!")
     padding = -len(text) % 5
     text += b"u" * padding
     out = bytearray()
-    for start in range(0, len(text), 5):
-        value = 0
-        for byte in text[start : start + 5]:
-            value = value * 85 + byte - 33
-        out += (value & 0xFFFFFFFF).to_bytes(4, "big")
+    for start in range(0, len(text), _ASCII85_PIECE):
+        letters = np.frombuffer(text, np.uint8, min(_ASCII85_PIECE, len(text) - start), start).reshape(-1, 5)
+        values = (letters.astype(np.uint64) - np.uint64(33)) @ _POWERS_OF_85
+        out += values.astype(">u4").tobytes()
     return bytes(out[: len(out) - padding]) if padding else bytes(out)
 
 

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from importers.problems import Problem, Severity
 from importers.sources import Source
 
+_MAX_APART = 100  # findings, beyond which nobody reads them one by one
+
 
 @dataclass(frozen=True, slots=True)
 class Kind:
@@ -69,6 +71,8 @@ class Findings:
             name: the object's name.
             at: place in the drawing.
         """
+        if apart and len(self._entries) > _MAX_APART:
+            what = "other"
         key = (kind.code, what if apart else "")
         entry = self._entries.get(key)
         if entry is not None:

@@ -16,7 +16,7 @@ from importers.errors import LimitError
 
 MAX_INPUT_BYTES = 64 * 1024 * 1024  # of one file, as it lies on disk
 MAX_ELEMENTS = 1_000_000  # XML elements; in operator languages the segments, since those cost the memory
-MAX_OPERATORS = 3_000_000  # that an operator language may take to say it, paint and attributes included
+MAX_OPERATORS = 2_000_000  # that an operator language may take to say it, paint and attributes included
 MAX_DEPTH = 256  # groups in groups, layers in layers, dictionaries in dictionaries
 MAX_REFERENCES = 500_000  # followed `use`s, form XObjects and the like
 MAX_VERTICES = 2_000_000  # of all walls together, once curves are lines

@@ -287,6 +287,9 @@ class Art:
         """``n f s b`` close the subpath first, ``N F S B`` leave it open."""
         if self._segments:
             self._subpaths.append(Subpath(self._segments, closed=operator.islower()))
+        elif not self._subpaths:
+            self._cut = self._clip = False
+            return
         self._take_path(operator)
 
     def _guide(self, _operands: Operands) -> None:

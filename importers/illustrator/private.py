@@ -6,11 +6,12 @@ import re
 from typing import NamedTuple
 
 from importers.filters import ascii85
+from importers.illustrator.scanner import find_note
 from importers.limits import Packing, Unpacker
 
-_BEGIN = re.compile(rb"(?<=[\r\n])%AI9_PrivateDataBegin")
-_END = re.compile(rb"(?<=[\r\n])%AI9_PrivateDataEnd")
-_STREAM = re.compile(rb"(?<=[\r\n])%AI(9|24)_DataStream[^\r\n]*")
+_BEGIN = b"%AI9_PrivateDataBegin"
+_END = b"%AI9_PrivateDataEnd"
+_STREAMS = (b"%AI9_DataStream", b"%AI24_DataStream")
 _LINE_START = re.compile(rb"(?:\A|[\r\n]+)%?")
 
 
@@ -40,15 +41,18 @@ def find_private(data: bytes, start: int, stop: int, file: str = "") -> PrivateP
     Raises:
         LimitError: they stand for more than the limits allow.
     """
-    begin = _BEGIN.search(data, start, stop)
-    if begin is None:
+    begin = find_note(data, _BEGIN, start, stop)
+    if begin < 0:
         return None
-    end = _END.search(data, begin.end(), stop)
-    last = end.start() if end else stop
-    stream = _STREAM.search(data, begin.end(), last)
-    if stream is None:
-        return PrivatePart(data, begin.end(), last, False, "")
-    packed = ascii85(_LINE_START.sub(b"", data[stream.end() : last]))
+    begin += len(_BEGIN)
+    end = find_note(data, _END, begin, stop)
+    last = end if end >= 0 else stop
+    streams = [(find_note(data, mark, begin, last), mark) for mark in _STREAMS]
+    found = [(position, mark) for position, mark in streams if position >= 0]
+    if not found:
+        return PrivatePart(data, begin, last, False, "")
+    position, mark = min(found)
+    packed = ascii85(_LINE_START.sub(b"", data[position + len(mark) : last]), file)
     packing: Packing = "zstd" if packed.startswith(b"\x28\xb5\x2f\xfd") else "zlib"
     unpacked = Unpacker(file).unpack(packed, packing)
     return PrivatePart(unpacked.data, 0, len(unpacked.data), True, unpacked.damage)

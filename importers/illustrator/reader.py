@@ -10,7 +10,9 @@ from importers.illustrator.text import MAX_STRING_BYTES, alphabet, decode, decod
 from importers.sources import Source
 
 _BATCH = 20_000  # tokens between two looks at the limits
+_BYTES_PER_TOKEN = 16  # of strings and procedures, whose cost grows with their length
 _MAX_OPERANDS = 4096
+_NUMBER_OR_OPERATOR_STARTS = frozenset(b"+-.0123456789*abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")
 _MAX_OPEN_STRINGS = 100  # texts without an end that are worth a second look at what follows them
 # Lines hidden from PostScript that end an object: a name after them is not the name of the path before.
 _HIDDEN_OBJECT_ENDS = frozenset(b"n N f F s S b B U *U Q XW".split())
@@ -30,6 +32,7 @@ class ArtReader:
         self._stop = stop
         self._endless: set[bytes] = set()  # blocks whose end was looked for and is not there
         self._open_strings = 0
+        self._tokens = 0  # read one by one, which costs twice as much
 
     def read(self) -> Art:
         """Read it all.
@@ -41,7 +44,7 @@ class ArtReader:
         stack: Operands = []
         for batch in count(1):
             position = self._read_batch(position, stack)
-            self.art.check_count(batch * _BATCH)
+            self.art.check_count(batch * _BATCH + self._tokens)
             if position >= self._stop:
                 break
         self.art.finish()
@@ -81,12 +84,15 @@ class ArtReader:
         data, stop = self.source.data, self._stop
         white = scanner.WHITE.match(data, position, stop)
         if white:
-            return white.end()
-        if len(stack) > _MAX_OPERANDS:
-            stack.clear()
+            position = white.end()
+            if position == stop or data[position] in _NUMBER_OR_OPERATOR_STARTS:
+                return position
         byte = data[position : position + 1]
         if byte == b"%":
             return self._comment(position)
+        self._tokens += 1
+        if len(stack) > _MAX_OPERANDS:
+            stack.clear()
         if byte == b"(":
             return self._string(position, stack)
         if byte == b"/":
@@ -94,16 +100,21 @@ class ArtReader:
             stack.append(Text(word.group()[:100] if word else b""))
             return word.end() if word else position + 1
         if byte == b"{":
-            end = -1 if byte in self._endless else scanner.braces_end(data, position, stop)
-            if end < 0:
-                self._endless.add(byte)
-                return position + 1
-            return end
+            return self._procedure(position)
         word = scanner.WORD.match(data, position, stop)
         if not word:
             return position + 1  # a bracket: arrays are read as their elements
         self._word(word.group(), position, stack)
         return word.end()
+
+    def _procedure(self, position: int) -> int:
+        """Skip a procedure of a PostScript program; give the position after it."""
+        end = -1 if b"{" in self._endless else scanner.braces_end(self.source.data, position, self._stop)
+        if end < 0:
+            self._endless.add(b"{")
+            return position + 1
+        self._tokens += (end - position) // _BYTES_PER_TOKEN
+        return end
 
     def _word(self, word: bytes, position: int, stack: Operands) -> None:
         """Take a number as an operand, do anything else as an operator."""
@@ -128,6 +139,7 @@ class ArtReader:
         end = string_end(data, position, self._stop)
         if end > 0:
             stack.append(Text(unescape(data[position + 1 : end - 1])))
+            self._tokens += (end - position) // _BYTES_PER_TOKEN
             return end
         self.art.find(findings.STRING, position=position)
         self._open_strings += 1
@@ -181,11 +193,11 @@ class ArtReader:
         begin = line_end.end() if line_end else end
         in_lines = match is None or b"Lines" in match.groups()
         after = begin if match is None or in_lines else begin + int(match.group(1))
-        mark = scanner.END_DATA.search(data, max(after - 2, begin), min(after + 200, stop)) if after <= stop else None
-        if mark is None and b"Data" not in self._endless:
-            mark = scanner.END_DATA.search(data, begin, stop)
-        if mark:
-            return mark.end()
+        mark = data.find(scanner.END_DATA, max(after - 2, begin), min(after + 200, stop)) if after <= stop else -1
+        if mark < 0 and b"Data" not in self._endless:
+            mark = data.find(scanner.END_DATA, begin, stop)
+        if mark >= 0:
+            return mark + len(scanner.END_DATA)
         self._endless.add(b"Data")
         self.art.find(findings.DATA, position=position)
         return min(after, stop)

@@ -6,6 +6,7 @@ import re
 import struct
 
 from importers.illustrator.text import MAX_STRING_BYTES, string_end
+from importers.limits import MAX_DEPTH
 
 # Operands that are plain numbers, then an operator of one or two letters: nearly all that a file consists of.
 # The bounds keep a hostile line from being read twice for each of its tokens.
@@ -19,10 +20,10 @@ COMMENT = re.compile(rb"%[^\r\n]*")
 LINE_END = re.compile(rb"\r\n|\r|\n")
 BRACE = re.compile(rb"[{}%(]")
 BEGIN_DATA = re.compile(rb"%(?:_%)?%BeginData:\s*(\d{1,12})\s*(\w*)\s*(\w*)")
-END_DATA = re.compile(rb"%(?:_%)?%EndData")
+END_DATA = b"%%EndData"
 # Blocks that hold no art wherever they stand: definitions, other people's files, PostScript programs.
 BEGIN_BLOCK = re.compile(
-    rb"%(?:AI\d+_|%)Begin_?(Pattern|Gradient|BrushPattern|Symbol|SymbolList|Palette|PluginObject|ArtStyles|ArtStyleList"
+    rb"%(?:AI\d+_|%)Begin(Pattern|Gradient|BrushPattern|Symbol|SymbolList|Palette|PluginObject|ArtStyles|ArtStyleList"
     rb"|DocumentData|TextDocument|SVGFilter|Document|ProcSet|Resource|Font|PageSetup|Prolog|Setup|Defaults|Preview"
     rb"|Feature|Encoding|Object|Binary)\b"
 )
@@ -32,13 +33,20 @@ _OPERATORS = re.compile(
     rb"(?:\)\s{0,20}Ln|(?:\A|[\s\x00])(?:[-+.\deE]{1,40}\s{1,20}[-+.\deE]{1,40}\s{1,20}[mlL]|Lb|\*u))(?=\s|\Z)"
 )
 _ILLUSTRATOR_NOTE = re.compile(rb"(?:\A|[\r\n])%AI\d+_|Adobe_Illustrator|Adobe Illustrator")
+_MARK_START = re.compile(rb"(?:\A|[\r\n])%(?:_%)?(?:AI\d+_|%)\Z")
 _LOOK = 1 << 20  # bytes that are looked at to tell what a file is
 
 _DOS_EPS = b"\xc5\xd0\xd3\xc6"
-_MARKERS = tuple(
-    re.compile(rb"(?:\A|(?<=[\r\n]))" + marker + rb"(?=[\s\x00]|\Z)") for marker in (rb"%%EndSetup", rb"%%EndProlog")
-)
-_PLACED_FILE = re.compile(rb"(?<=[\r\n])%%BeginDocument\b")  # has markers of its own
+_MARKERS = (b"%%EndSetup", b"%%EndProlog")
+_PLACED_FILE = b"%%BeginDocument"  # has markers of its own
+
+
+def find_note(data: bytes, note: bytes, start: int, stop: int) -> int:
+    """Find a comment that begins its line; -1 when there is none. Searching bytes beats any regular expression."""
+    position = data.find(note, start, stop)
+    while position > 0 and data[position - 1] not in b"\r\n" and position != start:
+        position = data.find(note, position + len(note), stop)
+    return position
 
 
 def is_operator_text(data: bytes) -> bool:
@@ -72,12 +80,12 @@ def art_start(data: bytes, start: int, stop: int) -> int:
     Brushes, patterns and gradients are drawn with the same operators as art, but before this place. Adobe's
     prolog even holds ``%AI5_BeginLayer``, so layers mark nothing.
     """
-    placed = _PLACED_FILE.search(data, start, stop)
-    stop = placed.start() if placed else stop
+    placed = find_note(data, _PLACED_FILE, start, stop)
+    stop = placed if placed >= 0 else stop
     for marker in _MARKERS:
-        match = marker.search(data, start, stop)
-        if match:
-            return match.end()
+        position = find_note(data, marker, start, stop)
+        if position >= 0:
+            return position + len(marker)
     return start
 
 
@@ -88,17 +96,33 @@ def block_end(data: bytes, name: bytes, start: int, stop: int) -> int:
         The position after its end, or -1 when it has none.
     """
     depth = 1
-    for match in re.compile(rb"(?<=[\r\n])%(?:_%)?(?:AI\d+_|%)(Begin|End)_?" + name + rb"\b").finditer(
-        data, start, stop
-    ):
-        depth += 1 if match.group(1) == b"Begin" else -1
-        if depth == 0:
-            return match.end()
-    return -1
+    position = start
+    while depth:
+        end = _find_mark(data, b"End" + name, position, stop)
+        if end < 0:
+            return -1
+        depth -= 1
+        while (position := _find_mark(data, b"Begin" + name, position, end)) >= 0:
+            depth += 1
+            position += len(name)
+        position = end + 3 + len(name)
+    return position
+
+
+def _find_mark(data: bytes, mark: bytes, start: int, stop: int) -> int:
+    """Find a mark such as ``EndPattern`` of a comment such as ``%AI3_EndPattern``; -1 when there is none."""
+    position = data.find(mark, start, stop)
+    while position >= 0:
+        before = data[max(position - 12, 0) : position]
+        if _MARK_START.search(before) and not data[position + len(mark) : position + len(mark) + 1].isalnum():
+            break
+        position = data.find(mark, position + len(mark), stop)
+    return position
 
 
 def braces_end(data: bytes, start: int, stop: int) -> int:
-    """Find where the PostScript procedure ends that opens at `start`; -1 when it does not."""
+    """Find where the PostScript procedure ends that opens at `start`; -1 when it does not within a megabyte."""
+    stop = min(stop, start + _LOOK)
     depth = 0
     position = start
     while match := BRACE.search(data, position, stop):
@@ -114,4 +138,6 @@ def braces_end(data: bytes, start: int, stop: int) -> int:
             depth += 1 if byte == b"{" else -1
             if depth == 0:
                 return position
+            if depth > MAX_DEPTH:
+                return -1
     return -1

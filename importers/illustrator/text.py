@@ -6,6 +6,7 @@ import re
 
 # PostScript itself allows 65,535 bytes in a string.
 MAX_STRING_BYTES = 65_535
+_MAX_MARKS = 8_192  # parentheses and backslashes in a string, for the same reason: names are not that odd
 
 _PLAIN = re.compile(rb"[^()\\]*")
 _ESCAPE = re.compile(rb"\\(?:([0-7]{1,3})|(\r\n|\r|\n)|(.))", re.DOTALL)
@@ -23,12 +24,12 @@ def string_end(data: bytes, start: int, stop: int) -> int:
         stop: where the part to read ends.
 
     Returns:
-        The position after its closing parenthesis, or -1 when there is none within MAX_STRING_BYTES.
+        The position after its closing parenthesis, or -1 when there is none within the bounds above.
     """
     stop = min(stop, start + MAX_STRING_BYTES + 2)
     position = start + 1
     depth = 1
-    while True:
+    for _ in range(_MAX_MARKS):
         match = _PLAIN.match(data, position, stop)
         position = match.end() if match else stop
         if position >= stop:
@@ -41,6 +42,7 @@ def string_end(data: bytes, start: int, stop: int) -> int:
         position += 1
         if depth == 0:
             return position
+    return -1
 
 
 def unescape(raw: bytes) -> bytes:

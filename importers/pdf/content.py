@@ -24,9 +24,10 @@ from importers.limits import (
 from importers.pdf import findings
 from importers.pdf.document import Document, get, is_stream, items, number, word
 from importers.pdf.layers import OptionalContent
-from importers.pdf.state import IDENTITY, Graphics, multiply
+from importers.pdf.state import IDENTITY, Graphics, Matrix, multiply
 
 _BATCH = 20_000
+_BYTES_PER_TOKEN = 16  # of strings, whose cost grows with their length
 _MAX_OPERANDS = 4096
 _OPERATOR = re.compile(
     rb"[\s\x00]{0,200}((?:[-+.\deE]{1,40}\s{1,20}){0,8})([A-Za-z]{1,3}\d?\*?|['\"])(?=[\s\x00/(\[<%]|\Z)"
@@ -66,6 +67,18 @@ class Frame:
     spaces: dict[str, str] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, slots=True)
+class Form:
+    """A form: content that may be drawn many times."""
+
+    key: tuple[int, int]
+    data: bytes
+    resources: Any
+    matrix: Matrix
+    marked: bool  # it is optional content of its own
+    layer: Layer | None
+
+
 class PageReader:
     """Reads one page's content.
 
@@ -94,7 +107,9 @@ class PageReader:
         self._count = 0
         self._operators = 0
         self._references = 0
-        self._forms: dict[tuple[int, int], bytes] = {}
+        self._forms: dict[tuple[int, int], Form] = {}
+        self._drawn: dict[tuple[tuple[int, int], str], Form | str] = {}  # by where and under which name
+        self._active: set[tuple[int, int]] = set()  # forms that are being read
         self._handlers: dict[bytes, Handler] = self._make_handlers()
 
     def _make_handlers(self) -> dict[bytes, Handler]:
@@ -179,7 +194,10 @@ class PageReader:
         """Read what is not just numbers and a short operator; give the position after it."""
         white = _WHITE.match(data, position)
         if white:
-            return white.end()
+            position = white.end()
+            if position == len(data):
+                return position
+        self._operators += 1  # read one by one, which costs twice as much
         if len(stack) > _MAX_OPERANDS:
             stack.clear()
         byte = data[position : position + 1]
@@ -189,7 +207,9 @@ class PageReader:
         if byte == b"(":
             stack.append(None)
             end = string_end(data, position, len(data))
-            return end if end > 0 else position + MAX_STRING_BYTES
+            end = end if end > 0 else position + MAX_STRING_BYTES
+            self._operators += (end - position) // _BYTES_PER_TOKEN
+            return end
         if byte == b"/":
             name = _WORD.match(data, position + 1)
             text = _NAME_ESCAPE.sub(lambda code: bytes([int(code.group(1), 16)]), name.group()[:200] if name else b"")
@@ -445,46 +465,70 @@ class PageReader:
         self._references += 1
         if self._references > MAX_REFERENCES:
             raise limit_error("forms drawn on a page", f"{MAX_REFERENCES:,}", file=self.document.file)
-        found = get(get(self._frames[-1].resources, "/XObject"), name.text)
-        kind = word(get(found, "/Subtype")) if is_stream(found) else ""
-        if kind == "/Image":
+        here = self._frames[-1]
+        known = (here.key, name.text)
+        if known not in self._drawn:
+            found = get(get(here.resources, "/XObject"), name.text)
+            kind = word(get(found, "/Subtype")) if is_stream(found) else ""
+            self._drawn[known] = self._form(found, here) if kind == "/Form" else kind
+        form = self._drawn[known]
+        if isinstance(form, Form):
+            self._enter_form(form)
+        elif form == "/Image":
             self._find(common.RASTER)
-        elif kind == "/Form":
-            self._enter_form(found)
         else:
             self._find(findings.MISSING, name.text)
 
-    def _enter_form(self, form: Any) -> None:
+    def _form(self, stream: Any, here: Frame) -> Form:
+        """Read what a form says of itself, once."""
+        key = stream.objgen
+        if key not in self._forms:
+            data, damage = self.document.decode(stream)
+            if damage:
+                self._find(findings.STREAM, damage)
+            resources = get(stream, "/Resources")
+            content = get(stream, "/OC")
+            layer = None if content is None else self.layers.layer(content)
+            numbers = [number(part) for part in items(get(stream, "/Matrix"))]
+            matrix = [part for part in numbers if part is not None]
+            self._forms[key] = Form(
+                key,
+                data,
+                here.resources if resources is None else resources,
+                (matrix[0], matrix[1], matrix[2], matrix[3], matrix[4], matrix[5]) if len(matrix) == 6 else IDENTITY,
+                content is not None,
+                layer,
+            )
+        return self._forms[key]
+
+    def _enter_form(self, form: Form) -> None:
         """Go on reading with a form's content."""
-        key = form.objgen
-        if any(frame.key == key for frame in self._frames[1:]):
+        if form.key in self._active:
             self._find(findings.RECURSIVE)
             return
         if len(self._frames) >= MAX_DEPTH:
             raise limit_error("forms in each other", str(MAX_DEPTH), file=self.document.file)
-        data = self._forms.get(key)
-        if data is None:
-            data, damage = self.document.decode(form)
-            self._forms[key] = data
-            if damage:
-                self._find(findings.STREAM, damage)
-        resources = get(form, "/Resources")
-        frame = Frame(data, self._frames[-1].resources if resources is None else resources, key=key)
         self._keep([])
-        frame.graphics_depth = len(self._kept)
-        content = get(form, "/OC")
-        frame.marked = content is not None
-        if frame.marked:
-            self._push_marked(self.layers.layer(content))
-        frame.marked_depth = len(self._marked)
-        matrix = [number(part) for part in items(get(form, "/Matrix"))]
-        if len(matrix) == 6 and None not in matrix:
-            self._transform(matrix)
-        self._frames.append(frame)
+        if form.marked:
+            self._push_marked(form.layer)
+        if form.matrix != IDENTITY:
+            self._transform([*form.matrix])
+        self._active.add(form.key)
+        self._frames.append(
+            Frame(
+                form.data,
+                form.resources,
+                key=form.key,
+                graphics_depth=len(self._kept),
+                marked_depth=len(self._marked),
+                marked=form.marked,
+            )
+        )
 
     def _leave_form(self) -> None:
         """Go back to where the form was drawn."""
         frame = self._frames.pop()
+        self._active.discard(frame.key)
         if self._segments or self._subpaths:
             self._paint("n", [])
         if self._frames:

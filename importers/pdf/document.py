@@ -6,6 +6,7 @@ pikepdf reads the structure. It is never asked to decode a stream: qpdf hands ou
 from __future__ import annotations
 
 import io
+import itertools
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,15 +14,20 @@ from typing import Any
 
 from importers import filters
 from importers.errors import DrawingError
-from importers.limits import MAX_DEPTH, Unpacker
+from importers.limits import MAX_DEPTH, Unpacker, limit_error
 
 _HEADER = re.compile(rb"%PDF-\d")
 # Streams that qpdf itself decodes while it opens a file. A name may be written with #xx for any letter.
 _STRUCTURE = re.compile(
     rb"/(?:O|#4[fF])(?:b|#62)(?:j|#6[aA])(?:S|#53)(?:t|#74)(?:m|#6[dD])|/(?:X|#58)(?:R|#52)(?:e|#65)(?:f|#66)"
 )
-_STREAM = re.compile(rb"stream\r?\n")
-_DICTIONARY = 4096  # bytes before `stream` in which its dictionary is looked for
+_STREAM = re.compile(rb"stream[\r\n]+")
+_FILTER = re.compile(rb"/F(?:ilter)?\b|/[^\s/<>\[\]()]*#")
+_ONE_FLATE = re.compile(rb"/Filter\s*(?:\[\s*)?/(?:FlateDecode|Fl)\s*(?:\]|/(?!F)|>>|\s)")
+_DICTIONARY = 65_536  # bytes before a name in which the dictionary around it is looked for to begin
+_MAX_STRUCTURE = 100_000
+_MAX_CANDIDATES = 8
+_MAX_SLOW_BYTES = 4_000_000  # of LZW and RunLength data, which are decoded code by code
 _FILTER_NAMES = {"/Fl": "/FlateDecode", "/LZW": "/LZWDecode", "/A85": "/ASCII85Decode", "/AHx": "/ASCIIHexDecode"}
 _FILTER_NAMES["/RL"] = "/RunLengthDecode"
 
@@ -46,6 +52,7 @@ class Document:
 
         self.file = file
         self.unpacker = Unpacker(file)
+        self._slow_bytes = 0
         self._check_structure(data)
         try:
             self._pdf = pikepdf.open(io.BytesIO(data))
@@ -122,14 +129,16 @@ class Document:
             if name == "/FlateDecode":
                 data, damage = self.unpacker.unpack(data, "zlib")
             elif name == "/LZWDecode":
+                self._charge_slow(len(data))
                 early = number(get(parameters, "/EarlyChange"))
                 data = filters.lzw(data, early=early is None or early != 0, file=self.file)
                 self.unpacker.charge(len(data))
             elif name == "/RunLengthDecode":
+                self._charge_slow(len(data))
                 data = filters.run_length(data, self.file)
                 self.unpacker.charge(len(data))
             elif name == "/ASCII85Decode":
-                data = filters.ascii85(data)
+                data = filters.ascii85(data, self.file)
             elif name == "/ASCIIHexDecode":
                 data = filters.ascii_hex(data)
             elif name != "/Crypt":
@@ -138,22 +147,41 @@ class Document:
                 return b"", "a predictor is not for drawings"
         return data, damage
 
+    def _charge_slow(self, size: int) -> None:
+        """Count bytes that are decoded code by code."""
+        self._slow_bytes += size
+        if self._slow_bytes > _MAX_SLOW_BYTES:
+            raise limit_error("LZW and RunLength data of a PDF", f"{_MAX_SLOW_BYTES // 1_000_000} MB", file=self.file)
+
     def _check_structure(self, data: bytes) -> None:
         """Make sure that what qpdf decodes on its own while opening the file stays within the limits."""
-        for match in _STREAM.finditer(data):
-            head = data[max(match.start() - _DICTIONARY, 0) : match.start()]
-            head = head[max(head.rfind(b"endobj"), head.rfind(b"endstream"), 0) :]
-            if not _STRUCTURE.search(head) or b"/Filter" not in head:
+        checked = 0
+        for count, match in enumerate(_STRUCTURE.finditer(data)):
+            if count > _MAX_STRUCTURE:
+                raise limit_error("object streams of a PDF", f"{_MAX_STRUCTURE:,}", file=self.file)
+            if match.start() < checked:
                 continue
-            if re.search(rb"/Filter\s*\[?\s*/(?:FlateDecode|Fl)\b\s*(?:\]|/(?!F)|>>)", head) is None:
+            checked = self._check_stream(data, match.start())
+
+    def _check_stream(self, data: bytes, start: int) -> int:
+        """Measure the stream whose dictionary has a name at `start`; give the position after it."""
+        end = data.find(b"endstream", start)
+        end = end if end >= 0 else len(data)
+        head_start = max(data.rfind(b"obj", max(start - _DICTIONARY, 0), start), 0)
+        # The word may also stand in a comment of the dictionary, so each place is tried.
+        for candidate in itertools.islice(_STREAM.finditer(data, start, end), _MAX_CANDIDATES):
+            head = data[head_start : candidate.start()]
+            filters_found = _FILTER.search(head)
+            if filters_found and _ONE_FLATE.match(head, filters_found.start()) is None:
                 raise DrawingError(
                     "the structure of the PDF is packed in a way that drawing programs do not use",
                     code="broken-pdf",
                     fix="save or export the drawing again",
                     file=self.file,
                 )
-            end = data.find(b"endstream", match.end())
-            self.unpacker.unpack(data[match.end() : end if end >= 0 else len(data)], "zlib")
+            if filters_found:
+                self.unpacker.unpack(data[candidate.end() : end], "zlib")
+        return end
 
 
 class Page:

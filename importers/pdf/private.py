@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from importers.limits import Packing
+from importers.limits import MAX_STREAM_BYTES, Packing, limit_error
 from importers.pdf.document import Document, get, is_stream
 
 # What stands before the packed part, and how it is packed. Before the mark there may be a plain header.
@@ -36,6 +36,7 @@ def read_private(document: Document, page: Any) -> PrivateData | None:
     """
     private = get(get(get(page, "/PieceInfo"), "/Illustrator"), "/Private")
     blocks: list[bytes] = []
+    size = 0
     damage = ""
     for index in range(1, _MAX_BLOCKS):
         block = get(private, f"/AIPrivateData{index}")
@@ -43,6 +44,10 @@ def read_private(document: Document, page: Any) -> PrivateData | None:
             break
         data, wrong = document.decode(block)
         blocks.append(data)
+        size += len(data)
+        if size > MAX_STREAM_BYTES:
+            limit = f"{MAX_STREAM_BYTES // 1_000_000} MB"
+            raise limit_error("Illustrator's own data in a PDF", limit, file=document.file)
         damage = damage or wrong
     if not blocks:
         return None
