@@ -1,352 +1,298 @@
-"""Curves as circular arcs: tangent-continuous biarcs within a tolerance; circles exactly, straight as lines.
+"""Arcs: curves become circular arcs that join without a kink, as few as the tolerance allows, with errors measured.
 
-A biarc over a piece of length h is off by a multiple of |dk/ds| h^3 (k the curvature), so the number of edges
-grows with the cube root of 1 / tolerance, where lines need the square root. Pieces are found by halving and, where
-that gives fewer, by equal shares of the integral of |dk/ds|^(1/3) ds. Each is checked against the exact curve at
-many points, and once more at many more points at the end; what fails is halved.
+Every curve is cut at its cusps; what is left between is smooth and gets biarcs (:mod:`wallkit.walls.biarcs`) whose
+points and directions at the cuts are those of the curve. A biarc over the length h of a curve whose curvature
+changes at the rate k' is off by k' h^3 / 324, so that halving the edges costs eight times the distance (order 3).
+
+Cuts are first found by halving, which always ends; then the same number or fewer are placed so that all pieces
+are off by the same: the needed share of edges of a piece that is off by e is (e / tolerance)^(1/3), and new cuts
+take equal shares. Each round runs over all curves at once.
+
+Circles are kept: an elliptic arc with equal radii becomes arcs of that very circle. So does a cubic whose biarc
+comes out as one arc within the tolerance, as for a circle written as four cubics.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from wallkit.walls.biarcs import Biarcs, cross, deviation, dot, join
-from wallkit.walls.flatten import Pieces, evaluate, numbered, segment_distance, within_limit
-from wallkit.walls.strokes import ARC, CUBIC, Arcs, FloatArray, IntArray, Strokes
+from wallkit.walls.biarcs import CHUNK, Biarcs, BoolArray, Fit, Spans, biarcs, measure, offsets, turning_within
+from wallkit.walls.curves import Cubics, Curves, Ellipses, unit
+from wallkit.walls.flatten import Pieces, within_limit
+from wallkit.walls.strokes import ARC, CUBIC, LINE, Arcs, FloatArray, IntArray, Strokes
 
-_DEEPEST = 40
-_LOOK = (np.arange(13) + 0.5) / 13  # where a piece is checked while searching
-_LOOK_CLOSER = np.linspace(0.0, 1.0, 66)[1:-1]  # and at the end
-_SPARE = 0.97  # part of the tolerance to search with: between the places looked at a peak is at most that much higher
-_SAMPLES = 65  # of the density
-_SHARE = 5.4  # error = |dk/ds| h^3 / _SHARE^3 for a biarc of equal tangent lengths on a spiral, measured
-_SKEW = 0.5  # rad: a hook smaller than the tolerance may be cut off, but a piece must not point elsewhere
-_ROUND = 1e-9  # radii that differ by less, relatively, are one radius
-_STRAIGHT = 1e-4  # rad: a cubic that leaves its chord by less, and by less than 1 % of the tolerance, is a line
-
-Points = Callable[[IntArray, FloatArray], tuple[FloatArray, FloatArray]]
-
-
-@dataclass(slots=True)
-class _Cut:
-    """Pieces of curves: the curve, where it begins and ends on it, sorted."""
-
-    curve: IntArray
-    low: FloatArray
-    high: FloatArray
-
-    def take(self, index: NDArray[np.generic]) -> _Cut:
-        return _Cut(self.curve[index], self.low[index], self.high[index])
-
-    def sorted(self) -> _Cut:
-        return self.take(np.lexsort((self.low, self.curve)))
-
-    def halves(self) -> _Cut:
-        middle = (self.low + self.high) / 2
-        both = np.concatenate
-        return _Cut(both([self.curve] * 2), both([self.low, middle]), both([middle, self.high]))
-
-    def __add__(self, other: _Cut) -> _Cut:
-        return _Cut(*(np.concatenate([getattr(self, n), getattr(other, n)]) for n in ("curve", "low", "high")))
+# Fractions of a span that are looked at while cutting. The error of a biarc is largest near 1/3 and 2/3.
+_LOOK = np.array([1, 3, 4, 5, 7, 8, 9, 11]) / 12
+_SAFE = 0.99  # of the tolerance; what looking at 8 places may miss
+_CLOSE = np.arange(1, 20) / 20
+_SURE = 0.999  # the same for the close look at 19 places and the highest between
+_DEEPEST = 48  # halvings: the parameter's own rounding is reached
+_ROUNDS = 6
+_ROUNDING = 1e-14  # of a curve's size: a span as short has no direction to speak of
+_SAME_RADII = 1e-9  # relative; a circle after a turn and a scale differs by rounding, 1e-15
 
 
 @dataclass(slots=True)
 class _Edges:
-    """What curves became: edges per curve, end points, bulges, the largest errors."""
+    """Edges of one kind of segments: segment (rising), end point and bulge of each, and the largest errors."""
 
-    counts: IntArray
+    segments: IntArray
     ends: FloatArray
     bulges: FloatArray
-    error: float = 0.0
-    normal_error: float = 0.0
+    distance: float = 0.0
+    turn: float = 0.0
 
 
 def fit_arcs(strokes: Strokes, tolerance: float) -> Pieces:
-    """Turn every segment into lines and circular arcs within ``tolerance`` (> 0); end points stay bit for bit.
+    """Turn every segment into lines and arcs within ``tolerance`` (> 0); end points stay bit for bit.
+
+    Arcs are at most half circles (|bulge| <= 1) and join inside a segment with equal directions. Lines, and
+    curves that are straight, become lines.
+
+    Returns:
+        Pieces with the largest distance and normal error as measured: at 19 places of every piece and once
+        more at the top of the parabola through the worst, which falls short of the true maximum by less than
+        1e-3 of it; pieces are held to 0.999 of the tolerance for that.
 
     Raises:
         LimitError: the result would have more than 2,000,000 vertices.
     """
-    circular = _circular(strokes.arcs)
-    groups = [
-        (np.flatnonzero(strokes.kinds == CUBIC), _fit_cubics(strokes.cubics, tolerance)),
-        (np.flatnonzero(strokes.kinds == ARC)[circular], _circles(strokes.arcs.take(circular))),
-        (np.flatnonzero(strokes.kinds == ARC)[~circular], _fit_ellipses(strokes.arcs.take(~circular), tolerance)),
+    cubic_at, arc_at = np.flatnonzero(strokes.kinds == CUBIC), np.flatnonzero(strokes.kinds == ARC)
+    round_ = _is_circle(strokes.arcs)
+    lines = np.flatnonzero(strokes.kinds == LINE)
+    parts = [
+        _Edges(lines, strokes.ends[lines], np.zeros(len(lines))),
+        _fit(Cubics.of(strokes.cubics), strokes.cubics[:, 0], cubic_at, tolerance),
+        _circles(strokes.arcs.take(round_), arc_at[round_]),
+        _fit(
+            Ellipses(strokes.arcs.take(~round_)),
+            strokes.begins[arc_at[~round_]],
+            arc_at[~round_],
+            tolerance,
+        ),
     ]
-    counts = np.ones(len(strokes.kinds), dtype=np.int64)
-    for segments, edges in groups:
-        counts[segments] = edges.counts
-    within_limit(int(counts.sum()) + len(strokes.starts))
-    ends, bulges = np.empty((int(counts.sum()), 2)), np.zeros(int(counts.sum()))
-    last = np.cumsum(counts) - 1
-    for segments, edges in groups:
-        which, rank = numbered(edges.counts)
-        at = last[segments[which]] - edges.counts[which] + 1 + rank
-        ends[at], bulges[at] = edges.ends, edges.bulges
-    ends[last] = strokes.ends
-    error, normal_error = (max(getattr(e, name) for _, e in groups) for name in ("error", "normal_error"))
-    return Pieces(counts, ends, bulges, error, normal_error)
+    segments = np.concatenate([part.segments for part in parts])
+    order = np.argsort(segments, kind="stable")
+    counts = np.bincount(segments, minlength=len(strokes.kinds)).astype(np.int64)
+    ends = np.concatenate([part.ends for part in parts])[order]
+    ends[np.cumsum(counts) - 1] = strokes.ends
+    bulges = np.concatenate([part.bulges for part in parts])[order]
+    return Pieces(counts, ends, bulges, max(p.distance for p in parts), max(p.turn for p in parts))
 
 
-def _circular(arcs: Arcs) -> NDArray[np.bool_]:
-    one, two = arcs.radii
-    return np.abs(one - two) <= _ROUND * np.maximum(one, two)
+def _is_circle(arcs: Arcs) -> BoolArray:
+    first, second = arcs.radii
+    result: BoolArray = (np.abs(first - second) <= _SAME_RADII * first) | (arcs.turn == 0)
+    return result
 
 
-def _circles(arcs: Arcs) -> _Edges:
-    """Circular arcs, at most half a circle an edge, exactly."""
-    counts = np.maximum(np.ceil(np.abs(arcs.turn) / math.pi * (1 - 1e-12)), 1).astype(np.int64)
-    which, rank = numbered(counts)
-    part = arcs.turn[which] / counts[which]
-    bulges = np.clip(np.tan(part / 4), -1.0, 1.0)
-    bulges[np.abs(np.abs(part) - math.pi) < 1e-12] = np.sign(bulges[np.abs(np.abs(part) - math.pi) < 1e-12])
-    return _Edges(counts, arcs.take(which).points(arcs.start[which] + part * (rank + 1)), bulges)
+def _circles(arcs: Arcs, at: IntArray) -> _Edges:
+    """Cut circular arcs into equal parts of at most a half turn; a half turn within rounding is one."""
+    counts = np.maximum(np.ceil(np.abs(arcs.turn) / math.pi - 1e-9), 1).astype(np.int64)
+    which = np.repeat(np.arange(len(counts)), counts)
+    rank = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts) + 1
+    part = arcs.take(which)
+    ends = part.points(part.start + part.turn * (rank / counts[which]))
+    angle = part.turn / counts[which]
+    half_turn = np.abs(np.abs(angle) - math.pi) <= 1e-12  # tan of it comes out as 1 - 1e-16
+    bulges = np.where(half_turn, np.sign(angle), np.clip(np.tan(angle / 4), -1.0, 1.0))
+    return _Edges(at[which], ends, bulges)
 
 
-def _fit_ellipses(arcs: Arcs, tolerance: float) -> _Edges:
-    """Elliptic arcs as biarcs."""
-
-    def points(curve: IntArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-        angle = arcs.start[curve] + arcs.turn[curve] * t
-        cos, sin = np.cos(angle)[..., None], np.sin(angle)[..., None]
-        direction = np.sign(arcs.turn[curve])[..., None] * (arcs.v[curve] * cos - arcs.u[curve] * sin)
-        return arcs.centre[curve] + arcs.u[curve] * cos + arcs.v[curve] * sin, _unit(direction)
-
-    return _fit(points, len(arcs.turn), tolerance)
-
-
-def _fit_cubics(cubics: FloatArray, tolerance: float) -> _Edges:
-    """Straight cubics as lines (with the points where they turn back), the others as biarcs."""
-    straight = _straight(cubics, tolerance)
-    bent = np.flatnonzero(~straight)
-    curves = _fit(_cubic_points(cubics[bent]), len(bent), tolerance)
-    lines = _straight_lines(cubics[straight])
-    counts = np.empty(len(cubics), dtype=np.int64)
-    counts[bent], counts[straight] = curves.counts, lines.counts
-    own = np.repeat(~straight, counts)
-    ends, bulges = np.empty((len(own), 2)), np.zeros(len(own))
-    ends[own], ends[~own], bulges[own] = curves.ends, lines.ends, curves.bulges
-    return _Edges(counts, ends, bulges, max(curves.error, lines.error), max(curves.normal_error, lines.normal_error))
+def _fit(curves: Curves, origins: FloatArray, at: IntArray, tolerance: float) -> _Edges:
+    """Fit curves of one kind, whose first points are ``origins`` and whose segments are ``at``."""
+    if not len(curves):
+        return _Edges(at, np.empty((0, 2)), np.empty(0))
+    whole = _between_cusps(curves)
+    spans, fit = _halve(curves, whole, tolerance)
+    spans = _even_out(curves, spans, fit, whole, tolerance)
+    spans, arcs, fit = _settle(curves, spans, tolerance)
+    edge_counts = np.where(arcs.single, 1, 2)
+    last = np.cumsum(edge_counts) - 1
+    z, bulges = np.empty(last[-1] + 1, dtype=np.complex128), np.empty(last[-1] + 1)
+    z[last], bulges[last] = spans.p1, np.where(arcs.single, arcs.bulge0, arcs.bulge1)
+    two = ~arcs.single
+    z[last[two] - 1], bulges[last[two] - 1] = arcs.joint[two], arcs.bulge0[two]
+    ids = np.repeat(spans.ids, edge_counts)
+    ends = origins[ids] + np.stack([z.real, z.imag], axis=1)
+    return _Edges(at[ids], ends, bulges, float(fit.distance.max()), float(fit.turn.max()))
 
 
-def _cubic_points(cubics: FloatArray) -> Points:
-    """Points and unit tangents of cubics.
-
-    At an end whose control point lies on it the derivative vanishes; the tangent then is the direction towards
-    the next control point that does not.
-    """
-    size = np.abs(np.diff(cubics, axis=1)).max(axis=(1, 2)) if len(cubics) else np.empty(0)
-    starts, stops = _end_direction(cubics, size), -_end_direction(cubics[:, ::-1], size)
-
-    def points(curve: IntArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-        flat, at = np.broadcast_to(curve, t.shape).ravel(), t.ravel()
-        c, s, w = cubics[flat], (1 - at)[:, None], at[:, None]
-        d = np.diff(c, axis=1)
-        direction = d[:, 0] * s * s + 2 * d[:, 1] * s * w + d[:, 2] * w * w
-        lost = np.abs(direction).max(axis=1) <= 1e-9 * size[flat] if len(flat) else np.empty(0, dtype=np.bool_)
-        direction[lost] = np.where((at < 0.5)[:, None], starts[flat], stops[flat])[lost]
-        return evaluate(c, at).reshape(*t.shape, 2), _unit(direction).reshape(*t.shape, 2)
-
-    return points
+def _between_cusps(curves: Curves) -> Spans:
+    """Cut every curve at its cusps; there the direction comes in against the acceleration and leaves along it."""
+    which, t = curves.cusps()
+    n = len(curves)
+    first, last = curves.end_tangents()
+    back = unit(curves.accelerations(which, t[:, None])[:, 0])
+    point = curves.motion(which, t[:, None])[0][:, 0]
+    ids = np.concatenate([np.arange(n), which])
+    order = np.lexsort((np.concatenate([np.zeros(n), t]), ids))
+    low = np.concatenate([np.zeros(n), t])[order]
+    p0 = np.concatenate([np.zeros(n, dtype=np.complex128), point])[order]
+    t0 = np.concatenate([first, back])[order]
+    order = np.lexsort((np.concatenate([np.ones(n), t]), ids))
+    high = np.concatenate([np.ones(n), t])[order]
+    p1 = np.concatenate([curves.last, point])[order]
+    t1 = np.concatenate([last, -back])[order]
+    return Spans(ids[order], low, high, p0, p1, t0, t1)
 
 
-def _end_direction(cubics: FloatArray, size: FloatArray) -> FloatArray:
-    direction = np.zeros((len(cubics), 2))
-    for control in (3, 2, 1):
-        arm = cubics[:, control] - cubics[:, 0]
-        usable = np.abs(arm).max(axis=1) > 1e-9 * size
-        direction[usable] = arm[usable]
-    return direction
+def _look(curves: Curves, spans: Spans) -> Fit:
+    return measure(curves, spans, biarcs(spans, _is_whole(spans)), _LOOK)
 
 
-def _unit(vector: FloatArray) -> FloatArray:
-    length = np.hypot(vector[..., 0], vector[..., 1])[..., None]
-    unit: FloatArray = vector / np.where(length > 0, length, 1.0)
-    return unit
-
-
-def _straight(cubics: FloatArray, tolerance: float) -> NDArray[np.bool_]:
-    """All four control points on one line, but for what no one could see."""
-    if not len(cubics):
-        return np.empty(0, dtype=np.bool_)
-    ends = cubics[:, 3] - cubics[:, 0]
-    arms = cubics[:, 1:] - cubics[:, :1]
-    longest = np.take_along_axis(arms, np.abs(arms).max(axis=2).argmax(axis=1)[:, None, None], axis=1)[:, 0]
-    length = np.hypot(longest[:, 0], longest[:, 1])
-    off = np.abs(cross(longest[:, None], arms)).max(axis=1) / np.where(length > 0, length, 1.0)
-    reach = np.hypot(ends[:, 0], ends[:, 1])
-    exactly = off <= 1e-12 * length
-    straight: NDArray[np.bool_] = exactly | (
-        (off <= 0.01 * tolerance) & (off <= _STRAIGHT * reach) & (dot(ends, longest) > 0)
-    )
-    return straight
-
-
-def _straight_lines(cubics: FloatArray) -> _Edges:
-    """Lines through the extremes of straight cubics: where the speed along the longest arm is 0."""
-    if not len(cubics):
-        return _Edges(np.empty(0, dtype=np.int64), np.empty((0, 2)), np.empty(0))
-    arms = cubics[:, 1:] - cubics[:, :1]
-    longest = np.take_along_axis(arms, np.abs(arms).max(axis=2).argmax(axis=1)[:, None, None], axis=1)
-    d = dot(np.diff(cubics, axis=1), _unit(longest))
-    a, b, c = d[:, 0] - 2 * d[:, 1] + d[:, 2], d[:, 1] - d[:, 0], d[:, 0]
-    inside = b * b - a * c
-    q = -(b + np.copysign(np.sqrt(np.maximum(inside, 0.0)), b))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        roots = np.sort(np.stack([q / a, c / q], axis=1), axis=1)
-    roots = np.where((roots > 1e-9) & (roots < 1 - 1e-9) & (inside > 0)[:, None], roots, np.nan)
-    all_t = np.concatenate([roots, np.ones((len(cubics), 1))], axis=1)
-    kept = np.isfinite(all_t)
-    which, _ = np.nonzero(kept)
-    ends = evaluate(cubics[which], all_t[kept])
-    off = float((np.abs(cross(_unit(longest), arms)).max(axis=1) * 0.75).max())
-    reach = np.hypot(*(cubics[:, 3] - cubics[:, 0]).T)
-    angle = np.abs(cross(_unit(longest), arms)).max(axis=1) / np.where(reach > 0, reach, 1.0)
-    return _Edges(kept.sum(axis=1), ends, np.zeros(len(ends)), off, float(3 * angle.max()))
-
-
-def _fit(points: Points, count: int, tolerance: float) -> _Edges:
-    """Biarcs over ``count`` curves given as points and tangents of (curve, t)."""
-    whole = _Cut(np.arange(count), np.zeros(count), np.ones(count))
-    halved = _halve(points, whole, tolerance * _SPARE, _LOOK)
-    even = _even(points, np.bincount(halved.curve, minlength=count), tolerance * _SPARE)
-    taken = np.zeros(count, dtype=np.bool_)
-    taken[even.curve] = True
-    cut = _halve(points, halved.take(~taken[halved.curve]) + even, tolerance, _LOOK_CLOSER).sorted()
-    biarcs = _biarcs(points, cut)
-    distance, angle = _deviations(points, cut, biarcs, _LOOK_CLOSER)
-    single = _one_arc(biarcs)
-    edges = np.where(single, 1, 2)
-    which, rank = numbered(edges)
-    ends = np.where((rank + 1 == edges[which])[:, None], biarcs.q[which], biarcs.joint[which])
-    bulges = np.where(single[which], _whole_bulge(biarcs)[which], biarcs.bulge[which, rank])
-    counts = np.bincount(cut.curve, edges, count).astype(np.int64)
-    return _Edges(counts, ends, bulges, float(distance.max(initial=0.0)), float(angle.max(initial=0.0)))
-
-
-def _biarcs(points: Points, cut: _Cut) -> Biarcs:
-    """The biarc over each piece; a straight line where there is none."""
-    (p, s), (q, t) = points(cut.curve, cut.low), points(cut.curve, cut.high)
-    found = join(p, s, q, t)
-    none = ~found.good
-    found.joint[none] = (p[none] + q[none]) / 2
-    found.bulge[none] = 0.0
-    return found
-
-
-def _deviations(points: Points, cut: _Cut, biarcs: Biarcs, look: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The largest distance and tangent angle of each piece, looked at in portions that bound the memory."""
-    worst = np.zeros((2, len(cut.curve)))
-    for begin in range(0, len(cut.curve), 20_000):
-        rows = np.arange(begin, min(begin + 20_000, len(cut.curve)))
-        t = cut.low[rows, None] + (cut.high - cut.low)[rows, None] * look
-        some = Biarcs(*(getattr(biarcs, name)[rows] for name in ("p", "s", "q", "t", "joint", "bulge", "good")))
-        place, tangent = points(np.broadcast_to(cut.curve[rows, None], t.shape), t)
-        distance, angle = deviation(some, place, tangent)
-        line = ~some.good
-        chord = (some.q - some.p)[line, None]
-        distance[line] = segment_distance(place[line], some.p[line, None], some.q[line, None])
-        angle[line] = np.abs(np.arctan2(cross(chord, tangent[line]), dot(chord, tangent[line])))
-        worst[:, rows] = distance.max(axis=1), angle.max(axis=1)
-    return worst[0], worst[1]
-
-
-def _halve(points: Points, cut: _Cut, tolerance: float, look: FloatArray) -> _Cut:
-    """Halve pieces until each is within tolerance."""
-    done = cut.take(np.empty(0, dtype=np.int64))
-    for _ in range(_DEEPEST):
-        good = _good(points, cut, tolerance, look)
-        done += cut.take(good)
-        cut = cut.take(~good)
-        if not len(cut.curve):
-            break
-        within_limit(2 * (len(done.curve) + len(cut.curve)))
-        cut = cut.halves()
-    return done + cut
-
-
-def _good(points: Points, cut: _Cut, tolerance: float, look: FloatArray) -> NDArray[np.bool_]:
-    """Within tolerance; where there is no biarc, only pieces so short that a line is."""
-    if not len(cut.curve):
-        return np.empty(0, dtype=np.bool_)
-    biarcs = _biarcs(points, cut)
-    distance, angle = _deviations(points, cut, biarcs, look)
-    short = np.hypot(*(biarcs.q - biarcs.p).T) <= tolerance / 2
-    good: NDArray[np.bool_] = (distance <= tolerance) & ((biarcs.good & (angle <= _SKEW)) | short)
-    return good
-
-
-def _even(points: Points, halved: IntArray, tolerance: float) -> _Cut:
-    """Cut at equal shares of the density where every piece is good and there are fewer than by halving."""
-    found = _Cut(np.empty(0, dtype=np.int64), np.empty(0), np.empty(0))
-    rows = np.flatnonzero(halved >= 2)
-    if not len(rows):
-        return found
-    t, share = _shares(points, rows)
-    wanted = np.maximum(np.ceil(share[:, -1] / (_SHARE * np.cbrt(tolerance))), 1).astype(np.int64)
-    waiting = np.ones(len(rows), dtype=np.bool_)
-    for extra in range(5):
-        count = wanted + extra * np.maximum(wanted // 16, 1)
-        trial = np.flatnonzero(waiting & (count < halved[rows]))
-        if not len(trial):
-            break
-        cut = _equal_parts(rows[trial], t, share[trial], count[trial])
-        good = _good(points, cut, tolerance, _LOOK)
-        bad = np.zeros(len(halved), dtype=np.bool_)
-        bad[cut.curve[~good]] = True
-        found += cut.take(~bad[cut.curve])
-        waiting[trial[~bad[rows[trial]]]] = False
-    return found
-
-
-def _shares(points: Points, rows: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Parameters (k,) and the running integral of |dk/ds|^(1/3) ds there, (n, k), from turns between samples."""
-    t = np.linspace(0.0, 1.0, _SAMPLES)
-    place, tangent = points(
-        np.broadcast_to(rows[:, None], (len(rows), len(t))), np.broadcast_to(t, (len(rows), len(t)))
-    )
-    step = np.hypot(*np.moveaxis(np.diff(place, axis=1), 2, 0))
-    step = np.maximum(step, 1e-12 * step.sum(axis=1, keepdims=True) + 1e-300)
-    angle = np.arctan2(cross(tangent[:, :-1], tangent[:, 1:]), dot(tangent[:, :-1], tangent[:, 1:]))
-    curvature = angle / step
-    change = np.abs(np.diff(curvature, axis=1)) / ((step[:, 1:] + step[:, :-1]) / 2)
-    change = np.concatenate([change[:, :1], (change[:, 1:] + change[:, :-1]) / 2, change[:, -1:]], axis=1)
-    density = np.cbrt(change) * step
-    density += 1e-3 * density.max(axis=1, keepdims=True) + 1e-300
-    return t, np.concatenate([np.zeros((len(rows), 1)), np.cumsum(density, axis=1)], axis=1)
-
-
-def _equal_parts(rows: IntArray, t: FloatArray, share: FloatArray, count: IntArray) -> _Cut:
-    """Cut each row's curve into ``count`` pieces of equal shares."""
-    which, rank = numbered(count + 1)
-    scaled = share / share[:, -1:]
-    flat = (scaled + 2.0 * np.arange(len(rows))[:, None]).ravel()
-    target = rank / count[which]
-    at = np.clip(np.searchsorted(flat, target + 2.0 * which, side="right") - 1 - which * len(t), 0, len(t) - 2)
-    low = scaled[which, at]
-    part = (target - low) / np.maximum(scaled[which, at + 1] - low, 1e-300)
-    cuts = t[at] + np.clip(part, 0.0, 1.0) * (t[1] - t[0])
-    cuts[rank == 0], cuts[rank == count[which]] = 0.0, 1.0
-    begins = rank < count[which]
-    return _Cut(rows[which[begins]], cuts[begins], cuts[np.flatnonzero(begins) + 1])
-
-
-def _one_arc(biarcs: Biarcs) -> NDArray[np.bool_]:
-    """Both arcs on one circle (the tangents at both ends make the same angle with the chord), or a line."""
-    chord = biarcs.q - biarcs.p
-    start = np.arctan2(cross(biarcs.s, chord), dot(biarcs.s, chord))
-    end = np.arctan2(cross(chord, biarcs.t), dot(chord, biarcs.t))
-    single: NDArray[np.bool_] = biarcs.good & (np.abs(start - end) <= 1e-9) & (np.abs(start) <= np.pi / 2)
-    return single | ~biarcs.good  # a line has no joint either
-
-
-def _whole_bulge(biarcs: Biarcs) -> FloatArray:
-    """The bulge of both arcs as one: tan of the sum of their quarter angles."""
-    one, two = biarcs.bulge.T
-    whole: FloatArray = np.clip((one + two) / np.maximum(1 - one * two, 1e-300), -1.0, 1.0)
+def _is_whole(spans: Spans) -> BoolArray:
+    whole: BoolArray = (spans.low == 0) & (spans.high == 1)
     return whole
+
+
+def _wrong(curves: Curves, fit: Fit, spans: Spans, tolerance: float) -> BoolArray:
+    """Tell which spans must be cut further: not within the tolerance, unless there is nothing left to cut."""
+    still = spans.t0 == 0  # the curve is a point
+    short = np.abs(spans.p1 - spans.p0) <= _ROUNDING * curves.sizes[spans.ids]  # or comes back to its start
+    wrong: BoolArray = ~(fit.sound & (fit.distance <= tolerance)) & ~still & ~(short & (spans.high - spans.low < 1e-6))
+    return wrong
+
+
+def _halve(curves: Curves, spans: Spans, tolerance: float) -> tuple[Spans, Fit]:
+    """Halve until every span fits; in order of curve and parameter."""
+    done: list[tuple[Spans, Fit]] = []
+    total = 0
+    for depth in range(_DEEPEST):
+        fit = _look(curves, spans)
+        wrong = _wrong(curves, fit, spans, _SAFE * tolerance) & (depth < _DEEPEST - 1)
+        done.append((spans.take(~wrong), fit.take(~wrong)))
+        if not wrong.any():
+            break
+        total += len(done[-1][0])
+        spans = spans.take(wrong).halved(curves)
+        within_limit(total + len(spans))
+    return _in_order(done)
+
+
+def _even_out(curves: Curves, best: Spans, fit: Fit, whole: Spans, tolerance: float) -> Spans:
+    """Place fewer cuts by equal shares of the error, stretch by stretch where that works.
+
+    A stretch may be left with a few spans that do not fit yet: halving those costs one more span each, and a
+    new division is taken only where it is the better one with that counted in.
+    """
+    cost = np.bincount(_stretch(whole, best), minlength=len(whole))
+    trial, failed = best, np.zeros(len(whole), dtype=np.int64)
+    open_ = cost > 1
+    for round_ in range(_ROUNDS):
+        which = _stretch(whole, trial)
+        share = np.maximum(np.cbrt(fit.distance / tolerance), 0.05)
+        share = _exact(np.where(fit.sound, share, np.maximum(share, 1.5)))
+        wanted = np.ceil(np.bincount(which, share, minlength=len(whole)) - 0.02).astype(np.int64)
+        # every number has a second chance, with the better shares; then it is one more, or 2 % of many
+        wanted = np.maximum(wanted, failed + (1 + failed // 50) * (round_ % 2 == 0))
+        open_ &= wanted < cost
+        if not open_.any():
+            break
+        trial = _recut(curves, trial, share, which, whole, wanted, open_)
+        fit = _look(curves, trial)
+        which = _stretch(whole, trial)
+        wrong = np.bincount(which[_wrong(curves, fit, trial, _SAFE * tolerance)], minlength=len(whole))
+        better = open_ & (wanted + wrong < cost)
+        best = _replaced(best, _stretch(whole, best), trial, which, better)
+        cost = np.where(better, wanted + wrong, cost)
+        failed = np.where(wrong > 0, wanted, failed)
+        open_ &= wrong > 0
+    return best
+
+
+def _stretch(whole: Spans, spans: Spans) -> IntArray:
+    """Which of the stretches between cusps each span belongs to; both in order of curve and parameter."""
+    place = np.searchsorted(whole.ids + whole.low, spans.ids + spans.low, side="right") - 1
+    return place.astype(np.int64)
+
+
+def _exact(share: FloatArray) -> FloatArray:
+    """Round to 2^-20, so that sums are exact and the cuts of a curve do not depend on the curves before it."""
+    return np.rint(np.minimum(share, 1e3) * 2.0**20) / 2.0**20
+
+
+def _recut(
+    curves: Curves, old: Spans, share: FloatArray, which: IntArray, whole: Spans, wanted: IntArray, open_: BoolArray
+) -> Spans:
+    """Cut the open stretches into ``wanted`` spans of equal shares; within an old span shares grow evenly."""
+    rows = np.flatnonzero(open_)
+    keep = open_[which]
+    old, share = old.take(keep), share[keep]
+    which = np.searchsorted(rows, which[keep])
+    sums = np.bincount(which, share, minlength=len(rows))
+    ends = np.cumsum(share)  # of shares, over all stretches end to end
+    before = np.cumsum(sums) - sums
+    count = wanted[rows]
+    row = np.repeat(np.arange(len(rows)), count - 1)
+    rank = np.arange(len(row)) - np.repeat(np.cumsum(count - 1) - (count - 1), count - 1) + 1
+    target = before[row] + _exact(sums[row] * rank / count[row])
+    first = np.searchsorted(which, np.arange(len(rows)))
+    last = np.searchsorted(which, np.arange(len(rows)), side="right") - 1
+    at = np.clip(np.searchsorted(ends, target), first[row], last[row])
+    part = np.clip(1 - (ends[at] - target) / share[at], 0.0, 1.0)
+    cut = old.low[at] + part * (old.high[at] - old.low[at])
+    total = int(count.sum())
+    start = np.cumsum(count) - count
+    low, high = np.empty(total), np.empty(total)
+    low[start], high[start + count - 1] = whole.low[rows], whole.high[rows]
+    low[start[row] + rank], high[start[row] + rank - 1] = cut, cut
+    source = whole.take(np.repeat(rows, count))
+    return Spans.between(curves, source, source, low, high)
+
+
+def _replaced(best: Spans, best_row: IntArray, trial: Spans, trial_row: IntArray, passed: BoolArray) -> Spans:
+    joined = Spans.joined([best.take(~passed[best_row]), trial.take(passed[trial_row])])
+    return joined.take(np.lexsort((joined.low, joined.ids)))
+
+
+def _settle(curves: Curves, spans: Spans, tolerance: float) -> tuple[Spans, Biarcs, Fit]:
+    """Measure closely, halve what turns out wrong after all, and give the final arcs with their errors."""
+    settled: list[tuple[Spans, Fit]] = []
+    for depth in range(_DEEPEST):
+        fit = _close_look(curves, spans, biarcs(spans, _is_whole(spans)))
+        wrong = _wrong(curves, fit, spans, _SURE * tolerance) & (depth < _DEEPEST - 1)
+        settled.append((spans.take(~wrong), fit.take(~wrong)))
+        if not wrong.any():
+            break
+        spans = spans.take(wrong).halved(curves)
+    spans, fit = _in_order(settled)
+    return spans, biarcs(spans, _is_whole(spans)), fit
+
+
+def _in_order(parts: list[tuple[Spans, Fit]]) -> tuple[Spans, Fit]:
+    """String spans and their fits together, by curve and parameter."""
+    spans, fit = Spans.joined([part for part, _ in parts]), Fit.joined([part for _, part in parts])
+    order = np.lexsort((spans.low, spans.ids))
+    return spans.take(order), fit.take(order)
+
+
+def _close_look(curves: Curves, spans: Spans, arcs: Biarcs) -> Fit:
+    """Measure at even places, then once more at the top of the parabola through the worst place and its neighbours."""
+    n = len(spans)
+    worst = np.zeros(n), np.zeros(n)
+    for first in range(0, n, CHUNK):
+        rows = slice(first, min(first + CHUNK, n))
+        ids, low, width = spans.ids[rows], spans.low[rows, None], (spans.high - spans.low)[rows, None]
+        seen = offsets(curves, ids, low + width * _CLOSE, arcs, rows)
+        for kind, largest in enumerate(worst):
+            values = np.abs(seen[kind])
+            top = offsets(curves, ids, low + width * _peak(values)[:, None], arcs, rows)[kind]
+            largest[rows] = np.maximum(values.max(axis=1), np.abs(top[:, 0]))
+    turn = np.where(spans.t0 == 0, 0.0, worst[1])  # a curve that is a point has no direction
+    return Fit(worst[0], turn, turning_within(arcs, turn))
+
+
+def _peak(values: FloatArray) -> FloatArray:
+    """Where in (0, 1) the parabola through the largest value and its neighbours is highest."""
+    at = np.clip(values.argmax(axis=1), 1, values.shape[1] - 2)
+    row = np.arange(len(values))
+    before, middle, after = values[row, at - 1], values[row, at], values[row, at + 1]
+    bow = before - 2 * middle + after
+    shift = np.divide(before - after, 2 * bow, out=np.zeros_like(bow), where=bow < 0)
+    step = _CLOSE[1] - _CLOSE[0]
+    result: FloatArray = np.clip(_CLOSE[at] + np.clip(shift, -1, 1) * step, step / 4, 1 - step / 4)
+    return result
