@@ -31,8 +31,11 @@ def browser():
 
 def until(page, condition):
     """Wait until a condition in the page holds (its own policy forbids the eval that wait_for_function needs)."""
-    page.evaluate(f"new Promise((done) => {{ const look = () => ({condition}) ? done() : requestAnimationFrame(look);"
-                  "look(); })")  # fmt: skip
+    assert page.evaluate(
+        f"""new Promise((done) => {{ const end = performance.now() + 20000;
+        const look = () => ({condition}) ? done(true) : performance.now() > end ? done(false) : setTimeout(look, 10);
+        look(); }})"""
+    ), f"waited in vain for {condition}"
 
 
 class Watch:
@@ -46,7 +49,8 @@ class Watch:
         page.on("dialog", lambda dialog: (self.messages.append(f"dialog {dialog.message}"), dialog.dismiss()))
 
     def heard(self, message):
-        if message.type in ("error", "warning"):
+        # The tests read pixels back, which a browser thinks slow.
+        if message.type in ("error", "warning") and "willReadFrequently" not in message.text:
             self.messages.append(f"{message.type} {message.text}")
 
     def check(self):

@@ -13,13 +13,13 @@ from wallkit.run import Run
 from wallkit.scene import Balls
 from wallkit.view.frame import Box
 from wallkit.view.page import look
-from wallkit.view.page.payload import Table, inlined, run_table, starts, walls_table
+from wallkit.view.page.payload import inlined, run_table, starts, walls_table
 
 MAX_CONTACTS = 1_000_000
 """So many contacts are in a replay at most (about 50 MB of it); a longer run is thinned, and says so."""
 
 
-def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS, trusted: Table | None = None) -> str:
+def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS) -> str:
     """Write a run as one self-contained HTML document: play, pause, step, scrub, ghosts, normals, zoom.
 
     The motion is drawn from the contacts alone: each frame shows the state after the last contact before it,
@@ -32,7 +32,6 @@ def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS, 
         run: what is shown.
         title: the document's title; the source's name by default.
         max_contacts: the largest number of contacts to carry.
-        trusted: the horizon as the page shows it: ``{"whole": bool, "time": seconds, "sentence": words}``.
     """
     shown, left_out = thinned(run, max_contacts)
     name = title or run.scene.walls.source_file or "wallkit replay"
@@ -40,7 +39,7 @@ def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS, 
         "title": name,
         "colours": look.colours(),
         "walls": walls_table(run.scene.walls, starts(run)[:, :2]),
-        "run": run_table(shown, left_out=left_out, trusted=trusted),
+        "run": run_table(shown, left_out=left_out),
         "box": whole_box(run),
     }
     style = look.theme_css() + look.part("look.css") + look.part("replay.css")

@@ -26,7 +26,6 @@ MOST_CONTACTS = 100_000
 """In one answer, of all balls together."""
 MOST_PROBLEMS = 500
 MOST_TIME = 1e12
-_HORIZON_CONTACTS = 5_000  # a longer run's horizon would take longer than its flight
 
 
 class QuestionError(WallkitError):
@@ -93,7 +92,7 @@ class Answers:
         scene = self.scene_of(body)
         until, bounces = self.limits_of(body, len(scene.balls))
         run = simulate(scene, until, bounces, mode=self.warmth.mode(scene, short="until" not in body))
-        return run_table(run, trusted=horizon_table(run) if "until" in body else None)
+        return run_table(run, horizon="until" in body)
 
     def save(self, body: Table) -> Download:
         """Give the scene, the replay of its run or the walls as a file."""
@@ -116,7 +115,7 @@ class Answers:
             from wallkit.view.replay import replay_html
 
             run = simulate(scene, until, bounces)
-            page = replay_html(run, title=document.name, trusted=horizon_table(run))
+            page = replay_html(run, title=document.name)
             return Download(f"{stem}.html", page, "text/html; charset=utf-8")
         raise QuestionError(f"what is {what!r}", code="bad-request", fix='give "scene", "replay" or "walls"')
 
@@ -262,13 +261,3 @@ def exactness(walls: Walls) -> str:
 def counted(count: int, word: str) -> str:
     """Give ``1 wall`` or ``1,200 walls``."""
     return f"{count:,} {word if count == 1 else word + 's'}"
-
-
-def horizon_table(run: Run) -> Table | None:
-    """Give up to where a single ball's run can be trusted; None for many balls or a very long run."""
-    if len(run.final) != 1 or not 0 < len(run.contacts) <= _HORIZON_CONTACTS:
-        return None
-    from wallkit.horizon import trusted_until
-
-    horizon = trusted_until(run.scene, run.contacts, 0, end=float(run.final["time"][0]))
-    return {"whole": horizon.whole, "time": horizon.time, "sentence": horizon.sentence()}

@@ -26,6 +26,9 @@ FULL_PRECISION_CONTACTS = 100_000
 """Up to so many contacts travel as Float64; beyond it places (from the box's middle), velocities and normals are
 Float32, off by at most 6e-8 of the picture's size. Times are always Float64."""
 
+HORIZON_CONTACTS = 5_000
+"""The horizon is told of runs of up to so many contacts."""
+
 
 def column(values: ArrayLike, kind: str) -> dict[str, str]:
     """Pack numbers, flattened row by row: ``kind`` is ``f8``, ``f4``, ``i4`` or ``u1``."""
@@ -60,13 +63,13 @@ def walls_table(walls: Walls, free: FloatArray | None = None) -> Table:
     }
 
 
-def run_table(run: Run, *, left_out: str = "", trusted: Table | None = None) -> Table:
+def run_table(run: Run, *, left_out: str = "", horizon: bool = True) -> Table:
     """Give a run as static/motion.js reads it.
 
     Args:
         run: what is played.
         left_out: a sentence on what of the run is not in it, for people.
-        trusted: the horizon of the first ball, as :func:`horizon_table` gives it.
+        horizon: say how far a single ball's run can be trusted.
     """
     contacts, final = run.contacts, run.final
     start = starts(run)
@@ -94,9 +97,17 @@ def run_table(run: Run, *, left_out: str = "", trusted: Table | None = None) -> 
             "wall": column(contacts["wall"], "i4"),
             "kind": column(contacts["kind"], "u1"),
         },
-        "trusted": trusted,
+        "trusted": horizon_table(run) if horizon else None,
         "left_out": left_out,
     }
+
+
+def horizon_table(run: Run) -> Table | None:
+    """Give up to where a single ball's run is good to 1e-6; None for many balls or a long run (it takes its time)."""
+    if len(run.final) != 1 or not 0 < len(run.contacts) <= HORIZON_CONTACTS:
+        return None
+    horizon = run.trusted_until()[0]
+    return {"whole": horizon.whole, "time": horizon.time, "sentence": horizon.sentence()}
 
 
 def starts(run: Run) -> FloatArray:

@@ -17,7 +17,8 @@
     }).catch(() => {
       throw new Refused("wallkit does not answer: is the command still running?");
     });
-    if (response.headers.get("Content-Type")?.startsWith("application/json")) {
+    const json = response.headers.get("Content-Type")?.startsWith("application/json");
+    if (json && !response.headers.has("Content-Disposition")) {
       const answer = await response.json();
       if (answer.error) throw new Refused(answer.error);
       return answer;

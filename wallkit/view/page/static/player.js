@@ -5,7 +5,7 @@
   const W = (globalThis.Wallkit ??= {});
 
   const RATES = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
-  const SEGMENTS = 6000; // flights drawn behind all balls together
+  const SEGMENTS = 4000; // flights drawn behind all balls together
   const TRAIL = 80; // flights behind one ball
   const GHOSTS = 400; // ghosts of all balls together
   const FRAMES = 600; // draw times that are kept

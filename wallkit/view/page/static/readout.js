@@ -25,7 +25,8 @@
         for (const part of this.list.querySelectorAll("dd")) part.textContent = "–";
         return;
       }
-      this.set("bounces", `${motion.bounces(time).toLocaleString("en")} of ${motion.count.toLocaleString("en")}`);
+      const all = motion.openEnded ? "" : ` of ${motion.count.toLocaleString("en")}`;
+      this.set("bounces", motion.bounces(time).toLocaleString("en") + all);
       this.set("speed", this.speed(motion, time));
       this.set("energy", this.energy(motion, time));
       this.set("last", this.lastContact(motion, time));
@@ -85,11 +86,15 @@
 
   const unit = (player) => player.picture?.units || "units";
 
+  // The page asks for more while it plays, so that a run which reached its time goes on there.
   const endings = (motion) => {
     const counts = new Map();
-    for (const ending of motion.ending) counts.set(ending, (counts.get(ending) ?? 0) + 1);
-    if (motion.balls === 1) return motion.ending[0];
-    return [...counts].map(([ending, count]) => `${count.toLocaleString("en")} ${ending}`).join(", ");
+    for (const ending of motion.ending) {
+      const words = motion.openEnded && ending === "time reached" ? "not yet" : ending;
+      counts.set(words, (counts.get(words) ?? 0) + 1);
+    }
+    if (counts.size === 1) return [...counts.keys()][0];
+    return [...counts].map(([words, count]) => `${count.toLocaleString("en")} ${words}`).join(", ");
   };
 
   W.ReadOut = ReadOut;
