@@ -260,7 +260,7 @@ def test_scene_replay_and_walls_can_be_saved(room, until, tmp_path):
     until(room, FLYING)
     for what, name in (("Scene", "room.scene.json"), ("Replay", "room.html"), ("Walls", "room.walls.json")):
         with room.expect_download() as download:
-            room.get_by_role("button", name=what).click()
+            room.get_by_role("button", name=what, exact=True).click()
         assert download.value.suggested_filename == name
         download.value.save_as(tmp_path / name)
         assert (tmp_path / name).stat().st_size > 200

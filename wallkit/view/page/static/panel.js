@@ -182,7 +182,7 @@
 
   const element = (name, className = "", text = "") => {
     const made = document.createElement(name);
-    made.className = className;
+    if (className) made.className = className;
     made.textContent = text;
     return made;
   };
