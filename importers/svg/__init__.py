@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 
 from importers.drawing import Drawing
-from importers.errors import DrawingError
+from importers.errors import DrawingError, WallkitError
 
 _SVG_TAG = re.compile(rb"<(?:[A-Za-z_][\w.-]*:)?svg[\s>/]")
 
@@ -28,11 +28,12 @@ def _collector_paused() -> Iterator[None]:
 
 def looks_like_svg(data: bytes) -> bool:
     """Tell whether bytes are an SVG document, in any encoding that XML allows (not gzipped)."""
-    head = data[:65536]
+    head = data
     if head[:2] in (b"\xff\xfe", b"\xfe\xff", b"<\x00", b"\x00<"):
         head = head.replace(b"\x00", b"")[2 if head[0] in (0xFE, 0xFF) else 0 :]
     head = head.removeprefix(b"\xef\xbb\xbf").lstrip()
-    return head.startswith(b"<") and _SVG_TAG.search(head) is not None
+    web_page = head[:14].lower() == b"<!doctype html" or head[:5].lower() == b"<html"
+    return head.startswith(b"<") and not web_page and _SVG_TAG.search(head) is not None
 
 
 def read_svg(data: bytes, file: str = "") -> Drawing:
@@ -49,6 +50,16 @@ def read_svg(data: bytes, file: str = "") -> Drawing:
         DrawingError: it is not well-formed XML, not SVG, or reaches outside of itself.
         LimitError: it is larger, deeper or unfolds to more than importers.limits allows.
     """
+    try:
+        drawing = _read(data, file)
+    except WallkitError as error:  # what is deep inside does not know the file's name
+        error.file = error.file or file
+        raise
+    drawing.sha256 = hashlib.sha256(data).hexdigest()
+    return drawing
+
+
+def _read(data: bytes, file: str) -> Drawing:
     from importers.svg.reader import Reader
     from importers.svg.source import decode, parse
 
@@ -58,6 +69,4 @@ def read_svg(data: bytes, file: str = "") -> Drawing:
         fix = "give a file whose outermost element is svg"
         raise DrawingError(f"an XML file of <{tag}>, not SVG", code="not-a-drawing", fix=fix, file=file)
     with _collector_paused():
-        drawing = Reader(source).read()
-    drawing.sha256 = hashlib.sha256(data).hexdigest()
-    return drawing
+        return Reader(source).read()

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
+from importers.limits import limit_error
 from importers.svg.notes import Notes
 from importers.svg.sheet import Sheet, matches_media
-from importers.svg.style import PRESENTATION, Declared, parse_declaration, parse_inline
+from importers.svg.style import PRESENTATION, Declared, parse_any_inline, parse_declaration, parse_inline
 
 _NOTHING: Declared = {}
+MAX_CSS = 1_000_000
+# Fonts put into a drawing are larger than all else in it, and say nothing of its outlines.
+_FONT_FACE = re.compile(r"@font-face\s*\{[^{}]*\}", re.IGNORECASE)
 
 
 class Cascade:
@@ -25,14 +30,32 @@ class Cascade:
                 notes.count("css-skipped", "info", f"a style sheet for {media or kind} is left out", element)
         self._notes = notes
         self._element = texts[0][0] if texts else root
-        self._sheet = Sheet((text for _, text in texts), root, self._report)
+        self._css_left = MAX_CSS
+        self._inlines: dict[str, list[tuple[str, Any, bool]]] = {}
+        sheets = [_FONT_FACE.sub("", text) for _, text in texts]
+        self._charge(sum(map(len, sheets)))
+        self._sheet = Sheet(sheets, root, self._report)
+
+    def _charge(self, characters: int) -> None:
+        self._css_left -= characters
+        if self._css_left < 0:
+            raise limit_error("characters of style sheets", f"{MAX_CSS:,}")
+
+    def _inline(self, text: str) -> list[tuple[str, Any, bool]]:
+        found = self._inlines.get(text)
+        if found is None:
+            found = parse_inline(text)
+            if found is None:
+                self._charge(len(text))
+                found = parse_any_inline(text)
+            self._inlines[text] = found
+        return found
 
     def _report(self, code: str, message: str) -> None:
         self._notes.count(code, "warning", message, self._element, fix="write the style on the elements")
 
-    def declared(self, element: Any) -> Declared:
+    def declared(self, element: Any, attributes: dict[str, str]) -> Declared:
         """Give the winning declarations of an element: property to parsed value, invalid ones left out."""
-        attributes = element.attrib
         found: Declared = {}
         for name, text in attributes.items():
             if name in PRESENTATION:
@@ -46,7 +69,7 @@ class Cascade:
         if self._sheet.empty and style is None:
             return found or _NOTHING
         rules = [] if self._sheet.empty else self._sheet.declarations(element)
-        inline = parse_inline(style) if style is not None else ()
+        inline = self._inline(style) if style is not None else ()
         for wanted in (False, True):
             for source in (rules, inline):
                 found.update((name, value) for name, value, important in source if important is wanted)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 # The language is that of the browser that the tests measure with: English of any country.
@@ -10,9 +11,8 @@ LANGUAGE = "en"
 _EXTENSIONS = frozenset(("http://www.w3.org/1999/xhtml", "http://www.w3.org/1998/Math/MathML"))
 
 
-def holds(element: Any) -> bool:
+def holds(attributes: Mapping[str, str]) -> bool:
     """Tell whether the conditions on an element hold; ``requiredFeatures`` no longer counts (SVG 2)."""
-    attributes = element.attrib
     extensions = attributes.get("requiredExtensions")
     if extensions is not None:
         words = extensions.split()
@@ -29,6 +29,6 @@ def _speaks(tag: str) -> bool:
 def chosen(element: Any, prefix: str) -> Any:
     """Give the child of a ``switch`` that is shown: the first whose conditions hold; None without one."""
     for child in element.iterchildren("*"):
-        if child.tag.startswith(prefix) and holds(child):
+        if child.tag.startswith(prefix) and holds(child.attrib):
             return child
     return None

@@ -26,12 +26,11 @@ def decode_id(text: str, illustrator: bool = False) -> str:
     return "".join(piece for pair in zip(plain, [*codes, ""], strict=True) for piece in pair)
 
 
-def name_of(element: Any, illustrator: bool) -> str:
+def name_of(element: Any, attributes: dict[str, str], illustrator: bool) -> str:
     """Give an element's name: Inkscape's label, ``data-name``, its id decoded, its title; ``""`` without any."""
-    attributes = element.attrib
     name = attributes.get(INKSCAPE + "label") or attributes.get("data-name")
     if name:
-        return str(name)
+        return name
     own = attributes.get("id")
     if own:
         return decode_id(own, illustrator)
@@ -40,9 +39,7 @@ def name_of(element: Any, illustrator: bool) -> str:
     return ""
 
 
-def tags_of(element: Any, around: dict[str, str]) -> dict[str, str]:
+def tags_of(attributes: dict[str, str], around: dict[str, str]) -> dict[str, str]:
     """Give the tags of an element: its ``data-*`` attributes without that prefix, over those of what is around."""
-    own = {
-        key[5:]: str(value) for key, value in element.attrib.items() if key.startswith("data-") and key != "data-name"
-    }
+    own = {key[5:]: value for key, value in attributes.items() if key.startswith("data-") and key != "data-name"}
     return {**around, **own} if own else around

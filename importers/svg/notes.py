@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from typing import Any
 
 from importers.problems import Problem, Severity
 from importers.svg.source import Source
+
+MOST = 200  # problems of one code that are told one by one
 
 
 @dataclass(slots=True)
@@ -24,6 +27,7 @@ class Notes:
     def __init__(self, source: Source) -> None:
         self._source = source
         self._problems: list[Problem] = []
+        self._seen: Counter[str] = Counter()
         self._kinds: dict[tuple[str, str], _Kind] = {}
 
     def add(
@@ -40,7 +44,14 @@ class Notes:
         name: str = "",
         at: tuple[float, float] | None = None,
     ) -> None:
-        """Add one problem at an element, or at a character in one of its attributes."""
+        """Add one problem at an element, or at a character in one of its attributes.
+
+        Beyond MOST of a code they are only counted.
+        """
+        self._seen[code] += 1
+        if self._seen[code] > MOST:
+            self.count(code, severity, "more of the same", element, fix=fix)
+            return
         line, column, text = self._source.place(element, attribute, offset)
         x, y = at if at is not None else (None, None)
         self._problems.append(Problem(code, severity, message, fix, layer, name, line, column, x, y, text))

@@ -11,11 +11,13 @@ between numbers, an arc's flags are one digit each and need nothing around them.
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from dataclasses import dataclass
 
 from importers.drawing import Segment, Subpath
+from importers.limits import MAX_ELEMENTS, limit_error
 from importers.svg.arcs import arc_segments
 
 # Possessive throughout: a number never gives digits back, and the time is linear in the text whatever it holds.
@@ -30,6 +32,7 @@ _ARC = re.compile(
     rf"{_COMMA}({_NUMBER}){_COMMA}({_NUMBER}){_COMMA}({_NUMBER}){_COMMA}([01]){_COMMA}([01]){_COMMA}"
     rf"({_NUMBER}){_COMMA}({_NUMBER})"
 )
+MAX_NUMBERS = 3 * MAX_ELEMENTS
 # Letter to command and whether it is relative; command to how many numbers it takes at a time.
 _COMMANDS = {letter: (letter.upper(), letter.islower()) for letter in "MmZzLlHhVvCcSsQqTtAa"}
 _COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7}
@@ -60,9 +63,11 @@ def parse_path_data(text: str) -> tuple[list[Subpath], Fault | None]:
         The subpaths (each begins with its ``M``; one that only moves is kept, the caller decides) and the
         fault, None when all of it is right.
     """
+    check_length(text)
     match = _LEXICAL.match(text)
-    end = _without_broken_number(text, match.end() if match else 0)
+    end = match.end() if match else 0
     fault = _lexical_fault(text, end) if end < len(text) else None
+    end = _without_broken_number(text, end)
     words = text if end == len(text) else text[:end]
     has_arcs = "a" in words or "A" in words
     if not has_arcs and "e" not in words and "E" not in words:
@@ -78,6 +83,12 @@ def parse_path_data(text: str) -> tuple[list[Subpath], Fault | None]:
     if used < len(tokens):
         fault = _command_fault(tokens, spans, used, stop, fault)
     return subpaths, fault
+
+
+def check_length(text: str) -> None:
+    """Raise LimitError when a list has more numbers than a drawing of MAX_ELEMENTS segments can need."""
+    if len(text) > MAX_NUMBERS and any(True for _ in itertools.islice(NUMBER.finditer(text), MAX_NUMBERS, None)):
+        raise limit_error("numbers of one path", f"{MAX_NUMBERS:,}")
 
 
 def _split(words: str) -> list[str]:
@@ -224,8 +235,9 @@ def _lexical_fault(text: str, end: int) -> Fault:
     place = len(text) - len(rest)
     if not rest:
         return Fault(text.rindex(","), "a comma is left over at the end")
-    if "," in text[end:place]:
-        return Fault(end + text[end:place].index(","), "a comma is not expected here")
+    commas = [index for index in range(end, place) if text[index] == ","]
+    if commas:  # the first of two is right
+        return Fault(commas[min(1, len(commas) - 1)], "a comma is not expected here")
     if end == 0 or not text[:end].strip():
         return Fault(place, f"path data begin with M or m, not with {rest[0]!r}")
     return Fault(place, f"{rest[0]!r} is not expected here")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 from importers.boxes import Box
@@ -67,8 +66,6 @@ def nested_viewport(
         lengths: of it.
         size: what the ``use`` says, None where it says nothing.
     """
-    # browsers take these from the attributes alone
-    lengths = replace(lengths, declared={})
     x, y = lengths.get("x") or 0.0, lengths.get("y") or 0.0
     width = size[0] if size[0] is not None else lengths.get("width")
     height = size[1] if size[1] is not None else lengths.get("height")
@@ -81,7 +78,7 @@ def nested_viewport(
     return matrix, Viewport(box[2], box[3]) if box else Viewport(width, height)
 
 
-def use_size(tag: str, use: Any, lengths: Lengths) -> tuple[float | None, float | None]:
+def use_size(tag: str, lengths: Lengths) -> tuple[float | None, float | None]:
     """Give the size that a ``use`` asks for its symbol or svg; a symbol without one fills the viewport."""
     width, height = lengths.get("width"), lengths.get("height")
     if tag == "symbol":

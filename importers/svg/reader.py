@@ -10,7 +10,7 @@ from typing import Any
 
 from importers.boxes import Box, box_of, box_of_segments
 from importers.drawing import Drawing, DrawnPath, Layer, Subpath
-from importers.limits import MAX_COORDINATE, MAX_DEPTH, limit_error
+from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.svg.cascade import Cascade
 from importers.svg.conditions import chosen, holds
 from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transform, translation
@@ -19,10 +19,11 @@ from importers.svg.notes import Notes
 from importers.svg.placing import element_matrix, has_transform, nested_viewport, root_viewport, use_size
 from importers.svg.references import References
 from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
-from importers.svg.source import SVG_NS, Source
+from importers.svg.source import SVG_NS, Source, attributes_of
 from importers.svg.style import Declared, Style, inherit
 from importers.svg.units import Viewport, to_px
 
+_GROUPS = frozenset(("g", "a", "svg", "switch", "use"))
 _NEVER = frozenset(("defs", "clipPath", "mask", "pattern", "marker", "symbol"))
 _SILENT = frozenset(
     (
@@ -51,6 +52,8 @@ _NO_GEOMETRY = {
     "foreignObject": "draw its content as shapes",
 }
 
+
+Attributes = dict[str, str]
 
 # Groups with a transform-box inside of groups with one: each level reads its content once more.
 _MAX_ASIDE = 8
@@ -92,6 +95,7 @@ class Reader:
         self.stack: list[tuple[Any, Around]] = []
         self.boxes: dict[Any, Box | None] = {}
         self.aside = 0
+        self.segments = 0
 
     def read(self) -> Drawing:
         """Walk the document and give the Drawing."""
@@ -112,7 +116,7 @@ class Reader:
             self._visit(element, around)
 
     def _enter_root(self, root: Any) -> None:
-        declared = self.cascade.declared(root)
+        declared = self.cascade.declared(root, attributes_of(root))
         style = inherit(Style(), declared)
         matrix, viewport, shown = root_viewport(root, declared, style.font)
         if not shown:
@@ -134,14 +138,17 @@ class Reader:
             self._foreign(element)
             return
         tag = tag[len(self.prefix) :]
-        if tag in SHAPES:
-            if holds(element):
-                self._draw(tag, element, around)
-        elif tag in ("g", "a", "svg", "switch", "use"):
-            if holds(element):
-                self._enter(tag, element, around)
-        else:
+        if tag not in SHAPES and tag not in _GROUPS:
             self._skip(tag, element)
+            return
+        attributes = attributes_of(element)
+        if not holds(attributes):
+            message = f"<{tag}> is for another language or program"
+            self.notes.count("not-chosen", "info", message, element)
+        elif tag in SHAPES:
+            self._draw(tag, element, attributes, around)
+        else:
+            self._enter(tag, element, attributes, around)
 
     def _skip(self, tag: str, element: Any) -> None:
         if tag in _NO_GEOMETRY:
@@ -165,14 +172,14 @@ class Reader:
             message = f"<{tag.rpartition('}')[2]}> is not SVG and is left out"
             self.notes.count("foreign-element", "info", message, element)
 
-    def _enter(self, tag: str, element: Any, around: Around) -> None:
+    def _enter(self, tag: str, element: Any, attributes: Attributes, around: Around) -> None:
         """Go into an element that groups others."""
-        declared = self.cascade.declared(element)
-        inside = self._inside(tag, element, declared, around)
+        declared = self.cascade.declared(element, attributes)
+        inside = self._inside(tag, element, attributes, declared, around)
         if tag == "use":
-            self._use(element, declared, inside)
+            self._use(element, attributes, declared, inside)
         elif tag == "svg":
-            self._nested(element, declared, inside)
+            self._nested(element, attributes, inside)
         elif tag == "switch":
             picked = chosen(element, self.prefix)
             for child in element.iterchildren("*"):
@@ -183,7 +190,8 @@ class Reader:
         else:
             self._push_children(element, inside)
 
-    def _inside(self, tag: str, element: Any, declared: Declared, around: Around) -> Around:
+    def _inside(self, tag: str, element: Any, attributes: Attributes, declared: Declared, around: Around) -> Around:
+        """Give what the children of a group have around them."""
         style = inherit(around.style, declared) if declared else around.style
         matrix = around.matrix
         display = declared.get("display")
@@ -191,18 +199,20 @@ class Reader:
         if has_transform(declared) and display != "contents":
             matrix = multiply(
                 matrix,
-                element_matrix(declared, style, around.viewport, lambda: self._box_of(tag, element, around, style)),
+                element_matrix(
+                    declared, style, around.viewport, lambda: self._box_of(tag, element, attributes, around, style)
+                ),
             )
-        name = name_of(element, self.illustrator)
-        locked = around.locked or element.get(SODIPODI + "insensitive") == "true"
+        name = name_of(element, attributes, self.illustrator)
+        locked = around.locked or attributes.get(SODIPODI + "insensitive") == "true"
         layer, groups = around.layer, around.groups
-        if self._is_layer(tag, element, around):
+        if self._is_layer(tag, element, attributes, around):
             layer = name
             found = self.layers.setdefault(name, Layer(name, visible=not hidden, locked=locked))
             found.visible = found.visible or not hidden
         else:
             groups = (*groups, name)
-        tags = tags_of(element, around.tags or {})
+        tags = tags_of(attributes, around.tags or {})
         return replace(
             around,
             matrix=matrix,
@@ -215,7 +225,7 @@ class Reader:
             depth=around.depth + 1,
         )
 
-    def _box_of(self, tag: str, element: Any, around: Around, style: Style) -> Box | None:
+    def _box_of(self, tag: str, element: Any, attributes: Attributes, around: Around, style: Style) -> Box | None:
         """Give the box of what a group draws, in its own coordinates, by reading its content on the side."""
         key = (element, around.viewport, around.style)
         if key not in self.boxes:
@@ -229,7 +239,7 @@ class Reader:
             self.aside += 1
             inside = replace(around, matrix=IDENTITY, style=style, depth=around.depth + 1)
             if tag == "use":
-                self._use(element, {}, inside)
+                self._use(element, attributes, {}, inside)
             else:
                 self._push_children(element, inside)
             self._walk()
@@ -238,42 +248,47 @@ class Reader:
             self.stack, self.drawing, self.notes, self.layers = saved
         return self.boxes[key]
 
-    def _is_layer(self, tag: str, element: Any, around: Around) -> bool:
+    def _is_layer(self, tag: str, element: Any, attributes: Attributes, around: Around) -> bool:
         if tag != "g" or around.chain:
             return False
         if self.inkscape_layers:
-            return bool(element.get(INKSCAPE + "groupmode") == "layer")
+            return attributes.get(INKSCAPE + "groupmode") == "layer"
         top = element.getparent() is self.source.root
-        return top and bool(element.get("id") or element.get("data-name"))
+        return top and bool(attributes.get("id") or attributes.get("data-name"))
 
-    def _use(self, element: Any, declared: Declared, inside: Around) -> None:
+    def _use(self, element: Any, attributes: Attributes, declared: Declared, inside: Around) -> None:
         target, why = self.references.target(element, inside.chain)
         if target is None:
             self.notes.add(
                 "bad-use", "warning", why, element, fix="point href to an id of this file", layer=inside.layer
             )
             return
-        lengths = Lengths(element.attrib, declared, inside.viewport, inside.style.font)
+        lengths = Lengths(attributes, declared, inside.viewport, inside.style.font)
         x, y = lengths.get("x") or 0.0, lengths.get("y") or 0.0
         matrix = multiply(inside.matrix, translation(x, y))
-        name = name_of(element, self.illustrator)
+        name = name_of(element, attributes, self.illustrator)
         inside = replace(inside, matrix=matrix, chain=(*inside.chain, target), outline=name or inside.outline)
         tag = target.tag[len(self.prefix) :]
         if inside.depth > MAX_DEPTH:
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file)
         if tag in ("symbol", "svg"):
-            own = self.cascade.declared(target)
-            within = self._inside(tag, target, own, inside)
-            self._nested(target, own, within, use_size(tag, element, lengths))
-        elif tag in SHAPES or tag in ("g", "a", "switch", "use") or tag in _NO_GEOMETRY:
+            own = attributes_of(target)
+            within = self._inside(tag, target, own, self.cascade.declared(target, own), inside)
+            self._nested(target, own, within, use_size(tag, lengths))
+        elif tag in SHAPES or tag in _GROUPS or tag in _NO_GEOMETRY:
             self.stack.append((target, inside))
         else:
             self.notes.count("bad-use", "info", f"<use> of a <{tag}> draws nothing", element)
 
     def _nested(
-        self, element: Any, declared: Declared, inside: Around, size: tuple[float | None, float | None] = (None, None)
+        self,
+        element: Any,
+        attributes: Attributes,
+        inside: Around,
+        size: tuple[float | None, float | None] = (None, None),
     ) -> None:
-        lengths = Lengths(element.attrib, declared, inside.viewport, inside.style.font)
+        # browsers take the place and size of an inner svg from its attributes alone
+        lengths = Lengths(attributes, {}, inside.viewport, inside.style.font)
         placed = nested_viewport(element, lengths, size)
         if placed is None:
             self.notes.count("nothing-drawn", "info", "<svg> or <symbol> without a size draws nothing", element)
@@ -282,21 +297,24 @@ class Reader:
         matrix, viewport = placed
         self._push_children(element, replace(inside, matrix=multiply(inside.matrix, matrix), viewport=viewport))
 
-    def _draw(self, tag: str, element: Any, around: Around) -> None:
-        declared = self.cascade.declared(element)
+    def _draw(self, tag: str, element: Any, attributes: Attributes, around: Around) -> None:
+        declared = self.cascade.declared(element, attributes)
         style = inherit(around.style, declared) if declared else around.style
-        lengths = Lengths(element.attrib, declared, around.viewport, style.font)
-        shape = make_shape(tag, element.attrib, lengths)
+        lengths = Lengths(attributes, declared, around.viewport, style.font)
+        shape = make_shape(tag, attributes, lengths)
         matrix = around.matrix
         if has_transform(declared):
             own = [segment for sub in shape.subpaths for segment in sub.segments]
             matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: box_of_segments(own)))
-        name = name_of(element, self.illustrator) or around.outline
+        name = name_of(element, attributes, self.illustrator) or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
             self._report_shape(tag, element, shape, lengths, around.layer, name, matrix)
         subpaths = [Subpath(transform(sub.segments, matrix), sub.closed) for sub in shape.subpaths]
         if not subpaths:
             return
+        self.segments += sum(len(sub.segments) for sub in subpaths)
+        if self.segments > MAX_ELEMENTS:
+            raise limit_error("segments of all paths", f"{MAX_ELEMENTS:,}", file=self.source.file)
         if not _within(subpaths):
             message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
             self.notes.add("coordinate-too-large", "error", message, element, layer=around.layer, name=name)
@@ -310,13 +328,13 @@ class Reader:
                 layer=around.layer,
                 groups=around.groups,
                 visible=style.visible and not around.hidden and declared.get("display") not in ("none", "contents"),
-                locked=around.locked or element.get(SODIPODI + "insensitive") == "true",
+                locked=around.locked or attributes.get(SODIPODI + "insensitive") == "true",
                 fill=fill,
                 stroke=stroke,
                 stroke_width=width if stroke is not None else None,
                 fill_rule="evenodd" if style.fill_rule == "evenodd" else "nonzero",
                 line=self.source.line(element),
-                tags=dict(tags_of(element, around.tags or {})),
+                tags=dict(tags_of(attributes, around.tags or {})),
             )
         )
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from importers.drawing import Segment, Subpath
 from importers.svg.arcs import full_ellipse
-from importers.svg.path_data import COMMA, NUMBER, Fault, parse_path_data
+from importers.svg.path_data import COMMA, NUMBER, Fault, check_length, parse_path_data
 from importers.svg.style import INITIAL, Declared, parse_declaration
 from importers.svg.units import Font, Terms, Viewport, needs_metrics, needs_window, parse_length, to_px
 
@@ -177,6 +177,7 @@ def _points(attributes: Any, closed: bool) -> Shape:
 
 def read_points(text: str) -> tuple[list[float], Fault | None]:
     """Read a ``points`` list to x, y, x, y...; an odd number at the end is left out, with a fault."""
+    check_length(text)
     numbers: list[float] = []
     position = len(text) - len(text.lstrip(" \t\r\n\f"))
     end = len(text.rstrip(" \t\r\n\f"))

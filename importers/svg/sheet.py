@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import cssselect2
 import tinycss2
 
+from importers.limits import limit_error
 from importers.svg.style import known_declarations
-from importers.svg.units import ROOT_FONT, WINDOW, parse_length, to_px
+from importers.svg.units import ROOT_FONT, WINDOW, parse_length, to_px, too_nested
 
 # code, what is left out; called once for each thing in a sheet that is not followed
 Report = Callable[[str, str], None]
+
+MAX_STEPS = 5_000_000
 
 _FEATURE = re.compile(r"\((min-|max-)?(width|height):\s*([^()]+)\)")
 # What headless browsers answer, as far as drawings ask
@@ -50,6 +53,57 @@ def _holds(part: str) -> bool:
     return size >= wanted if match[1] == "min-" else (size <= wanted if match[1] == "max-" else size == wanted)
 
 
+class _Steps:
+    """How much matching has been done; a short selector can ask for more than the age of the universe."""
+
+    def __init__(self) -> None:
+        self.left = MAX_STEPS
+
+    def take(self, number: int) -> None:
+        self.left -= number
+        if self.left < 0:
+            raise limit_error("steps of matching style sheets to elements", f"{MAX_STEPS:,}")
+
+
+class _Element(cssselect2.ElementWrapper):  # type: ignore[misc]
+    """cssselect2's view of an element, without its recursion over siblings, and with its work counted."""
+
+    steps: _Steps
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__(*arguments, **named)
+        if self.parent is not None:
+            self.steps = self.parent.steps
+            self.steps.take(1)
+        self._siblings = self.etree_siblings
+
+    @property
+    def etree_siblings(self) -> list[Any]:
+        if self.parent is not None:
+            self.steps.take(1 + len(self._siblings) // 16)
+        return self._siblings
+
+    @etree_siblings.setter
+    def etree_siblings(self, siblings: list[Any]) -> None:
+        self._siblings = siblings
+
+    @property
+    def ancestors(self) -> Iterator[_Element]:
+        element = self.parent
+        while element is not None:
+            self.steps.take(1)
+            yield element
+            element = element.parent
+
+    @property
+    def previous_siblings(self) -> Iterator[_Element]:
+        element = self.previous
+        while element is not None:
+            self.steps.take(1)
+            yield element
+            element = element.previous
+
+
 class Sheet:
     """The rules of all style sheets of a file, matched against its elements.
 
@@ -61,12 +115,16 @@ class Sheet:
         self._matcher = cssselect2.Matcher()
         self._wrappers: dict[Any, Any] | None = None
         self._root = root
+        self._steps = _Steps()
         self.empty = True
         self._namespaces: dict[str | None, str] = {}
         for text in texts:
             self._add(text, report)
 
     def _add(self, text: str, report: Report) -> None:
+        if too_nested(text):
+            report("bad-css", "a style sheet with too many brackets in brackets is left out")
+            return
         rules = tinycss2.parse_stylesheet(text, skip_comments=True, skip_whitespace=True)
         pending = list(reversed(rules))
         while pending:
@@ -107,7 +165,8 @@ class Sheet:
             return
         try:
             selectors = cssselect2.compile_selector_list(rule.prelude, namespaces=self._namespaces)
-        except (cssselect2.SelectorError, NotImplementedError):
+        except (cssselect2.SelectorError, NotImplementedError, SyntaxError, RecursionError, MemoryError, ValueError):
+            # cssselect2 writes a Python expression for each selector; a long one is too much for the compiler
             report("css-skipped", f"the selector {tinycss2.serialize(rule.prelude).strip()!r} is not understood")
             return
         for selector in selectors:
@@ -118,8 +177,15 @@ class Sheet:
     def declarations(self, element: Any) -> list[tuple[str, Any, bool]]:
         """Give the declarations that match, the weaker before the stronger."""
         if self._wrappers is None:
-            wrapped = cssselect2.ElementWrapper.from_xml_root(self._root)
-            self._wrappers = {wrapper.etree_element: wrapper for wrapper in wrapped.iter_subtree()}
+            whole = _Element.from_xml_root(self._root)
+            whole.steps = self._steps
+            self._wrappers = {wrapper.etree_element: wrapper for wrapper in whole.iter_subtree()}
         wrapper = self._wrappers.get(element)
-        matches = self._matcher.match(wrapper) if wrapper is not None else []
+        if wrapper is None:
+            return []
+        matcher = self._matcher
+        named = matcher.lower_local_name_selectors.get(wrapper.local_name.lower(), ())
+        classes = sum(len(matcher.class_selectors.get(name, ())) for name in wrapper.classes)
+        self._steps.take(len(matcher.other_selectors) + len(named) + classes)
+        matches = matcher.match(wrapper)
         return [declaration for _, _, _, declarations in matches for declaration in declarations]

@@ -16,7 +16,7 @@ import tinycss2
 import tinycss2.color4
 
 from importers.svg.transforms import parse_transform_attribute, parse_transform_property
-from importers.svg.units import ROOT_FONT, Font, Terms, parse_length, to_px
+from importers.svg.units import ROOT_FONT, Font, Terms, parse_length, to_px, too_nested
 
 # Where a declaration stands: browsers read an attribute, a ``style`` attribute and a style sheet each a little
 # differently (numbers without units).
@@ -247,23 +247,63 @@ _LAZY = frozenset(("x", "y", "cx", "cy", "r", "rx", "ry", "width", "height", "d"
 PRESENTATION = PROPERTIES - _LAZY - {"line-height", "translate", "rotate", "scale"}
 
 
-@lru_cache(maxsize=8192)
 def parse_declaration(name: str, text: str, origin: Origin) -> Any:
     """Give the parsed value of a declaration, None when it is invalid (and so is as if it were not there)."""
+    return _parse_short(name, text, origin) if len(text) < _SHORT else _parse(name, text, origin)
+
+
+_SHORT = 500  # characters of a value that is worth keeping
+
+
+@lru_cache(maxsize=8192)
+def _parse_short(name: str, text: str, origin: Origin) -> Any:
+    return _parse(name, text, origin)
+
+
+def _parse(name: str, text: str, origin: Origin) -> Any:
+    if too_nested(text):
+        return None
     wide = _WIDE.get(text.strip().lower())
     if wide is not None:
         return (INHERIT if name in _INHERITED else INITIAL) if wide == "unset" else wide
     return _PARSERS[name](text, origin)
 
 
-@lru_cache(maxsize=4096)
-def parse_inline(text: str) -> tuple[tuple[str, Any, bool], ...]:
-    """Read a ``style`` attribute to (property, value, important), invalid and unknown ones left out."""
+def parse_inline(text: str) -> list[tuple[str, Any, bool]] | None:
+    """Read a plain ``style`` attribute to (property, value, important), invalid and unknown ones left out.
+
+    None when it is not plain: escapes, comments, blocks, or a semicolon within quotes or brackets. Those need
+    tinycss2 (:func:`parse_any_inline`), which is a hundred times slower.
+    """
+    if "\\" in text or "/*" in text or "{" in text or "[" in text:
+        return None
+    found = []
+    for piece in text.split(";"):
+        if piece.count("(") != piece.count(")") or piece.count("'") % 2 or piece.count('"') % 2:
+            return None
+        name, colon, value = piece.partition(":")
+        name = name.strip().lower()
+        if name == "font" and colon:
+            return None
+        if not colon or name not in _PARSERS:
+            continue
+        plain, mark, word = value.rpartition("!")
+        important = bool(mark) and word.strip().lower() == "important"
+        parsed = parse_declaration(name, plain if important else value, "inline")
+        if parsed is not None:
+            found.append((name, parsed, important))
+    return found
+
+
+def parse_any_inline(text: str) -> list[tuple[str, Any, bool]]:
+    """Read any ``style`` attribute to (property, value, important), invalid and unknown ones left out."""
+    if too_nested(text):
+        return []
     found = []
     for declaration in tinycss2.parse_blocks_contents(text, skip_comments=True, skip_whitespace=True):
         if declaration.type == "declaration":
-            found.extend(known_declarations(declaration, "inline"))
-    return tuple(found)
+            found += known_declarations(declaration, "inline")
+    return found
 
 
 def known_declarations(declaration: Any, origin: Origin) -> list[tuple[str, Any, bool]]:

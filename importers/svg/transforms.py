@@ -9,10 +9,12 @@ from typing import Any
 
 import tinycss2
 
+from importers.limits import limit_error
 from importers.svg.matrix import IDENTITY, Matrix, multiply, rotation, translation
 from importers.svg.path_data import COMMA, NUMBER
 from importers.svg.units import Font, Terms, parse_length, to_px
 
+MAX_FUNCTIONS = 10_000
 _FUNCTION = re.compile(r"[ \t\r\n\f]*(matrix|translate|scale|rotate|skewX|skewY)[ \t\r\n\f]*\(([^()]*)\)[ \t\r\n\f]*")
 _COUNTS = {"matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3), "skewX": (1,), "skewY": (1,)}
 
@@ -23,6 +25,8 @@ Functions = tuple[tuple[str, tuple[Any, ...]], ...]
 @lru_cache(maxsize=4096)
 def parse_transform_attribute(text: str) -> Matrix | None:
     """Read a ``transform`` attribute; None when any of it is wrong (browsers then use none of it)."""
+    if text.count("(") > MAX_FUNCTIONS:
+        raise limit_error("functions of a transform", f"{MAX_FUNCTIONS:,}")
     matrix, position = IDENTITY, 0
     if text.strip() in ("", "none"):
         return IDENTITY

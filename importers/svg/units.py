@@ -48,6 +48,9 @@ UNITS = frozenset(_PX) | frozenset(_WINDOW_UNITS) | _FONT_UNITS | {"%"}
 # Proportions of DejaVu Sans, the font of a browser on a bare machine, whatever a file asks for
 _FONT = {"em": 1.0, "ic": 1.0, "ex": 0.547, "ch": 0.63623, "cap": 0.7322}
 
+_MOST_BRACKETS = 50
+_BRACKET = re.compile(r"[()\[\]{}]")
+
 _SIMPLE = re.compile(r"\s*([-+]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)([a-zA-Z]+|%)?\s*", re.ASCII)
 
 
@@ -90,11 +93,24 @@ def parse_length(text: str, unitless: bool = True) -> Terms | None:
     """
     match = _SIMPLE.fullmatch(text)
     if match is None:
-        return _parse_calc(text, unitless) if "(" in text else None
+        return _parse_calc(text, unitless) if "(" in text and not too_nested(text) else None
     value, unit = float(match[1]), (match[2] or "").lower()
     if unit not in UNITS or not math.isfinite(value) or (not unit and not unitless and value != 0):
         return None
     return ((value, unit),)
+
+
+def too_nested(text: str) -> bool:
+    """Tell whether CSS has more brackets in brackets than anyone writes; its parser works by recursion."""
+    if text.count("(") + text.count("[") + text.count("{") <= _MOST_BRACKETS:
+        return False
+    depth = 0
+    for bracket in _BRACKET.finditer(text):
+        depth += 1 if bracket[0] in "([{" else -1
+        if depth > _MOST_BRACKETS:
+            return True
+        depth = max(depth, 0)
+    return False
 
 
 def to_px(terms: Terms, percent_of: float, font: Font) -> float:

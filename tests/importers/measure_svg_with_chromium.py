@@ -32,7 +32,7 @@ function unfold(root) {
       if (!['x', 'y', 'width', 'height', 'href', 'xlink:href'].includes(a.name)) outer.setAttribute(a.name, a.value);
     const [x, y] = [use.x.animVal.value, use.y.animVal.value];
     use.replaceWith(outer);
-    if (!target || target.contains(outer) || ['clipPath', 'mask', 'pattern', 'marker'].includes(target.localName)) continue;
+    if (!target || target.contains(outer) || /^(clipPath|mask|pattern|marker)$/.test(target.localName)) continue;
     const inner = document.createElementNS(NS, 'g');
     inner.setAttribute('transform', `translate(${x},${y})`);
     let copy = target.cloneNode(true);

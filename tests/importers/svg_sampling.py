@@ -21,9 +21,7 @@ def points_along(segments, steps=256):
         else:
             control = [start, *(complex(x, y) for x, y in zip(numbers[0::2], numbers[1::2], strict=True))]
             degree = len(control) - 1
-            points.append(
-                sum(math.comb(degree, i) * t**i * (1 - t) ** (degree - i) * p for i, p in enumerate(control))
-            )
+            points.append(sum(math.comb(degree, i) * t**i * (1 - t) ** (degree - i) * p for i, p in enumerate(control)))
         start = end
     whole = np.concatenate(points)
     return np.stack([whole.real, whole.imag], axis=1)
