@@ -126,8 +126,9 @@ def roomiest(walls: Walls) -> Spot | None:
     """Find the place inside the walls that is farthest from all of them, to 1 % of the distance or better.
 
     Inside is every bounded face that the walls make; where there are open walls, which may nearly close a room,
-    also what remains of the box around them. The search is shapely's ``maximum_inscribed_circle`` (GEOS, after
-    Mapbox's polylabel) on the largest faces.
+    also what remains of the box around them. Faces of less than half the largest one's area do not count: a room
+    with a wide pillar is meant, not the pillar. The search is shapely's ``maximum_inscribed_circle`` (GEOS, after
+    Mapbox's polylabel).
 
     Returns:
         The spot, or None where no face has room.
@@ -144,11 +145,14 @@ def roomiest(walls: Walls) -> Spot | None:
     if not walls.closed.all():
         around = shapely.difference(shapely.envelope(noded), shapely.union_all(faces))
         faces += list(shapely.get_parts(around))
+    faces = [face for face in faces if face.geom_type == "Polygon"]
     faces.sort(key=shapely.area, reverse=True)
+    if any(sides == "both" for sides in walls.sides):
+        faces = [face for face in faces if face.area >= 0.5 * faces[0].area]
     best: Spot | None = None
     for face in faces[:_FACES]:
         # A circle in a face of area A has at most the radius sqrt(A / pi): smaller faces cannot win any more.
-        if face.geom_type != "Polygon" or (best and math.sqrt(face.area / math.pi) <= best.room):
+        if best and math.sqrt(face.area / math.pi) <= best.room:
             continue
         spot = _spot(face, noded)
         if spot and (best is None or spot.room > best.room) and not _in_material(walls, rings, spot):

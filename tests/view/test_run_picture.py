@@ -125,3 +125,11 @@ def test_a_faint_disc_partly_outside_is_no_error():
         [Disc("ghost", -3, 5, 8, 3, opacity=0.5), Disc("ghost", 50, 50, 8, 3, opacity=0.5)]
     )
     assert Canvas(10, 10).to_svg().startswith("<svg")
+
+
+def test_more_balls_than_are_drawn_still_make_a_picture():
+    walls = wallkit.Walls.from_polylines([[(0, 0), (10, 0), (10, 7), (0, 7)]])
+    count = 450
+    balls = wallkit.Balls(np.full((count, 2), 3.0), np.ones((count, 2)), np.linspace(0.1, 0.5, count))
+    run = wallkit.simulate(wallkit.Scene(walls, balls), bounces=1)
+    assert len(by_class(run_svg(run), "ball")) == 400

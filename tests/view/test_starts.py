@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+import shapely
 
 from importers.drawing import Drawing, DrawnPath, Subpath
 from wallkit import SceneError, Walls
@@ -67,23 +68,25 @@ def ring(x0, y0, x1, y1, way=1):
 
 
 @pytest.mark.parametrize(
-    ("walls", "place", "room"),
+    ("walls", "room"),
     [
-        (Walls.from_polylines([ring(0, 0, 100, 100)]), (50, 50), 50),
-        # beside an obstacle in the right half
-        (Walls.from_polylines([ring(0, 0, 200, 100), ring(100, 0, 199, 99)]), (50, 50), 50),
+        (Walls.from_polylines([ring(0, 0, 100, 100)]), 50),
+        # the left half; in the right one is an obstacle that leaves next to nothing
+        (Walls.from_polylines([ring(0, 0, 200, 100), ring(100, 0, 199, 99)]), 50),
+        # not in the pillar, though it has more room: in a corner, sqrt(2) (80 - c) = c from the pillar's
+        (Walls.from_polylines([ring(0, 0, 300, 300), ring(80, 80, 220, 220)]), 80 * 2**0.5 / (1 + 2**0.5)),
         # an open wall counts: a partition
-        (Walls.from_polylines([ring(0, 0, 300, 100), [(100, 0), (100, 100)]], closed=[True, False]), (200, 50), 50),
+        (Walls.from_polylines([ring(0, 0, 200, 90), [(110, 0), (110, 90)]], closed=[True, False]), 45),
         # nothing but an open wall, nearly a room
-        (Walls.from_polylines([[(0, 0), (100, 0), (100, 100), (0, 100), (0, 1)]], closed=False), (50, 50), 50),
+        (Walls.from_polylines([[(0, 0), (100, 0), (100, 100), (0, 100), (0, 1)]], closed=False), 50),
     ],
-    ids=["box", "beside an obstacle", "partition", "leaky"],
+    ids=["box", "beside an obstacle", "pillar", "partition", "leaky"],
 )
-def test_the_roomiest_spot(walls, place, room):
+def test_the_roomiest_spot_is_as_far_from_all_walls_as_it_says(walls, room):
     spot = roomiest(walls)
     assert spot.room == pytest.approx(room, rel=0.02)
-    assert place[0] - 50 <= spot.x <= place[0] + 60
-    assert spot.y == pytest.approx(place[1], abs=2)
+    lines = [shapely.LineString([*w.vertices, w.vertices[0]] if w.closed else w.vertices) for w in walls]
+    assert shapely.MultiLineString(lines).distance(shapely.Point(spot.x, spot.y)) == pytest.approx(room, rel=0.02)
 
 
 def test_no_ball_starts_inside_what_is_solid_from_outside():

@@ -24,7 +24,7 @@ from wallkit.view.picture import draw_walls, finish, round_length, started
 from wallkit.view.raster import Raster
 from wallkit.view.run_picture import scene_box
 from wallkit.view.theme import RAMP_STEPS, Theme
-from wallkit.view.tracks import ball_arrays
+from wallkit.view.tracks import arrays_of
 
 if TYPE_CHECKING:
     from wallkit.run import Run
@@ -77,7 +77,7 @@ class _Frames:
         self.run, self.fps, self.theme, self.progress = run, fps, theme, progress
         box, up = scene_box(run.scene), run.scene.walls.y_axis == "up"
         canvas, self.frame = started(box, up, title="", width=_WIDTH)
-        start, _, radius = ball_arrays(run)
+        start, _, radius = arrays_of(run.scene.balls)
         draw_walls(canvas, run.scene.walls, self.frame, normals=False, free=start)
         finish(canvas, self.frame, run.scene.walls.units)
         self.width, self.height = canvas.width, 2.0 * math.ceil(canvas.height / 2)  # H.264 wants even numbers
@@ -155,7 +155,7 @@ def _trail(points: deque[tuple[float, float, float]], time: float, since: float,
 
 
 def _speedup(run: Run, frame: Frame) -> float:
-    _, velocity, _ = ball_arrays(run)
+    _, velocity, _ = arrays_of(run.scene.balls)
     speeds = np.hypot(run.contacts["vx"], run.contacts["vy"]) if len(run.contacts) else np.hypot(*velocity.T)
     moving = speeds[speeds > 0]
     if not len(moving):

@@ -25,7 +25,7 @@ from wallkit.view.picture import (
     started,
 )
 from wallkit.view.theme import RAMP_STEPS
-from wallkit.view.tracks import Tracks, tracks
+from wallkit.view.tracks import Tracks, arrays_of, tracks
 
 if TYPE_CHECKING:
     from wallkit.run import Run
@@ -110,7 +110,7 @@ def scene_svg(scene: Scene, *, title: str = "", width: float = WIDTH) -> str:
 
 
 def _scene_base(scene: Scene, title: str, width: float) -> tuple[Canvas, Frame]:
-    position = np.asarray(scene.balls.position, dtype=np.float64).reshape(-1, 2)
+    position, _, _ = arrays_of(scene.balls)
     canvas, frame = started(scene_box(scene), scene.walls.y_axis == "up", title=title, width=width)
     draw_walls(canvas, scene.walls, frame, free=position)
     return canvas, frame
@@ -118,8 +118,7 @@ def _scene_base(scene: Scene, title: str, width: float) -> tuple[Canvas, Frame]:
 
 def scene_box(scene: Scene) -> Box:
     """Give the box around a scene's walls and balls."""
-    position = np.asarray(scene.balls.position, dtype=np.float64).reshape(-1, 2)
-    radius = np.broadcast_to(np.asarray(scene.balls.radius, dtype=np.float64), len(position))
+    position, _, radius = arrays_of(scene.balls)
     boxes: list[Box] = [walls_box(scene.walls)] if len(scene.walls) else []
     if len(position):
         low, high = (position - radius[:, None]).min(axis=0), (position + radius[:, None]).max(axis=0)
@@ -203,9 +202,7 @@ def _draw_ghosts(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: 
 
 
 def _draw_starts(canvas: Canvas, scene: Scene, frame: Frame) -> None:
-    position = np.asarray(scene.balls.position, dtype=np.float64).reshape(-1, 2)[:MAX_GHOSTS]
-    velocity = np.asarray(scene.balls.velocity, dtype=np.float64).reshape(-1, 2)[:MAX_GHOSTS]
-    radius = np.broadcast_to(np.asarray(scene.balls.radius, dtype=np.float64), len(position))
+    position, velocity, radius = (array[:MAX_GHOSTS] for array in arrays_of(scene.balls))
     for (x, y), v, r in zip(frame.points(position), velocity, radius.tolist(), strict=True):
         arrow = v * np.array([1.0, -1.0 if frame.up else 1.0]) * frame.scale * _ARROW
         length = float(np.hypot(*arrow))

@@ -12,6 +12,7 @@ from wallkit.run import Ending
 
 if TYPE_CHECKING:
     from wallkit.run import Run
+    from wallkit.scene import Balls
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -63,7 +64,7 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
         limit: the most stretches wanted; each ball then keeps its first ones, the same number each at most, and
             the balls beyond the limit keep none.
     """
-    start, velocity, radius = ball_arrays(run)
+    start, velocity, radius = arrays_of(run.scene.balls)
     count = len(start)
     contacts = run.contacts
     order = np.argsort(contacts["ball"], kind="stable")  # contacts come in time order, at least ball by ball
@@ -112,12 +113,11 @@ def _fair(counts: IntArray, limit: int) -> IntArray:
     return np.minimum(counts, low)
 
 
-def ball_arrays(run: Run) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Give start (n, 2), velocity (n, 2) and radius (n,) of a run's balls as arrays."""
-    balls = run.scene.balls
-    start = np.asarray(balls.position, dtype=np.float64).reshape(-1, 2)
+def arrays_of(balls: Balls) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Give position (n, 2), velocity (n, 2) and radius (n,) of balls as arrays."""
+    position = np.asarray(balls.position, dtype=np.float64).reshape(-1, 2)
     velocity = np.asarray(balls.velocity, dtype=np.float64).reshape(-1, 2)
-    return start, velocity, np.broadcast_to(np.asarray(balls.radius, dtype=np.float64), len(start))
+    return position, velocity, np.broadcast_to(np.asarray(balls.radius, dtype=np.float64), len(position))
 
 
 def _ends(run: Run) -> tuple[FloatArray, FloatArray]:
