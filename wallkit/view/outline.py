@@ -13,6 +13,7 @@ from wallkit.view.frame import Frame
 from wallkit.walls import Material, Walls
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 
 def wall_path(walls: Walls, index: int, frame: Frame) -> list[Command]:
@@ -90,10 +91,16 @@ def _areas_by_material(walls: Walls, turned: bool) -> list[tuple[Material, list[
     if turned:  # each outermost room is cut out of the frame; they share the first one's material
         rooms = [index for index in rings if depth[index] == 0]
         areas.append((walls.materials[rooms[0]], rooms, True))
+    # One step deeper than a ring, by depth, so that its holes are found by one look each: (walls, first vertices).
+    deeper: dict[int, tuple[IntArray, FloatArray]] = {}
+    for level in np.unique(depth).tolist():
+        members = np.flatnonzero((depth == level) & walls.closed)
+        deeper[level - 1] = members, walls.vertices[walls.offsets[members]]
     for index, ring in rings.items():
-        if depth[index] % 2 == int(turned):
-            inner = [other for other in rings if depth[other] == depth[index] + 1]
-            holes = [other for other in inner if contains(ring, rings[other][:1])[0]]
+        level = int(depth[index])
+        if level % 2 == int(turned):
+            members, first = deeper.get(level, (np.empty(0, dtype=np.int64), np.empty((0, 2))))
+            holes = members[contains(ring, first)].tolist() if len(members) else []
             areas.append((walls.materials[index], [index, *holes], False))
     return areas
 

@@ -103,22 +103,28 @@ class Raster:
 
     def _fill(self, lines: list[FloatArray], fill: str) -> None:
         """Fill even-odd: along each row of pixels the inside begins and ends where an edge crosses its middle."""
-        width, height = self.image.size
+        if not lines:
+            return
+        a = np.concatenate(lines)
+        b = np.concatenate([np.roll(line, -1, axis=0) for line in lines])
+        left, top = np.clip(np.floor(a.min(axis=0)), 0, self.image.size).astype(int).tolist()
+        right, bottom = np.clip(np.ceil(a.max(axis=0)), 0, self.image.size).astype(int).tolist()
+        width, height = right - left, bottom - top
+        if width <= 0 or height <= 0:
+            return
+        a, b = a - (left, top), b - (left, top)
+        down = (a[:, 1] < b[:, 1])[:, None]
+        low, high = np.where(down, a, b), np.where(down, b, a)
+        first = np.clip(np.ceil(low[:, 1] - 0.5), 0, height).astype(np.int64)
+        count = np.maximum(0, np.clip(np.ceil(high[:, 1] - 0.5), 0, height).astype(np.int64) - first)
+        edge = np.repeat(np.arange(len(a)), count)
+        row = first[edge] + np.arange(len(edge)) - np.repeat(np.cumsum(count) - count, count)
+        part = (row + 0.5 - low[edge, 1]) / (high - low)[edge, 1]
+        x = low[edge, 0] + part * (high - low)[edge, 0]
         flips = np.zeros((height, width + 1), dtype=np.uint8)
-        for line in lines:
-            a, b = line, np.roll(line, -1, axis=0)
-            low, high = np.where((a[:, 1] < b[:, 1])[:, None, None], np.stack([a, b], 1), np.stack([b, a], 1)).swapaxes(
-                0, 1
-            )
-            first = np.clip(np.ceil(low[:, 1] - 0.5), 0, height).astype(np.int64)
-            count = np.maximum(0, np.clip(np.ceil(high[:, 1] - 0.5), 0, height).astype(np.int64) - first)
-            edge = np.repeat(np.arange(len(a)), count)
-            row = first[edge] + np.arange(len(edge)) - np.repeat(np.cumsum(count) - count, count)
-            part = (row + 0.5 - low[edge, 1]) / (high - low)[edge, 1]
-            x = low[edge, 0] + part * (high - low)[edge, 0]
-            np.bitwise_xor.at(flips, (row, np.clip(np.ceil(x - 0.5), 0, width).astype(np.int64)), 1)
+        np.bitwise_xor.at(flips, (row, np.clip(np.ceil(x - 0.5), 0, width).astype(np.int64)), 1)
         inside = np.bitwise_xor.accumulate(flips[:, :width], axis=1)
-        self.image.paste(fill, (0, 0), Image.fromarray(inside * np.uint8(255)))
+        self.image.paste(fill, (left, top), Image.fromarray(inside * np.uint8(255)))
 
     def _disc(self, disc: Disc) -> None:
         style = STYLES[disc.style]
