@@ -28,12 +28,14 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.jit import kernel
+from wallkit.kernels.jit import compiled
+from wallkit.kernels.tangent import carry, stretch
 from wallkit.scene import Scene
 
 FloatArray = NDArray[np.float64]
 Source = Literal["rounding", "drawing"]
 ROUNDING = 2.0**-53
+COMPILED_FROM = 50_000  # contacts
 SURE = 3.0  # promised is this many times the root mean square
 
 
@@ -117,7 +119,7 @@ def predicted_errors(
     size = math.hypot(high_x - low_x, high_y - low_y) / 2 or 1.0  # coordinates are kept from the middle
     fresh, rounding = _new_errors(scene, own, source, size)
     variance = np.full(len(own), np.inf)
-    _carry(*_course(scene, own, ball), fresh, np.array([rounding * size, rounding]), variance)
+    _kernel(carry, len(own))(*_course(scene, own, ball), fresh, np.array([rounding * size, rounding]), variance)
     rms = np.sqrt(variance)
     return rms, SURE * rms
 
@@ -135,8 +137,13 @@ def growth(scene: Scene, own: Any, ball: int = 0) -> FloatArray:
         speeds in the drawing's units.
     """
     logs = np.zeros(len(own))
-    _stretch(*_course(scene, own, ball), np.array([0.6, 0.3, 0.2, 0.7]), logs)
+    _kernel(stretch, len(own))(*_course(scene, own, ball), np.array([0.6, 0.3, 0.2, 0.7]), logs)
     return logs
+
+
+def _kernel(function: Any, contacts: int) -> Any:
+    """Interpret some 20 microseconds a contact, or compile (seconds, once) where that would take longer."""
+    return compiled(function) if contacts > COMPILED_FROM else function
 
 
 def _course(scene: Scene, own: Any, ball: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
@@ -200,155 +207,6 @@ def circles(a: FloatArray, b: FloatArray, bulge: FloatArray) -> tuple[FloatArray
 def _radius(scene: Scene, ball: int) -> float:
     radii = np.asarray(scene.balls.radius, dtype=np.float64)
     return float(radii if radii.ndim == 0 else radii[ball])
-
-
-@kernel
-def _derivative(
-    vx: float, vy: float, ux: float, uy: float, nx: float, ny: float, keep: Any, bend: float, g: Any
-) -> Any:
-    """Give the derivative of one bounce, as rows of 2 x 2 blocks; see the top of this module for the equations.
-
-    Args:
-        vx: velocity before, with vy; u is the velocity after, n the normal, v.n < 0.
-        vy: see vx.
-        ux: see vx.
-        uy: see vx.
-        nx: see vx.
-        ny: see vx.
-        keep: (T, R), tangential and normal restitution.
-        bend: curvature k.
-        g: (gx, gy).
-
-    Returns:
-        S = d(place along the wall)/dx, A = dx'/dx, B = dv'/dx, M = dv'/dv.
-    """
-    across = vx * nx + vy * ny
-    tx, ty = -nx / across, -ny / across  # dt/dx
-    s11, s12, s21, s22 = 1 + vx * tx, vx * ty, vy * tx, 1 + vy * ty
-    wx, wy = vx - ux, vy - uy
-    both = keep[0] + keep[1]
-    m11, m12, m22 = keep[0] - both * nx * nx, -both * nx * ny, keep[0] - both * ny * ny
-    jx, jy = (m11 - 1) * g[0] + m12 * g[1], m12 * g[0] + (m22 - 1) * g[1]
-    rx, ry = vx * s11 + vy * s21, vx * s12 + vy * s22
-    k = both * bend
-    return (
-        (s11, s12, s21, s22),
-        (1 + wx * tx, wx * ty, wy * tx, 1 + wy * ty),
-        (
-            jx * tx - k * (nx * rx + across * s11),
-            jx * ty - k * (nx * ry + across * s12),
-            jy * tx - k * (ny * rx + across * s21),
-            jy * ty - k * (ny * ry + across * s22),
-        ),
-        (m11, m12, m12, m22),
-    )
-
-
-@kernel
-def _times(m: Any, n: Any) -> Any:
-    """Multiply two 2 x 2 matrices, given by rows."""
-    return (
-        m[0] * n[0] + m[1] * n[2],
-        m[0] * n[1] + m[1] * n[3],
-        m[2] * n[0] + m[3] * n[2],
-        m[2] * n[1] + m[3] * n[3],
-    )
-
-
-@kernel
-def _times_turned(m: Any, n: Any) -> Any:
-    """Multiply a 2 x 2 matrix with another's transpose, m n^T."""
-    return _times(m, (n[0], n[2], n[1], n[3]))
-
-
-@kernel
-def _plus(m: Any, n: Any) -> Any:
-    return m[0] + n[0], m[1] + n[1], m[2] + n[2], m[3] + n[3]
-
-
-@kernel
-def _carry(start: Any, path: Any, bend: Any, keep: Any, g: Any, fresh: Any, blur: Any, variance: Any) -> None:
-    """Fill ``variance`` with that of the place of each contact.
-
-    Args:
-        start: (2,) velocity at time 0.
-        path: (n, 5) time, velocity after, normal of each contact.
-        bend: (n,) curvature.
-        keep: (n, 2) tangential and normal restitution.
-        g: (2,) gravity.
-        fresh: (n, 2) displacement and turn of the wall, new at each contact.
-        blur: (2,) rounding of the place, and of the velocity relative to the speed.
-        variance: (n,), filled; left as it is after the first that exceeds 1e300.
-    """
-    ux, uy = start[0], start[1]
-    # covariances of position, of position with velocity, of velocity; the start is exact: it is what was asked for
-    xx = xv = vv = (0.0, 0.0, 0.0, 0.0)
-    now = 0.0
-    for i in range(len(path)):
-        t = path[i, 0] - now
-        now = path[i, 0]
-        both = _plus(xv, (xv[0], xv[2], xv[1], xv[3]))
-        xx = _plus(
-            xx,
-            (
-                t * (both[0] + t * vv[0]),
-                t * (both[1] + t * vv[1]),
-                t * (both[2] + t * vv[2]),
-                t * (both[3] + t * vv[3]),
-            ),
-        )
-        xv = _plus(xv, (t * vv[0], t * vv[1], t * vv[2], t * vv[3]))
-        vx, vy = ux + g[0] * t, uy + g[1] * t
-        ux, uy, nx, ny = path[i, 1], path[i, 2], path[i, 3], path[i, 4]
-        across = vx * nx + vy * ny
-        if not across < 0:
-            break  # not a bounce that a neighbour shares (it began or slid in contact)
-        S, A, B, M = _derivative(vx, vy, ux, uy, nx, ny, (keep[i, 0], keep[i, 1]), bend[i], (g[0], g[1]))
-        place = _times_turned(_times(S, xx), S)
-        variance[i] = place[0] + place[3] + 2 * blur[0] * blur[0]
-        if not variance[i] < 1e300:
-            break
-        back = (xv[0], xv[2], xv[1], xv[3])
-        turned = _plus(_times(B, xx), _times(M, back))
-        vv = _plus(_times_turned(turned, B), _times_turned(_plus(_times(B, xv), _times(M, vv)), M))
-        xv = _plus(_times_turned(_times(A, xx), B), _times_turned(_times(A, xv), M))
-        xx = _times_turned(_times(A, xx), A)
-        # New here: the wall moved by `shift` along n moves the state by (v - v') shift / (v.n) ...
-        shift, turn = fresh[i, 0] / across, fresh[i, 1] * (keep[i, 0] + keep[i, 1])
-        p, q = (vx - ux) * shift, (vy - uy) * shift
-        rounded = blur[0] * blur[0]
-        xx = _plus(xx, (p * p + rounded, p * q, p * q, q * q + rounded))
-        # ... its normal turned by `turn` turns v', with dn = (ny, -nx) turn; and the state is rounded
-        slip = vx * ny - vy * nx
-        p, q = turn * (nx * slip + across * ny), turn * (ny * slip - across * nx)
-        rounded = blur[1] * blur[1] * (ux * ux + uy * uy)
-        vv = _plus(vv, (p * p + rounded, p * q, p * q, q * q + rounded))
-
-
-@kernel
-def _stretch(start: Any, path: Any, bend: Any, keep: Any, g: Any, error: Any, logs: Any) -> None:
-    """Carry one small error (dx, dv) along and fill ``logs`` with the logarithm of its growth at each bounce."""
-    ux, uy = start[0], start[1]
-    x, y, vx_, vy_ = error[0], error[1], error[2], error[3]
-    now = 0.0
-    for i in range(len(path)):
-        t = path[i, 0] - now
-        now = path[i, 0]
-        x, y = x + vx_ * t, y + vy_ * t
-        vx, vy = ux + g[0] * t, uy + g[1] * t
-        ux, uy = path[i, 1], path[i, 2]
-        _, A, B, M = _derivative(
-            vx, vy, ux, uy, path[i, 3], path[i, 4], (keep[i, 0], keep[i, 1]), bend[i], (g[0], g[1])
-        )
-        vx_, vy_, x, y = (
-            B[0] * x + B[1] * y + M[0] * vx_ + M[1] * vy_,
-            B[2] * x + B[3] * y + M[2] * vx_ + M[3] * vy_,
-            A[0] * x + A[1] * y,
-            A[2] * x + A[3] * y,
-        )
-        size = math.sqrt(x * x + y * y + vx_ * vx_ + vy_ * vy_)
-        logs[i] = math.log(size)
-        x, y, vx_, vy_ = x / size, y / size, vx_ / size, vy_ / size
 
 
 def _first_doubt(scene: Scene, own: Any, ball: int, worst: FloatArray) -> tuple[int, str]:

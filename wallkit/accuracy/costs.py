@@ -1,0 +1,100 @@
+"""What each modelled thing costs: time per bounce with nothing, and with one thing more."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from wallkit.accuracy import scenes
+from wallkit.scene import Balls, Scene, SceneError
+from wallkit.walls import Material, Walls
+
+SPEED = 50.0
+_AIM = (SPEED * math.cos(0.5), SPEED * math.sin(0.5))
+
+
+@dataclass(frozen=True, slots=True)
+class Cost:
+    """One row: what is modelled, the time a bounce takes, and the part more than without it (None: not built)."""
+
+    what: str
+    nanoseconds: float | None
+    more: float | None
+
+
+def _scene(walls: Walls, radius: float = 0.0, gravity: tuple[float, float] | None = None) -> Scene:
+    return Scene(walls, Balls([(3.0, -7.0)], [_AIM], radius), gravity=gravity)
+
+
+def _star(material: Material | None = None, bulge: float = 0.0) -> Walls:
+    walls = scenes.star()
+    bulges = [[bulge, *[0.0] * 9]] if bulge else None
+    return Walls.from_polylines([walls.vertices], bulges=bulges, material=material)
+
+
+def _surveyed(scene: Scene, bounces: int) -> int:
+    from wallkit.surveys import survey
+
+    return int(survey(scene, bounces=bounces, threads=1).bounces[0])
+
+
+def _simulated(scene: Scene, bounces: int) -> int:
+    from wallkit.simulation import simulate
+
+    return len(simulate(scene, bounces=bounces, mode="compiled").contacts)
+
+
+def _with_horizon(scene: Scene, bounces: int) -> int:
+    from wallkit.horizon import predicted_errors
+    from wallkit.simulation import simulate
+
+    contacts = simulate(scene, bounces=bounces, mode="compiled").contacts
+    predicted_errors(scene, contacts)
+    return len(contacts)
+
+
+_ROWS: list[tuple[str, Callable[[], Scene], Callable[[Scene, int], int], bool]] = [
+    # what, its scene, how it is flown, compared with: the row before (True) or the first (False)
+    ("nothing: a point among ten lines, totals only", lambda: _scene(_star()), _surveyed, False),
+    ("restitution, all 1 (absent)", lambda: _scene(_star(Material(1.0, 1.0))), _surveyed, False),
+    ("gravity of 0 (absent)", lambda: _scene(_star(), gravity=(0.0, 0.0)), _surveyed, False),
+    ("corners: a disc", lambda: _scene(_star(), 5.0), _surveyed, False),
+    ("arcs: one edge is one", lambda: _scene(_star(bulge=1e-3)), _surveyed, False),
+    ("restitution", lambda: _scene(_star(Material(1.0, 1.0 - 1e-9))), _surveyed, False),
+    ("gravity", lambda: _scene(_star(), gravity=(0.0, -1e-3)), _surveyed, False),
+    ("recording every contact", lambda: _scene(_star()), _simulated, False),
+    ("recording, and the horizon", lambda: _scene(_star()), _with_horizon, True),
+]
+
+
+def costs(bounces: int = 300_000, runs: int = 5) -> Iterator[Cost]:
+    """Measure every row; each time is the least of ``runs``, compiling not counted."""
+    first = before = math.nan
+    for what, make, fly, compared in _ROWS:
+        spent = _least(make, fly, bounces, runs)
+        base = before if compared else first
+        yield Cost(what, spent, None if spent is None or not np.isfinite(base) else spent / base - 1)
+        if spent is not None:
+            first = spent if math.isnan(first) else first
+            before = spent
+
+
+def _least(make: Callable[[], Scene], fly: Callable[[Scene, int], int], bounces: int, runs: int) -> float | None:
+    """Nanoseconds a bounce; None where the simulator does not know the thing."""
+    try:
+        scene = make()
+        fly(scene, 100)
+    except SceneError as error:
+        if error.code != "not-yet":
+            raise
+        return None
+    least = math.inf
+    for _ in range(runs):
+        begin = time.perf_counter()
+        made = fly(scene, bounces)
+        least = min(least, (time.perf_counter() - begin) / max(made, 1))
+    return 1e9 * least
