@@ -56,7 +56,7 @@ class Point:
         setting: with what, for people.
         value: the same as a number: a time step or a tolerance.
         error: distance from the reference after :data:`BOUNCES` bounces, in the scene's units.
-        seconds: wall time per simulated second.
+        seconds: of processor time per simulated second.
         wrong: the first bounce after which the ball is somewhere else, or None.
         drift: of the energy over the whole run, relative.
         escaped: the ball was outside of its room at some time.
@@ -238,14 +238,14 @@ def _room(walls: Walls) -> Any:
     room = walls[0]
     points: list[FloatArray] = []
     for k, (a, b) in enumerate(zip(room.vertices, np.roll(room.vertices, -1, axis=0), strict=True)):
-        points.extend(_along(a, b, float(room.bulges[k])))
+        points.extend(along(a, b, float(room.bulges[k])))
     low_x, low_y, high_x, high_y = walls.box()
     return Polygon(points).buffer(1e-3 * max(high_x - low_x, high_y - low_y))
 
 
-def _along(a: FloatArray, b: FloatArray, bulge: float, pieces: int = 128) -> FloatArray:
-    """Points of an edge from a to just before b: of an arc with bulge k, turned by parts of 4 atan(k)."""
-    if bulge == 0.0 or abs(bulge) < 1e-3:
+def along(a: FloatArray, b: FloatArray, bulge: float, pieces: int = 128) -> FloatArray:
+    """Give points of an edge from a to just before b: of an arc with bulge k, turned by parts of 4 atan(k)."""
+    if bulge == 0.0:
         return a[None]
     d = b - a
     centre = (a + b) / 2 + (1 - bulge**2) / (4 * bulge) * np.array([-d[1], d[0]])

@@ -1,0 +1,149 @@
+"""The report: its figures are those of the contestants, its files are whole, its errors are for people."""
+
+import json
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from wallkit import Balls, Scene, Walls
+from wallkit.accuracy import engines, scenes, tables
+from wallkit.accuracy.cases import Case, Outcome
+from wallkit.accuracy.contest import Contest, Effort, Point, Subject, contest
+from wallkit.accuracy.own import flattened, of_scene
+from wallkit.accuracy.report import Report, machine
+from wallkit.cli.app import _register_commands, app
+from wallkit.view.report_page import report_html
+from wallkit.view.work_precision import work_precision_svg
+
+SMALL = Effort(bounces=8, runs=1, steps=(1 / 30,), tolerances=(1e-3,))
+
+
+@pytest.fixture(scope="module")
+def box():
+    return contest(Subject.of(scenes.built_in()[0]), SMALL)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _commands():
+    if not app.registered_commands:
+        _register_commands()
+
+
+def test_the_exact_ways_are_exact_and_the_others_are_not(box):
+    by_series = {name: points[0] for name, points in box.series().items()}
+    # five bounces of coordinates up to 400 at 50 units/s, a rounding or two each
+    assert by_series["exact, lines"].error < 1e-12
+    assert by_series["step, exact"].error < 1e-12
+    for way in ("stop", "full-step", "reflect-in-place"):
+        # each bounce is wrong by up to a frame's way, 50 / 30, and by some of it on average
+        assert 0.05 < by_series[f"step, {way}"].error < 5 * 2 * 50 / 30
+
+
+def test_an_engine_that_escapes_is_seen():
+    gone = engines.Contestant(
+        "gone", "", 0.0, lambda times, _: engines.Flown(times[:, None] * [1e3, 0], np.ones(2), 1.0)
+    )
+    from wallkit.accuracy import contest as module
+
+    truth = Subject.of(scenes.built_in()[0]).truth(400.0)
+    times = np.arange(1.0, 8.0)
+    places = np.full((7, 2), 100.0)
+    point = module._judged(gone, gone.fly(times, 1), places, 400.0, module._room(truth.walls), truth)
+    assert point.escaped
+    assert point.wrong == 1
+    assert point.error == pytest.approx(np.hypot(4900.0, 100.0))
+
+
+def test_a_slow_contestant_stops_at_the_limit_of_steps():
+    scene = scenes.built_in()[0].scene()
+    flown = engines.stepped(scene, "exact", 1e-9).fly(np.array([1.0, 2.0]), 1)
+    assert len(flown.position) == 0
+    assert np.isnan(flown.seconds)
+
+
+def test_the_best_is_the_fastest_of_the_least_wrong():
+    points = [Point("s", str(k), 0.0, e, s, None, 0.0, False) for k, (e, s) in enumerate([(1, 1), (0.1, 5), (0.15, 2)])]
+    assert tables.best(points).setting == "2"
+
+
+def test_the_diagram_is_xml_with_a_panel_a_scene(box):
+    root = ElementTree.fromstring(work_precision_svg([box, box], "machine & versions"))
+    words = "".join(root.itertext())
+    assert words.count("nothing grows but the rounding") == 2
+    assert "machine & versions" in words
+
+
+def test_points_without_a_figure_are_left_out_of_the_diagram():
+    nan = float("nan")
+    found = Contest("x", "", 5, 1.0, 0.0, [Point("exact, lines", "", 0, nan, nan, None, 0, False)])
+    assert "nan" not in work_precision_svg([found])
+
+
+def test_the_page_loads_nothing(box):
+    page = report_html(Report(machine(), [box]))
+    assert "<script" not in page
+    assert "src=" not in page
+    assert "Every figure" in page
+
+
+def test_json_is_plain(box):
+    text = json.dumps(Report(machine(), [box]).to_json(), allow_nan=False)
+    assert json.loads(text)["scenes"][0]["points"][0]["series"] == "exact, lines"
+
+
+def test_flattening_keeps_the_tolerance():
+    walls = scenes.stadium()
+    lines = flattened(walls, 1e-3)
+    assert not lines.has_arcs
+    a, b = lines.vertices, np.roll(lines.vertices, -1, axis=0)
+    middle = (a + b) / 2
+    across = np.hypot(np.maximum(np.abs(middle[:, 0]) - 100.0, 0.0), middle[:, 1])
+    assert np.all(across <= 100.0 + 1e-12)
+    assert np.all(across >= 100.0 - 1e-3)
+    subject = of_scene("mine", Scene(scenes.box(), Balls([(1.0, 1.0)], [(1.0, 0.5)])))
+    assert subject.arcs is None
+    assert np.array_equal(subject.lines(1.0).walls.vertices, scenes.box().vertices)
+
+
+def test_an_open_wall_keeps_its_ends():
+    wall = Walls.from_polylines([[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]], closed=False, bulges=[[0.5, 0.0, 0.0]])
+    lines = flattened(wall, 1e-3)
+    assert lines.vertices[0].tolist() == [0.0, 0.0]
+    assert lines.vertices[-2:].tolist() == [[1.0, 0.0], [2.0, 0.0]]
+    assert not lines.closed[0]
+
+
+def test_the_command_writes_page_and_table(tmp_path):
+    target = tmp_path / "report.html"
+    result = CliRunner().invoke(app, ["report", "--quick", "--scene", "box", "-o", str(target), "--precision", "106"])
+    assert result.exit_code == 0, result.output
+    assert "exact, lines" in result.stdout
+    assert target.read_text().startswith("<!doctype html>")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--scene", "moon"], "no built-in scene 'moon'"),
+        (["-o", "report.pdf"], "cannot be written"),
+        (["--hard", "--scene", "box"], "takes no FILE"),
+        (["file.svg", "--scene", "box"], "built-in scene"),
+    ],
+)
+def test_wrong_use_is_told(arguments, words):
+    result = CliRunner().invoke(app, ["report", *arguments])
+    assert words in str(result.exception)
+
+
+def test_known_answers_are_shown_and_counted(monkeypatch):
+    outcomes = [Outcome("1", "1", 0.0, 0.0, ""), Outcome("1", "2", 1.0, 0.5, "")]
+    cases = [Case(f"case {k}", "group", "", False, lambda o=o: o) for k, o in enumerate(outcomes)]
+    monkeypatch.setattr("wallkit.accuracy.cases.all_cases", lambda: cases)
+    result = CliRunner().invoke(app, ["report", "--hard"])
+    assert result.exit_code == 1
+    assert "ok   case 0" in result.stdout
+    assert "FAIL case 1" in result.stdout
+    plain = json.loads(CliRunner().invoke(app, ["report", "--hard", "--json"]).stdout)
+    assert [row["holds"] for row in plain["cases"]] == [True, False]

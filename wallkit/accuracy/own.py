@@ -1,0 +1,55 @@
+"""A person's own walls or scene as a subject of the report: arcs are flattened here where lines are asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from wallkit.accuracy.contest import Subject, along
+from wallkit.accuracy.scenes import lines_for_turn
+from wallkit.horizon import circles
+from wallkit.scene import Scene
+from wallkit.walls import Walls
+
+
+def of_scene(name: str, scene: Scene) -> Subject:
+    """Take walls and balls as they are."""
+    arcs = (lambda _: scene) if scene.walls.has_arcs else None
+
+    def lines(tolerance: float) -> Scene:
+        return replace(scene, walls=flattened(scene.walls, tolerance))
+
+    return Subject(name, "a scene", lines, arcs, False)
+
+
+def flattened(walls: Walls, tolerance: float) -> Walls:
+    """Turn arcs into chords whose sagitta is at most ``tolerance``; everything else stays."""
+    if not walls.has_arcs:
+        return walls
+    polylines = []
+    for wall in walls:
+        ends = np.roll(wall.vertices, -1, axis=0)
+        edges = len(wall.vertices) if wall.closed else len(wall.vertices) - 1
+        points = []
+        for a, b, bulge in zip(wall.vertices[:edges], ends[:edges], wall.bulges[:edges], strict=True):
+            points.append(along(a, b, float(bulge), _chords(a, b, float(bulge), tolerance)))
+        if not wall.closed:
+            points.append(wall.vertices[-1:])
+        polylines.append(np.concatenate(points))
+    return Walls.from_polylines(
+        polylines,
+        walls.closed.tolist(),
+        sides=walls.sides,
+        material=walls.materials,
+        names=walls.names,
+        layers=walls.layers,
+    )
+
+
+def _chords(a: np.ndarray, b: np.ndarray, bulge: float, tolerance: float) -> int:
+    if bulge == 0.0:
+        return 1
+    _, radius = circles(a[None], b[None], np.array([bulge]))
+    return lines_for_turn(4 * abs(math.atan(bulge)), float(radius[0]), tolerance)

@@ -1,0 +1,196 @@
+"""`wallkit report`: speed against error, the horizon's table, what things cost; `--hard` the known answers."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from wallkit.accuracy.contest import Effort, Subject
+    from wallkit.accuracy.report import Report
+
+ENDINGS = (".svg", ".html", ".json")
+
+
+def register(app: typer.Typer) -> None:
+    """Attach the command."""
+    app.command("report")(report)
+
+
+def report(
+    file: Annotated[
+        str | None, typer.Argument(metavar="[FILE]", help="Drawing, walls or scene; without one the built-in scenes.")
+    ] = None,
+    out: Annotated[
+        list[str] | None,
+        typer.Option("-o", "--out", metavar="OUT", help=f"Picture, page or data: {' '.join(ENDINGS)}. Repeatable."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Write the figures as JSON on standard output.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Fewer scenes and settings: under 20 s.")] = False,
+    hard: Annotated[bool, typer.Option("--hard", help="Run the cases with known answers instead.")] = False,
+    scene: Annotated[
+        list[str] | None, typer.Option("--scene", metavar="NAME", help="Only this built-in scene. Repeatable.")
+    ] = None,
+    precision: Annotated[
+        int | None,
+        typer.Option(
+            metavar="BITS",
+            min=53,
+            max=100_000,
+            help="Bits of the reference, as 106 [default: as many as it takes].",
+        ),
+    ] = None,
+) -> None:
+    """Measure speed against error, here: the exact simulator, frame stepping, other engines if installed."""
+    _check(file, out or [], hard, scene)
+    if hard:
+        _hard(as_json, quick)
+        return
+    from wallkit.accuracy.report import measure
+
+    effort = _effort(quick, precision)
+    subjects = [_of_file(file)] if file else _built_in(scene, quick)
+    with progress() as told:
+        measured = measure(subjects, effort, tables=file is None and not scene, told=told)
+    for target in out or []:
+        _write(target, measured)
+    if as_json:
+        print(json.dumps(measured.to_json(), indent=1))
+    else:
+        from wallkit.cli.report_tables import lines
+
+        print("\n".join(lines(measured)))
+
+
+def _check(file: str | None, out: list[str], hard: bool, scene: list[str] | None) -> None:
+    from wallkit.cli.scene_input import UsageError
+
+    for target in out:
+        if Path(target).suffix.lower() not in ENDINGS:
+            raise UsageError(
+                "a report cannot be written like this",
+                code="unknown-ending",
+                fix=f"use an ending of these: {', '.join(ENDINGS)}",
+                file=target,
+            )
+    if hard and (file or out or scene):
+        raise UsageError("--hard runs the cases with known answers and takes no FILE, --scene or -o", code="usage")
+    if file and scene:
+        raise UsageError("--scene names a built-in scene, and FILE is another", code="usage", fix="give one of them")
+
+
+def _effort(quick: bool, precision: int | None) -> Effort:
+    from dataclasses import replace
+
+    from wallkit.accuracy.contest import QUICK, Effort
+
+    effort = QUICK if quick else Effort()
+    if precision is None:
+        return effort
+    return replace(effort, digits=max(16, round(precision * 0.30103)), fixed=True)
+
+
+def _built_in(names: list[str] | None, quick: bool) -> list[Subject]:
+    from wallkit.accuracy.contest import Subject
+    from wallkit.accuracy.scenes import built_in
+    from wallkit.cli.scene_input import UsageError
+
+    scenes = {scene.name: scene for scene in built_in()}
+    unknown = [name for name in names or [] if name not in scenes]
+    if unknown:
+        raise UsageError(
+            f"there is no built-in scene {unknown[0]!r}", code="unknown-scene", fix=f"one of {', '.join(scenes)}"
+        )
+    chosen = names or (["box", "star", "curve", "sinai"] if quick else list(scenes))
+    return [Subject.of(scenes[name]) for name in chosen]
+
+
+def _of_file(file: str) -> Subject:
+    from wallkit.accuracy.contest import Subject
+    from wallkit.accuracy.own import of_scene
+    from wallkit.cli.scene_input import Wishes, prepare, prepare_drawing, read_input
+    from wallkit.scene_files import kind_of
+
+    name = "standard input" if file == "-" else Path(file).name
+    data = read_input(file)
+    if kind_of(data) != "drawing":
+        return of_scene(name, prepare(file, Wishes()).scene)
+    import io
+
+    from importers.read import read_drawing
+
+    stream = io.BytesIO(data)
+    stream.name = file
+    drawing = read_drawing(stream)
+    balls = prepare_drawing(drawing, Wishes()).scene.balls
+
+    def walls(curves: str, tolerance: float) -> Any:
+        from wallkit.scene import Scene
+
+        prepared = prepare_drawing(drawing, Wishes(importing={"curves": curves, "tolerance": tolerance}))
+        return Scene(prepared.scene.walls, balls, gravity=prepared.scene.gravity)
+
+    curved = walls("arcs", 1e-3).walls.has_arcs
+    arcs = (lambda tolerance: walls("arcs", tolerance)) if curved else None
+    return Subject(name, "a drawing", lambda tolerance: walls("lines", tolerance), arcs, curved)
+
+
+@contextmanager
+def progress() -> Iterator[Callable[[str], None] | None]:
+    """Say on standard error, on a terminal, what is being done, in one line that is wiped at the end."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+
+    def told(words: str) -> None:
+        sys.stderr.write(f"\r\x1b[K{words[:100]}")
+        sys.stderr.flush()
+
+    try:
+        yield told
+    finally:
+        sys.stderr.write("\r\x1b[K")
+        sys.stderr.flush()
+
+
+def _write(target: str, measured: Report) -> None:
+    from wallkit.files import write_whole
+
+    ending = Path(target).suffix.lower()
+    if ending == ".json":
+        write_whole(target, json.dumps(measured.to_json(), indent=1) + "\n")
+    elif ending == ".svg":
+        from wallkit.view.work_precision import work_precision_svg
+
+        write_whole(target, work_precision_svg(measured.contests, measured.foot()))
+    else:
+        from wallkit.view.report_page import report_html
+
+        write_whole(target, report_html(measured))
+    print(f"wrote {target}", file=sys.stderr)
+
+
+def _hard(as_json: bool, quick: bool) -> None:
+    """Run the known answers: a line each as they come; exit 1 where one does not hold."""
+    from wallkit.accuracy.cases import run_cases
+    from wallkit.cli.report_tables import case_line, case_row
+
+    rows, failed = [], 0
+    for case, outcome, seconds in run_cases(slow=not quick):
+        failed += not outcome.holds
+        if as_json:
+            rows.append(case_row(case, outcome, seconds))
+        else:
+            print(case_line(case, outcome, seconds), flush=True)
+    if as_json:
+        print(json.dumps({"format": "wallkit-cases", "version": 1, "cases": rows}, indent=1))
+    else:
+        print(f"\n{failed} of the answers above do not hold" if failed else "\nall answers hold")
+    if failed:
+        raise typer.Exit(1)

@@ -1,0 +1,265 @@
+"""The work-precision diagram: error across, time up, both logarithmic; lower left is better."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+
+from wallkit.accuracy.contest import BOUNCES, Contest, Point
+from wallkit.view.theme import Theme, colour
+
+WIDTH = 1180.0
+_COLUMNS = 3
+_PANEL_WIDTH, _PANEL_HEIGHT = 320.0, 268.0
+_LEFT, _TOP, _GAP_X, _GAP_Y = 78.0, 104.0, 46.0, 74.0
+_FOOT = 58.0
+MINUS = "\N{MINUS SIGN}"
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How a series is drawn: colours on light and dark paper (after Okabe and Ito, 2008), and a marker's shape."""
+
+    light: str
+    dark: str
+    marker: str
+
+
+LOOKS = {
+    "exact, lines": Look("#0072b2", "#56b4e9", "disc"),
+    "exact, arcs": Look("#007a5a", "#2fd3a5", "square"),
+    "step, exact": Look("#4477cc", "#88aaff", "diamond"),
+    "step, stop": Look("#c98500", "#e69f00", "triangle"),
+    "step, full-step": Look("#c1440e", "#ff8a50", "triangle-down"),
+    "step, reflect-in-place": Look("#a3487a", "#e6a3c8", "cross"),
+    "pymunk": Look("#1f242c", "#e8ebf0", "plus"),
+    "Box2D 2.3": Look("#7a6a3a", "#cdbb7a", "star"),
+    "billiards": Look("#5d6675", "#9aa4b5", "ring"),
+}
+_OTHER = Look("#5d6675", "#9aa4b5", "ring")
+
+
+def work_precision_svg(contests: Sequence[Contest], foot: str = "") -> str:
+    """Draw one panel a scene, all with the same axes, and one legend, as one SVG document.
+
+    Args:
+        contests: the results.
+        foot: a line below: machine and versions.
+    """
+    rows = math.ceil((len(contests) + 1) / _COLUMNS)
+    height = _TOP + rows * (_PANEL_HEIGHT + _GAP_Y) + _FOOT
+    below = height - _FOOT + 24
+    axes = _Axes.around([point for found in contests for point in found.points])
+    parts = [_heading()]
+    for index, found in enumerate(contests):
+        parts.append(_panel(found, axes, *_corner(index), labelled=index % _COLUMNS == 0))
+    present = list(dict.fromkeys(point.series for found in contests for point in found.points))
+    parts.append(_legend(present, *_corner(len(contests))))
+    parts += [
+        f'<text class="note" x="{_LEFT - 50:g}" y="{below + 16 * k:g}" font-size="11">{escape(line)}</text>'
+        for k, line in enumerate(_wrapped(foot, 185))
+    ]
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH:g}" height="{height:g}" '
+        f'viewBox="0 0 {WIDTH:g} {height:g}" role="img" font-family="system-ui, sans-serif">\n'
+        f"<title>Speed against error</title>\n<style>{_css()}</style>\n"
+        f'<rect class="paper" width="{WIDTH:g}" height="{height:g}"/>\n' + "\n".join(parts) + "\n</svg>\n"
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Axes:
+    """Decades shown: error from 10^low_x to 10^high_x, seconds from 10^low_y to 10^high_y."""
+
+    low_x: int
+    high_x: int
+    low_y: int
+    high_y: int
+
+    @classmethod
+    def around(cls, points: Sequence[Point]) -> _Axes:
+        errors = [_shown(p.error) for p in points if math.isfinite(p.error)] or [1.0]
+        seconds = [p.seconds for p in points if math.isfinite(p.seconds) and p.seconds > 0] or [1.0]
+        return cls(
+            math.floor(math.log10(min(errors))),
+            max(math.ceil(math.log10(max(errors))), 0),
+            math.floor(math.log10(min(seconds))),
+            math.ceil(math.log10(max(seconds))),
+        )
+
+    def x(self, error: float) -> float:
+        return (math.log10(_shown(error)) - self.low_x) / max(1, self.high_x - self.low_x) * _PANEL_WIDTH
+
+    def y(self, seconds: float) -> float:
+        part = (math.log10(seconds) - self.low_y) / max(1, self.high_y - self.low_y)
+        return _PANEL_HEIGHT * (1 - part)
+
+
+def _shown(error: float) -> float:
+    return min(max(error, 1e-15), 1e4)  # a logarithmic axis has no place for 0
+
+
+def _corner(index: int) -> tuple[float, float]:
+    row, column = divmod(index, _COLUMNS)
+    return _LEFT + column * (_PANEL_WIDTH + _GAP_X), _TOP + row * (_PANEL_HEIGHT + _GAP_Y)
+
+
+def _heading() -> str:
+    return (
+        f'<text class="ink" x="{_LEFT - 50:g}" y="36" font-size="22" font-weight="600">Speed against error</text>'
+        f'<text class="note" x="{_LEFT - 50:g}" y="60" font-size="13">Across: how far the ball is from where it really '
+        f"is after {BOUNCES} bounces (units of the scene). Up: processor seconds for one second of the ball's flight. "
+        "Lower left is better.</text>"
+    )
+
+
+def _panel(found: Contest, axes: _Axes, x: float, y: float, *, labelled: bool) -> str:
+    parts = [
+        f'<g transform="translate({x:g} {y:g})">',
+        f'<text class="ink" x="0" y="-12" font-size="14" font-weight="600">{escape(found.name)}'
+        f'<tspan class="note" font-weight="400" font-size="12" dx="8">{escape(found.story)}</tspan></text>',
+        f'<rect class="field" width="{_PANEL_WIDTH:g}" height="{_PANEL_HEIGHT:g}"/>',
+        _grid(axes, labelled=labelled),
+    ]
+    for series, points in found.series().items():
+        parts.append(_series(series, points, axes))
+    return "\n".join([*parts, "</g>"])
+
+
+def _grid(axes: _Axes, *, labelled: bool) -> str:
+    parts = []
+    for power in range(axes.low_x, axes.high_x + 1):
+        x = axes.x(10.0**power)
+        parts.append(f'<path class="grid" d="M{x:.1f} 0V{_PANEL_HEIGHT:g}"/>')
+        if (power - axes.high_x) % 3 == 0:
+            parts.append(_tick(x, _PANEL_HEIGHT + 16, power, "middle"))
+    for power in range(axes.low_y, axes.high_y + 1):
+        y = axes.y(10.0**power)
+        parts.append(f'<path class="grid" d="M0 {y:.1f}H{_PANEL_WIDTH:g}"/>')
+        parts.append(_tick(-6, y + 4, power, "end"))
+    parts.append(
+        f'<text class="note" x="{_PANEL_WIDTH / 2:g}" y="{_PANEL_HEIGHT + 34:g}" font-size="11" '
+        'text-anchor="middle">error, units</text>'
+    )
+    if labelled:
+        parts.append(
+            f'<text class="note" font-size="11" text-anchor="middle" '
+            f'transform="translate(-44 {_PANEL_HEIGHT / 2:g}) rotate(-90)">seconds per simulated second</text>'
+        )
+    return "".join(parts)
+
+
+def _tick(x: float, y: float, power: int, anchor: str) -> str:
+    return (
+        f'<text class="note" x="{x:.1f}" y="{y:.1f}" font-size="11" text-anchor="{anchor}">10'
+        f'<tspan dy="-4" font-size="8">{str(power).replace("-", MINUS)}</tspan></text>'
+    )
+
+
+def _series(name: str, points: Sequence[Point], axes: _Axes) -> str:
+    kept = [p for p in points if math.isfinite(p.error) and math.isfinite(p.seconds) and p.seconds > 0]
+    if not kept:
+        return ""
+    places = [(axes.x(p.error), axes.y(p.seconds)) for p in kept]
+    line = "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in places)
+    parts = [f'<g class="{_class(name)}">', f'<path class="line" d="{line}"/>']
+    for point, (x, y) in zip(kept, places, strict=True):
+        parts.append(f"<g><title>{escape(_told(point))}</title>{_marker(_look(name).marker, x, y)}</g>")
+        if point.escaped:
+            parts.append(f'<circle class="escaped" cx="{x:.1f}" cy="{y:.1f}" r="8"/>')
+    return "".join([*parts, "</g>"])
+
+
+def _told(point: Point) -> str:
+    words = [
+        f"{point.series}, {point.setting}",
+        f"error {point.error:.2g}",
+        f"{point.seconds:.2g} s a simulated second",
+        f"first wrong bounce: {point.wrong if point.wrong is not None else 'none'}",
+        f"energy drift {point.drift:.1g}",
+    ]
+    return "; ".join([*words, "escaped"] if point.escaped else words)
+
+
+def _marker(shape: str, x: float, y: float) -> str:
+    r = 4.2
+    if shape in ("disc", "ring"):
+        return f'<circle class="{"mark" if shape == "disc" else "hollow"}" cx="{x:.1f}" cy="{y:.1f}" r="{r:g}"/>'
+    if shape in ("cross", "plus", "star"):
+        d = r * 0.75
+        cross = f"M{x - d:.1f} {y - d:.1f}l{2 * d:.1f} {2 * d:.1f}m0 {-2 * d:.1f}l{-2 * d:.1f} {2 * d:.1f}"
+        plus = f"M{x - r:.1f} {y:.1f}h{2 * r:.1f}M{x:.1f} {y - r:.1f}v{2 * r:.1f}"
+        return f'<path class="hollow" d="{ {"cross": cross, "plus": plus, "star": cross + plus}[shape] }"/>'
+    corners = {
+        "square": ((-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)),
+        "diamond": ((0, -1.2), (1.2, 0), (0, 1.2), (-1.2, 0)),
+        "triangle": ((0, -1.15), (1.05, 0.8), (-1.05, 0.8)),
+        "triangle-down": ((0, 1.15), (1.05, -0.8), (-1.05, -0.8)),
+    }[shape]
+    return f'<path class="mark" d="M{"L".join(f"{x + r * a:.1f} {y + r * b:.1f}" for a, b in corners)}Z"/>'
+
+
+_MEANINGS = {
+    "exact, lines": "wallkit, curves as lines: finer from point to point",
+    "exact, arcs": "wallkit, curves as arcs",
+    "step, exact": "World, exact within the step",
+    "step, stop": "World, stop at the contact",
+    "step, full-step": "World, to the contact, then a full step",
+    "step, reflect-in-place": "World, turn where the ball is",
+    "pymunk": "pymunk, steps of 1/30 s and finer",
+    "Box2D 2.3": "Box2D 2.3, steps of 1/30 s and finer",
+    "billiards": "billiards (Python, event-driven)",
+}
+
+
+def _legend(series: Sequence[str], x: float, y: float) -> str:
+    parts = [f'<g transform="translate({x:g} {y:g})">']
+    for index, name in enumerate(series):
+        top = 10 + 25 * index
+        parts.append(
+            f'<g class="{_class(name)}"><path class="line" d="M0 {top}h28"/>{_marker(_look(name).marker, 14, top)}</g>'
+            f'<text class="ink" x="38" y="{top + 4}" font-size="12">{escape(_MEANINGS.get(name, name))}</text>'
+        )
+    top = 10 + 25 * len(series)
+    parts.append(
+        f'<circle class="escaped" cx="14" cy="{top}" r="8"/>'
+        f'<text class="ink" x="38" y="{top + 4}" font-size="12">the ball was outside the room at some time</text></g>'
+    )
+    return "".join(parts)
+
+
+def _look(name: str) -> Look:
+    return LOOKS.get(name, _OTHER)
+
+
+def _class(name: str) -> str:
+    return f"s{list(LOOKS).index(name)}" if name in LOOKS else "s-other"
+
+
+def _css() -> str:
+    return f"{_rules(dark=False)}@media (prefers-color-scheme:dark){{{_rules(dark=True)}}}"
+
+
+def _rules(*, dark: bool) -> str:
+    theme: Theme = "dark" if dark else "light"
+    rules = [
+        f".paper{{fill:{colour('paper', theme)}}}.ink{{fill:{colour('ink', theme)}}}",
+        f".note{{fill:{colour('muted', theme)}}}",
+        f".field{{fill:none;stroke:{colour('muted', theme)}}}",
+        f".grid{{stroke:{colour('muted', theme)};stroke-width:.5;opacity:.28}}",
+        f".line{{fill:none;stroke-width:1.4;opacity:.75}}.mark{{stroke:{colour('paper', theme)};stroke-width:.6}}",
+        f".hollow{{fill:none;stroke-width:1.8}}.escaped{{fill:none;stroke:{colour('error', theme)};stroke-width:1.6}}",
+    ]
+    for index, look in enumerate([*LOOKS.values(), _OTHER]):
+        name = f".s{index}" if index < len(LOOKS) else ".s-other"
+        hue = look.dark if dark else look.light
+        rules.append(f"{name} .mark{{fill:{hue}}}{name} .line,{name} .hollow{{stroke:{hue}}}")
+    return "".join(rules)
+
+
+def _wrapped(text: str, width: int) -> list[str]:
+    import textwrap
+
+    return textwrap.wrap(text, width)
