@@ -12,8 +12,8 @@ drops out. At a contact with unit normal n and velocity v (v' after) the neighbo
 
 (Dellago, Posch and Hoover, Phys. Rev. E 53, 1485 (1996), here with restitution and gravity). Each contact adds
 its own new error: roundings of the state, and the wall's own displacement and turn. Their covariance is
-carried (new errors count as independent), which gives the root mean square; each new error is taken at the
-largest that a rounding can be, about twice its own root mean square.
+carried (new errors count as independent), which gives the root mean square; what is promised is
+three times that.
 
 Where the first order ends, trust ends: when the error reaches the distance by which the path passed a corner
 (points: the distance of a hit from a corner that turns), or the depth of a grazing hit.
@@ -34,7 +34,8 @@ from wallkit.scene import Scene
 
 FloatArray = NDArray[np.float64]
 Source = Literal["rounding", "drawing"]
-ROUNDING = 2.0**-53
+Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
+RMS_ROUNDING = 0.6 * 2.0**-53
 COMPILED_FROM = 50_000  # contacts
 SURE = 3.0  # promised is this many times the root mean square
 
@@ -113,13 +114,12 @@ def predicted_errors(
         source: see :func:`trusted_until`.
 
     Returns:
-        Two arrays (n,), in the drawing's units; infinite once they exceed the scene a million times.
+        Two arrays (n,), in the drawing's units; infinite once that is no number any more.
     """
-    low_x, low_y, high_x, high_y = scene.walls.box()
-    size = math.hypot(high_x - low_x, high_y - low_y) / 2 or 1.0  # coordinates are kept from the middle
-    fresh, rounding = _new_errors(scene, own, source, size)
+    course = _course(scene, own, ball)
+    fresh = _roundings(scene, own, course) if source == "rounding" else _drawing_errors(scene, own)
     variance = np.full(len(own), np.inf)
-    _kernel(carry, len(own))(*_course(scene, own, ball), fresh, np.array([rounding * size, rounding]), variance)
+    _kernel(carry, len(own))(*course, fresh, variance)
     rms = np.sqrt(variance)
     return rms, SURE * rms
 
@@ -146,7 +146,7 @@ def _kernel(function: Any, contacts: int) -> Any:
     return compiled(function) if contacts > COMPILED_FROM else function
 
 
-def _course(scene: Scene, own: Any, ball: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+def _course(scene: Scene, own: Any, ball: int) -> Course:
     """What the kernels need of one ball's run: first velocity, path, bends, restitutions, gravity."""
     materials = scene.walls.materials
     table = np.array([(m.tangential_restitution, m.restitution) for m in materials]).reshape(-1, 2)
@@ -156,20 +156,36 @@ def _course(scene: Scene, own: Any, ball: int) -> tuple[FloatArray, FloatArray, 
     return start, np.ascontiguousarray(path), _bends(scene, own, ball), table[own["wall"]], gravity
 
 
-def _new_errors(scene: Scene, own: Any, source: Source, size: float) -> tuple[FloatArray, float]:
-    """What each contact adds: (n, 2) displacement of the wall and turn of its normal (radians); the rounding."""
+def _roundings(scene: Scene, own: Any, course: Course) -> FloatArray:
+    """(n, 4) what the arithmetic of each contact adds: see :func:`wallkit.kernels.tangent.carry`.
+
+    A rounding is at most EPS = 2^-53 of the number, and some 0.6 of that as a root mean square. Places are as
+    large as the distance from the local origin; the normal about a corner or on an arc is taken from the place,
+    so it turns by that rounding times the curvature. A wall along an axis turns one sign and rounds nothing.
+    """
+    from wallkit.modelling import local_origin
+
+    _, path, bend, keep, _ = course
+    x0, y0 = local_origin(scene.walls.vertices)
+    place = RMS_ROUNDING * np.hypot(own["x"] - x0, own["y"] - y0)
+    plain = (bend == 0) & ((path[:, 3] == 0) | (path[:, 4] == 0)) & (keep == 1).all(axis=1)
+    turn = np.where(plain, 0.0, RMS_ROUNDING + place * np.abs(bend))
+    return np.stack([place, turn, place, np.where(plain, 0.0, RMS_ROUNDING)], axis=1)
+
+
+def _drawing_errors(scene: Scene, own: Any) -> FloatArray:
+    """(n, 4) what walls that are off by their ``measured_error`` add at each contact."""
     walls = scene.walls
-    if source == "rounding":
-        shift, turn, rounding = ROUNDING * size, ROUNDING, ROUNDING
-    elif walls.measured_normal_error is not None:
-        shift, turn, rounding = walls.measured_error, walls.measured_normal_error, 0.0
+    fresh = np.zeros((len(own), 4))
+    fresh[:, 0] = walls.measured_error
+    if walls.measured_normal_error is not None:
+        fresh[:, 1] = walls.measured_normal_error
     else:  # a chord of length c with the sagitta s is turned by at most 4 s / c from its arc
         d = walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]
         chord = np.maximum(np.hypot(d[:, 0], d[:, 1]), walls.measured_error or 1.0)
         edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
-        turns = 4 * walls.measured_error / chord[edge]
-        return np.stack([np.full(len(own), walls.measured_error), turns], axis=1), 0.0
-    return np.tile([shift, turn], (len(own), 1)), rounding
+        fresh[:, 1] = 4 * walls.measured_error / chord[edge]
+    return fresh
 
 
 def _bends(scene: Scene, own: Any, ball: int) -> FloatArray:

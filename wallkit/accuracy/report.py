@@ -15,7 +15,6 @@ from wallkit import __version__
 from wallkit.accuracy.contest import BOUNCES, Contest, Effort, Subject, contest
 from wallkit.accuracy.costs import Cost, costs
 from wallkit.accuracy.departure import Departure, departures
-from wallkit.scene import SceneError
 
 _PACKAGES = ("numpy", "numba", "pymunk", "box2d", "billiards", "mpmath")
 Told = Callable[[str], None]
@@ -69,11 +68,7 @@ def measure(subjects: Sequence[Subject], effort: Effort, *, tables: bool, told: 
     report = Report(machine())
     for number, subject in enumerate(subjects, 1):
         label = f"{number} of {len(subjects)}, {subject.name}"
-        try:
-            report.contests.append(contest(subject, effort, _prefixed(told, label)))
-        except SceneError as error:
-            if error.code != "not-yet":
-                raise
+        report.contests.append(contest(subject, effort, _prefixed(told, label)))
     if tables:
         if told:
             told("costs")

@@ -71,7 +71,7 @@ def _plus(m: Any, n: Any) -> Any:
 
 
 @kernel
-def carry(start: Any, path: Any, bend: Any, keep: Any, g: Any, fresh: Any, blur: Any, variance: Any) -> None:
+def carry(start: Any, path: Any, bend: Any, keep: Any, g: Any, fresh: Any, variance: Any) -> None:
     """Fill ``variance`` with that of the place of each contact.
 
     Args:
@@ -80,8 +80,8 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, g: Any, fresh: Any, blur:
         bend: (n,) curvature.
         keep: (n, 2) tangential and normal restitution.
         g: (2,) gravity.
-        fresh: (n, 2) displacement and turn of the wall, new at each contact.
-        blur: (2,) rounding of the place, and of the velocity relative to the speed.
+        fresh: (n, 4) new at each contact: displacement of the wall, turn of its normal, rounding of the place,
+            and of the velocity relative to the speed.
         variance: (n,), filled; left as it is after the first that exceeds 1e300.
     """
     ux, uy = start[0], start[1]
@@ -109,7 +109,7 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, g: Any, fresh: Any, blur:
             break  # not a bounce that a neighbour shares (it began or slid in contact)
         S, A, B, M = derivative(vx, vy, ux, uy, nx, ny, (keep[i, 0], keep[i, 1]), bend[i], (g[0], g[1]))
         place = _times_turned(_times(S, xx), S)
-        variance[i] = place[0] + place[3] + 2 * blur[0] * blur[0]
+        variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]
         if not variance[i] < 1e300:
             break
         back = (xv[0], xv[2], xv[1], xv[3])
@@ -120,12 +120,12 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, g: Any, fresh: Any, blur:
         # New here: the wall moved by `shift` along n moves the state by (v - v') shift / (v.n) ...
         shift, turn = fresh[i, 0] / across, fresh[i, 1] * (keep[i, 0] + keep[i, 1])
         p, q = (vx - ux) * shift, (vy - uy) * shift
-        rounded = blur[0] * blur[0]
+        rounded = fresh[i, 2] * fresh[i, 2]
         xx = _plus(xx, (p * p + rounded, p * q, p * q, q * q + rounded))
         # ... its normal turned by `turn` turns v', with dn = (ny, -nx) turn; and the state is rounded
         slip = vx * ny - vy * nx
         p, q = turn * (nx * slip + across * ny), turn * (ny * slip - across * nx)
-        rounded = blur[1] * blur[1] * (ux * ux + uy * uy)
+        rounded = fresh[i, 3] * fresh[i, 3] * (ux * ux + uy * uy)
         vv = _plus(vv, (p * p + rounded, p * q, p * q, q * q + rounded))
 
 
