@@ -222,7 +222,7 @@ class _Reader:
 
         drawing = read_drawing(path)
         try:
-            walls = import_walls(drawing, **{"curves": "lines", **options})
+            walls = import_walls(drawing, **{"curves": "arcs", **options})
         except TypeError:
             self.wrong.append("import: an option has a value of the wrong kind")
             return None, None

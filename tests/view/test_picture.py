@@ -9,7 +9,7 @@ from importers.problems import Problem
 from wallkit import Material, Walls
 from wallkit.curves import arc_points, contains
 from wallkit.view.frame import fit, walls_box
-from wallkit.view.outline import solid_areas
+from wallkit.view.outline import solid_areas, tick_places
 from wallkit.view.picture import drawing_svg, walls_svg
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -68,6 +68,24 @@ def test_arc_points_lie_on_one_circle_and_start_at_the_start():
     centre = (a + b) / 2 + (1 - bulge**2) / (4 * bulge) * np.array([-(b - a)[1], (b - a)[0]])
     assert np.allclose(np.hypot(*(points - centre).T), chord * (1 + bulge**2) / (4 * bulge))
     assert np.allclose(points[0], a)
+
+
+@pytest.mark.parametrize("y_axis", ["up", "down"])
+@pytest.mark.parametrize("bulge", [1.0, 0.3, -0.5, -2.0])
+def test_ticks_stand_upright_on_an_arc_to_its_outward_side(y_axis, bulge):
+    walls = Walls.from_polylines([[(2, 1), (10, 4)]], closed=False, bulges=[[bulge, 0]], sides="outward")
+    walls.y_axis = y_axis
+    frame = fit(walls_box(walls), y_axis == "up", width=960, max_height=1100, margin=28)
+    a, b = walls.vertices
+    centre = (a + b) / 2 + (1 - bulge**2) / (4 * bulge) * np.array([-(b - a)[1], (b - a)[0]])
+    radius = np.hypot(*(a - centre)) * frame.scale
+    ticks = tick_places(walls, frame)
+    assert len(ticks) > 3
+    for x, y, nx, ny, _ in ticks:
+        arm = np.array([x, y]) - frame.points(centre[None, :])[0]
+        assert np.hypot(*arm) == pytest.approx(radius)
+        # Outward is away from the centre where the arc turns left, and towards it where it turns right.
+        assert arm @ (nx, ny) == pytest.approx(np.sign(bulge) * radius)
 
 
 def test_material_is_where_the_number_of_walls_around_is_odd_unless_a_ball_is_there(nested):

@@ -132,7 +132,7 @@ def prepare_drawing(drawing: Drawing, wishes: Wishes) -> Prepared:
     from wallkit.starts import drawn_balls
     from wallkit.walls.build import import_walls
 
-    options = {"curves": "lines", **wishes.importing}
+    options = {"curves": "arcs", **wishes.importing}
     walls = import_walls(drawing, **options)
     found, problems = drawn_balls(drawing, options.get("scale", 1.0), options.get("flip_y", False))
     given = _Given(drawn=[(ball.x, ball.y, ball.radius, ball.velocity) for ball in found])

@@ -48,7 +48,7 @@ Out = Annotated[
     list[str] | None,
     typer.Option("-o", "--out", metavar="OUT", help=f"Where to; the ending decides: {' '.join(FORMATS)}. Repeatable."),
 ]
-Curves = Annotated[Literal["lines", "arcs"] | None, typer.Option(help="What curves become [default: lines].")]
+Curves = Annotated[Literal["lines", "arcs"] | None, typer.Option(help="What curves become [default: arcs].")]
 
 
 def register(app: typer.Typer) -> None:

@@ -108,6 +108,8 @@ def _areas_by_material(walls: Walls, turned: bool) -> list[tuple[Material, list[
 def tick_places(walls: Walls, frame: Frame, spacing: float = 26.0) -> list[tuple[float, float, float, float, bool]]:
     """Choose where normals are shown: at edges' middles, at least about ``spacing`` pixels apart along a wall.
 
+    An arc shows one about every two spacings, each with the normal that it has there.
+
     Returns:
         (x, y, nx, ny, both sides) in pixels, n of length one.
     """
@@ -115,8 +117,7 @@ def tick_places(walls: Walls, frame: Frame, spacing: float = 26.0) -> list[tuple
     starts, ends = frame.points(walls.vertices[walls.edge_starts]), frame.points(walls.vertices[walls.edge_ends])
     lengths = np.hypot(*(ends - starts).T)
     normals = walls.normals * np.array([1.0, -1.0 if frame.up else 1.0])
-    # The top of an arc is half its bulge times the chord off the chord's middle, on the normal's side.
-    middles = (starts + ends) / 2 + normals * (walls.bulges[walls.edge_starts] * lengths / 2)[:, None]
+    bulges = walls.bulges[walls.edge_starts]
     offsets = walls.edge_offsets
     for index in range(len(walls)):
         both = not walls.closed[index] and walls.sides[index] == "both"
@@ -126,6 +127,27 @@ def tick_places(walls: Walls, frame: Frame, spacing: float = 26.0) -> list[tuple
             middle = walked + length / 2
             if length > 0 and middle - last >= min(spacing, max(length, spacing / 2)):
                 last = middle
-                places.append((*middles[edge], *normals[edge], both))
+                places += [(*at, both) for at in _ticks(starts[edge], ends[edge], normals[edge], bulges[edge], spacing)]
             walked += length
     return places
+
+
+def _ticks(
+    a: FloatArray, b: FloatArray, normal: FloatArray, bulge: float, spacing: float
+) -> list[tuple[float, float, float, float]]:
+    """Give places and normals along one edge: its middle, or several on a long arc."""
+    if bulge == 0.0:
+        return [(*((a + b) / 2), *normal)]
+    chord = float(np.hypot(*(b - a)))
+    angle = 4.0 * math.atan(abs(bulge))
+    radius = chord * (1.0 + bulge * bulge) / (4.0 * abs(bulge))
+    count = max(1, int(radius * angle / (2 * spacing)))
+    # From the centre, the arc's middle lies along the normal for a positive bulge and against it for a negative one.
+    side = math.copysign(1.0, bulge)
+    centre = (a + b) / 2 + normal * (bulge * chord / 2 - side * radius)
+    ticks = []
+    for turn in (angle * ((k + 0.5) / count - 0.5) for k in range(count)):
+        cos, sin = math.cos(turn), math.sin(turn)
+        direction = np.array([cos * normal[0] - sin * normal[1], sin * normal[0] + cos * normal[1]])
+        ticks.append((*(centre + side * radius * direction), *direction))
+    return ticks
