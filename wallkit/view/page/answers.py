@@ -252,7 +252,8 @@ def exactness(walls: Walls) -> str:
     arcs = int(np.count_nonzero(walls.bulges))
     words = counted(len(walls.edge_starts), "edge") + (f", {arcs:,} of them arcs" if arcs else "")
     if walls.tolerance > 0:
-        words += f"; at most {walls.measured_error:.3g} from the drawn curves"
+        exact = walls.measured_error == 0
+        words += "; exactly as drawn" if exact else f"; at most {walls.measured_error:.3g} from the drawn curves"
     if walls.measured_normal_error:
         words += f", normals to {walls.measured_normal_error:.2g} rad"
     return words

@@ -37,8 +37,8 @@
     showAim() {
       const { ball, seconds } = this.page.aim;
       if (!ball) return;
-      const span = seconds === 1 ? "per second" : `in ${seconds} s`;
-      $("aim-hint").textContent = `Drag from the ball to aim: the arrow is its way ${span}.`;
+      const span = seconds === 1 ? "in a second" : `in ${seconds} s`;
+      $("aim-hint").textContent = `Drag from the ball to aim. The arrow is how far it goes ${span}.`;
       const up = this.page.stage.up ? 1 : -1;
       put("speed", Math.hypot(ball.vx, ball.vy));
       put("angle", (Math.atan2(up * ball.vy, ball.vx) * 180) / Math.PI);
@@ -155,7 +155,7 @@
       const item = element("li", problem.severity);
       const button = element("button");
       button.type = "button";
-      const place = problem.x === null ? "" : ` at (${W.number(problem.x)}, ${W.number(problem.y)})`;
+      const place = problem.x === null ? "" : ` at (${short(problem.x)}, ${short(problem.y)})`;
       const named = [problem.layer, problem.name].filter(Boolean).join(" · ");
       const head = element("span", "", problem.message + (named ? ` (${named})` : ""));
       const fix = element("span", "fix", [problem.fix, place.trim()].filter(Boolean).join(" — "));
@@ -187,6 +187,7 @@
     return made;
   };
 
+  const short = (value) => String(Number(value.toPrecision(6)));
   const number = (id) => ($(id).value.trim() === "" ? NaN : Number($(id).value));
   const positive = (id) => (number(id) >= 0 ? number(id) : NaN);
   const put = (id, value) => {

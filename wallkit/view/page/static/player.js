@@ -7,7 +7,8 @@
   const RATES = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
   const SEGMENTS = 4000; // flights drawn behind all balls together
   const TRAIL = 80; // flights behind one ball
-  const GHOSTS = 400; // ghosts of all balls together
+  const MANY = 20; // balls; of more than these each shows only a little of where it was
+  const TRAIL_OF_MANY = 7;
   const FRAMES = 600; // draw times that are kept
 
   class Player {
@@ -195,8 +196,9 @@
 
     drawMotion(ctx, colours) {
       const { motion } = this;
-      const flights = Math.max(1, Math.min(TRAIL, Math.floor(SEGMENTS / motion.balls)));
-      const ghosts = Math.max(1, Math.min(8, Math.floor(GHOSTS / motion.balls)));
+      const many = motion.balls > MANY;
+      const flights = Math.max(1, Math.min(many ? TRAIL_OF_MANY : TRAIL, Math.floor(SEGMENTS / motion.balls)));
+      const ghosts = many ? 1 : 8;
       for (let b = 0; b < motion.balls; b++) {
         ctx.strokeStyle = this.colourOf(b, colours);
         if (this.trails) this.drawTrail(ctx, b, flights);
@@ -218,8 +220,8 @@
     drawTrail(ctx, ball, flights) {
       const last = this.motion.bouncesOf(ball, this.time);
       const from = Math.max(0, last - flights);
-      const bands = this.motion.balls > 20 ? 2 : 8;
-      const many = this.motion.balls > 20;
+      const many = this.motion.balls > MANY;
+      const bands = many ? 3 : 8;
       ctx.lineWidth = many ? 1 : 1.6;
       const size = Math.ceil((last + 1 - from) / bands);
       for (let k = from; k <= last; k += size) {
@@ -253,7 +255,7 @@
 
     // A point is shown as a small disc; a ball as large as it is.
     shownRadius(ball) {
-      return Math.max(this.motion.radius[ball] * this.stage.scale, this.motion.balls > 20 ? 2.5 : 3.5);
+      return Math.max(this.motion.radius[ball] * this.stage.scale, this.motion.balls > MANY ? 2.5 : 3.5);
     }
 
     drawBall(ctx, ball, colours) {
@@ -266,7 +268,7 @@
       ctx.arc(x, y, radius, 0, 2 * Math.PI);
       ctx.fillStyle = motion.balls === 1 ? colours.paper : this.colourOf(ball, colours);
       ctx.fill();
-      ctx.lineWidth = motion.balls > 20 ? 0.8 : 2;
+      ctx.lineWidth = motion.balls > MANY ? 0.8 : 2;
       ctx.strokeStyle = colours.ink;
       ctx.stroke();
       if (motion.balls > 1 || s.over) return;

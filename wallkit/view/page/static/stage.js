@@ -5,6 +5,8 @@
 
   const MAX_ZOOM = 5000; // times the fitting scale; beyond it single-precision rasters show
   const MARGIN = 28;
+  const BUTTONS = 58; // pixels that the zoom buttons take, at the right or, on a phone, at the top
+  const PHONE = 640;
 
   // Two canvases, one above the other: `back` (walls) is drawn anew only when the view changes.
   class Stage {
@@ -55,19 +57,26 @@
       this.fit();
     }
 
+    // Pixels at the right and at the top that a fitting drawing leaves to the buttons.
+    get reserved() {
+      return this.width < PHONE ? [0, BUTTONS - MARGIN] : [BUTTONS - MARGIN, 0];
+    }
+
     fitScale() {
       const [x0, y0, x1, y1] = this.box;
+      const [right, top] = this.reserved;
       const least = Math.max(x1 - x0, y1 - y0) * 1e-3 || 1;
-      const width = Math.max(this.width - 2 * MARGIN, 20);
-      const height = Math.max(this.height - 2 * MARGIN, 20);
+      const width = Math.max(this.width - right - 2 * MARGIN, 20);
+      const height = Math.max(this.height - top - 2 * MARGIN, 20);
       return Math.min(width / Math.max(x1 - x0, least), height / Math.max(y1 - y0, least));
     }
 
     fit() {
       const [x0, y0, x1, y1] = this.box;
       this.scale = this.fitScale();
-      this.x = (x0 + x1) / 2;
-      this.y = (y0 + y1) / 2;
+      const [right, top] = this.reserved;
+      this.x = (x0 + x1) / 2 + right / 2 / this.scale;
+      this.y = (y0 + y1) / 2 + ((this.up ? 1 : -1) * top) / 2 / this.scale;
       this.fitted = true;
       this.touch();
     }
