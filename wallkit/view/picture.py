@@ -35,6 +35,7 @@ def walls_svg(
     *,
     title: str = "",
     normals: bool = True,
+    ways: Sequence[NDArray[np.float64]] = (),
     width: float = WIDTH,
 ) -> str:
     """Draw walls as one SVG document: light or dark as its reader prefers, the right way up.
@@ -47,9 +48,10 @@ def walls_svg(
         problems: what to mark; those without a place stand in the legend alone.
         title: a line above the picture.
         normals: draw them.
+        ways: polylines (n, 2) through leaks, drawn dashed.
         width: of the picture in pixels; its height follows the drawing.
     """
-    return walls_canvas(walls, problems, title=title, normals=normals, width=width).to_svg()
+    return walls_canvas(walls, problems, title=title, normals=normals, ways=ways, width=width).to_svg()
 
 
 def walls_canvas(
@@ -58,6 +60,7 @@ def walls_canvas(
     *,
     title: str = "",
     normals: bool = True,
+    ways: Sequence[NDArray[np.float64]] = (),
     width: float = WIDTH,
 ) -> Canvas:
     """Draw walls as :func:`walls_svg` does, on a canvas that can become SVG or pixels."""
@@ -68,6 +71,9 @@ def walls_canvas(
                             title=title, width=width)  # fmt: skip
     canvas.title = title or f"{len(walls)} walls"
     draw_walls(canvas, walls, frame, normals=normals)
+    for way in ways:
+        corners = [frame.point(x, y) for x, y in way.tolist()]
+        canvas.add(Shape("way", [("M" if i == 0 else "L", x, y) for i, (x, y) in enumerate(corners)]))
     draw_problems(canvas, problems, frame)
     row = finish(canvas, frame, walls.units)
     legend = material_legend(walls)

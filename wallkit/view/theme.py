@@ -55,6 +55,7 @@ STYLES: dict[str, Style] = {
     "outline": Style(stroke="outline", width=1.5),
     "open": Style(stroke="outline", width=2.5),
     "hidden": Style(stroke="hidden", width=1.0, dash=(5, 4)),
+    "way": Style(stroke="error", width=1.6, dash=(6, 4)),
     "normal": Style(stroke="normal", width=1.0),
     "path": Style(width=1.3),
     "trail": Style(width=2.2),

@@ -1,0 +1,73 @@
+"""`wallkit check` as a stranger uses it."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+LEAKY = (
+    '<svg xmlns="http://www.w3.org/2000/svg"><path id="room" fill="none" stroke="black" d="M0 30V0H100V60H0V{}"/></svg>'
+)
+CLEAN = '<svg xmlns="http://www.w3.org/2000/svg"><rect id="room" width="100" height="60"/></svg>'
+
+
+def wallkit(*arguments, stdin=None):
+    return subprocess.run(
+        [sys.executable, "-m", "wallkit", *map(str, arguments)],
+        input=stdin,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env=os.environ | {"NO_COLOR": "1"},
+    )
+
+
+@pytest.fixture
+def leaky(tmp_path):
+    file = tmp_path / "leaky.svg"
+    file.write_text(LEAKY.format(30.5))
+    return file
+
+
+def test_nothing_to_find_ends_with_0(tmp_path):
+    file = tmp_path / "clean.svg"
+    file.write_text(CLEAN)
+    result = wallkit("check", file)
+    assert (result.returncode, result.stderr) == (0, "")
+    assert "no leak" in result.stdout
+
+
+def test_findings_end_with_1_and_name_place_and_fix(leaky):
+    result = wallkit("check", leaky)
+    assert result.returncode == 1
+    assert "warning[leak]" in result.stdout
+    assert "(0, 30.25)" in result.stdout
+    assert "--snap 0.5" in result.stdout
+
+
+@pytest.mark.parametrize(("radius", "leaks"), [(0.2499, 1), (0.2501, 0)])
+def test_leaks_for_a_ball_as_json(leaky, tmp_path, radius, leaks):
+    picture = tmp_path / "check.svg"
+    result = wallkit("check", leaky, "--radius", radius, "--json", "--preview", picture)
+    report = json.loads(result.stdout)
+    assert len(report["leaks"]) == leaks
+    assert [problem["code"] for problem in report["problems"]].count("leak") == leaks
+    assert ("wk-way" in picture.read_text().split("</style>")[1]) == bool(leaks)
+    assert report["gaps"][0]["width"] == 0.5
+
+
+def test_walls_are_checked_as_drawings_are(leaky, tmp_path):
+    out = tmp_path / "walls.json"
+    assert wallkit("import", leaky, "-o", out).returncode == 0
+    report = json.loads(wallkit("check", out, "--json").stdout)
+    assert report["leaks"][0]["width"] == 0.5
+
+
+def test_a_negative_radius_is_a_usage_error(leaky):
+    result = wallkit("check", leaky, "--radius", -1)
+    assert result.returncode == 2
+    assert "radius" in result.stderr

@@ -1,0 +1,173 @@
+"""`wallkit check`: everything that is doubtful about a drawing or walls; exit code 1 when there is any."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import sys
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from wallkit.cli import import_options as options
+
+if TYPE_CHECKING:
+    from importers.problems import Problem
+    from wallkit.walls import Walls
+    from wallkit.walls.free_space import FreeSpace
+
+FORMAT, VERSION = "wallkit-check", 1
+
+
+def register(app: typer.Typer) -> None:
+    """Attach the command."""
+    app.command("check")(check)
+
+
+def check(
+    file: options.File,
+    radius: Annotated[
+        float | None, typer.Option(metavar="R", help="Look for leaks of a ball this large [default: of any ball].")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Write the findings as JSON to standard output.")] = False,
+    preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls, findings and leaks (.svg).")] = "",
+    tolerance: options.Tolerance = None,
+    curves: options.Curves = "lines",
+    layer: options.Layer = None,
+    hidden: options.Hidden = False,
+    arena: options.Arena = False,
+    scale: options.Scale = 1.0,
+    flip_y: options.FlipY = False,
+) -> None:
+    """Find problems and leaks, with places and fixes; exit with 1 when there are findings."""
+    from wallkit.walls.free_space import free_space
+    from wallkit.walls.leaks import leak_problems, reported_gaps
+
+    _check_radius(radius)
+    importing = {
+        "tolerance": tolerance,
+        "curves": curves,
+        "layers": layer or None,
+        "hidden": hidden,
+        "arena": arena,
+        "scale": scale,
+        "flip_y": flip_y,
+    }
+    walls, assumed = _walls(file, importing)
+    space = free_space(walls)
+    problems = [*walls.problems, *leak_problems(space, radius)]
+    findings = [problem for problem in problems if problem.severity != "info"]
+    if preview:
+        _draw(walls, problems, [gap.path for gap in reported_gaps(space, radius)[0]], preview)
+    if as_json:
+        print(json.dumps(_report(walls, problems, space, radius, len(findings)), ensure_ascii=False))
+    else:
+        _tell(walls, problems, space, radius, assumed)
+    raise typer.Exit(1 if findings else 0)
+
+
+def _check_radius(radius: float | None) -> None:
+    from wallkit.walls.walls import WallsError
+
+    if radius is not None and not (math.isfinite(radius) and radius >= 0):
+        raise WallsError(f"radius is {radius!r}", code="bad-option", fix="give a number from 0")
+
+
+def _walls(file: str, importing: dict[str, Any]) -> tuple[Walls, str]:
+    """Walls of FILE, whatever it is, and what was assumed about it."""
+    from wallkit.cli.scene_input import read_input
+    from wallkit.scene_files import kind_of, read_scene
+    from wallkit.walls.files import loads
+
+    data = read_input(file)
+    kind = kind_of(data)
+    if kind == "drawing":
+        return _of_drawing(data, file, importing)
+    walls = loads(data, file) if kind == "walls" else read_scene(data, file=file).scene.walls
+    return _checked_again(walls), ""
+
+
+def _checked_again(walls: Walls) -> Walls:
+    """Walls from a file may have been edited: look at them anew, and keep what the reader of the drawing said."""
+    from dataclasses import replace
+
+    from wallkit.walls.validate import validate
+
+    found = validate(walls)
+    codes = {problem.code for problem in found}
+    return replace(walls, problems=[p for p in walls.problems if p.code not in codes] + found)
+
+
+def _of_drawing(data: bytes, file: str, importing: dict[str, Any]) -> tuple[Walls, str]:
+    """Import a drawing; when all its balls start in what would be material, its outermost walls are rooms."""
+    import numpy as np
+
+    from importers.read import read_drawing
+    from wallkit.curves import in_material
+    from wallkit.starts import drawn_balls
+    from wallkit.walls.build import import_walls
+
+    stream = io.BytesIO(data)
+    stream.name = file
+    drawing = read_drawing(stream)
+    walls = import_walls(drawing, **importing)
+    if importing["arena"]:
+        return walls, ""
+    balls, _ = drawn_balls(drawing, importing["scale"], importing["flip_y"])
+    if not balls or not in_material(walls, np.array([(ball.x, ball.y) for ball in balls])).all():
+        return walls, ""
+    importing = importing | {"arena": True}
+    return import_walls(drawing, **importing), "the outermost walls are a room, since all balls are in it (--arena)"
+
+
+def _report(
+    walls: Walls, problems: list[Problem], space: FreeSpace, radius: float | None, findings: int
+) -> dict[str, Any]:
+    from wallkit.walls.leaks import gap_json, reported_gaps
+
+    leaks, shut = reported_gaps(space, radius)
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "source": {"file": walls.source_file, "sha256": walls.source_sha256},
+        "walls": len(walls),
+        "edges": len(walls.edge_starts),
+        "radius": radius,
+        "findings": findings,
+        "leaks": [gap_json(gap) for gap in leaks],
+        "unreachable": [gap_json(gap) for gap in shut],
+        "gaps": [gap_json(gap) for gap in space.gaps],
+        "rooms": space.closed_rooms.tolist(),
+        "problems": [problem.to_json() for problem in problems],
+    }
+
+
+def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, radius: float | None, assumed: str) -> None:
+    from wallkit.cli.import_ import summarise
+    from wallkit.cli.messages import show_problems
+    from wallkit.walls.leaks import reported_gaps
+
+    show_problems(problems, walls.source_file, sys.stdout)
+    if assumed:
+        print(f"assumed: {assumed}")
+    summarise(walls, sys.stdout)
+    ball = "any ball" if radius is None else f"a ball of radius {radius:g}"
+    leaks, shut = reported_gaps(space, radius)
+    if leaks:
+        print(f"leaks for {ball}: {len(leaks)}, the narrowest gap {leaks[0].width:.6g} wide")
+    else:
+        print(f"no leak for {ball}")
+    if shut:
+        print(f"out of reach: {len(shut)} {'room' if len(shut) == 1 else 'rooms'}")
+    rest = [gap for gap in space.gaps if gap not in leaks]
+    if rest:
+        print(f"narrowest gap between rooms: {rest[0].width:.6g} wide")
+
+
+def _draw(walls: Walls, problems: list[Problem], ways: list[Any], picture: str) -> None:
+    """Write the picture with the ways through the leaks."""
+    from wallkit.files import write_whole
+    from wallkit.view.picture import walls_svg
+
+    write_whole(picture, walls_svg(walls, problems, ways=ways))
