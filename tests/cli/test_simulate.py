@@ -163,3 +163,46 @@ def test_the_default_ball_flies_at_50_units_and_30_degrees_from_the_roomiest_spo
     assert ball["velocity"] == pytest.approx([50 * math.cos(math.pi / 6), 25], rel=1e-15)
     assert 0 < ball["radius"] < 10
     assert len(json.loads(out)["contacts"]["time"]) == 100
+
+
+DRAWING = (
+    '<svg xmlns="http://www.w3.org/2000/svg" width="400" height="300">'
+    '<rect width="400" height="300" fill="#eee"/><path d="M180 100 C 240 90 260 180 200 200 Z" fill="#333"/>'
+    '<g id="balls"><circle cx="60" cy="60" r="12"/><line x1="60" y1="60" x2="160" y2="120" stroke="#000"/></g></svg>'
+)
+
+
+def test_a_drawing_alone_says_what_it_took_for_what(wallkit, tmp_path):
+    file = tmp_path / "room.svg"
+    file.write_text(DRAWING)
+    code, out, err = wallkit("simulate", file)
+    assert (code, err) == (0, "")
+    assert "the outermost walls are a room" in out
+    assert "1 ball drawn on the layer 'balls'" in out
+    assert "1, radius 12, speed 116.619" in out  # hypot(100, 60)
+    assert "of the drawn curves; it" in out
+    assert "wallkit check" in out
+
+
+def test_a_drawing_on_standard_input_is_read_too(scene, tmp_path):
+    said = subprocess.run(
+        [sys.executable, "-m", "wallkit", "simulate", "-", "--bounces", "3"],
+        input=DRAWING,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert said.stdout.startswith("standard input (SVG)")
+
+
+def test_a_saved_run_flies_again(wallkit, scene, tmp_path):
+    wallkit("simulate", scene, "-o", tmp_path / "run.json")
+    again = wallkit("simulate", tmp_path / "run.json", "--format", "csv")[1]
+    assert again == wallkit("simulate", scene, "--format", "csv")[1]
+
+
+def test_lines_and_arcs_differ_in_the_walls_that_are_flown(wallkit, tmp_path):
+    file = tmp_path / "room.svg"
+    file.write_text(DRAWING)
+    assert "arc" in wallkit("simulate", file, "--bounces", 2)[1]
+    assert "arc" not in wallkit("simulate", file, "--bounces", 2, "--curves", "lines")[1].split("\n")[1]

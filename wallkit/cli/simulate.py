@@ -163,12 +163,9 @@ def progress_bar(label: str, after: float = 0.5) -> Iterator[Callable[[float], N
 
 def _trust(run: Run) -> list[Any]:
     """Ask for each ball of a small run how far it is good; many balls would take longer than their flight."""
-    from wallkit.horizon import trusted_until
-
     if not 0 < len(run.ending) <= 10 or len(run.contacts) > 20_000:
         return []
-    ends = run.final["time"].tolist()
-    return [trusted_until(run.scene, run.contacts, ball, end=ends[ball]) for ball in range(len(run.ending))]
+    return list(run.trusted_until())
 
 
 def _write(target: str, kind: Format, run: Run, prepared: Prepared, trust: list[Any], look: dict[str, Any]) -> None:
@@ -209,17 +206,19 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
 
 def _summary(file: str, prepared: Prepared, run: Run, trust: list[Any], targets: list[tuple[str, Format]]) -> list[str]:
     from wallkit.cli.messages import count_by_severity, plain
-    from wallkit.cli.summary import ball_words, bounce_words, ending_words, energy_words, wall_words
+    from wallkit.cli.summary import ball_words, bounce_words, drawing_words, ending_words, energy_words, wall_words
 
     rows = [("walls", wall_words(run.scene.walls)), ("balls", ball_words(run)), ("bounces", bounce_words(run)),
             ("ended", ending_words(run)), ("energy", energy_words(run))]  # fmt: skip
     if trust:
         worst = min(trust, key=lambda horizon: (horizon.whole, horizon.time))
         rows.append(("trust", worst.sentence() + (" (the worst ball)" if len(trust) > 1 else "")))
+        rows += [("drawing", words) for words in drawing_words(run)]
     rows += [("assumed", words) for words in prepared.assumed]
     if prepared.problems:
         counted = count_by_severity(prepared.problems)
-        rows.append(("problems", f"{counted}: wallkit check {plain(file)} lists them"))
+        listed = "" if prepared.kind in ("walls", "scene") else f": wallkit check {plain(file)} lists them"
+        rows.append(("problems", counted + listed))
     rows += [("wrote", plain(target)) for target, _ in targets if target != "-"]
     name = "standard input" if file == "-" else plain(file)
     return [f"{name} ({prepared.kind})", *(f"  {word:<9}{words}" for word, words in rows)]

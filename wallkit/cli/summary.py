@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from typing import TYPE_CHECKING
 
@@ -76,3 +77,16 @@ def energy_words(run: Run) -> str:
     if abs(part) < 1e-9:
         return f"kept (to {abs(part):.1e})"
     return f"{'lost' if part < 0 else 'gained'} {abs(part):.2%}"
+
+
+def drawing_words(run: Run) -> list[str]:
+    """Say from which bounce on the walls' own distance from the drawn curves shows; nothing where there is none."""
+    walls = run.scene.walls
+    if walls.measured_error == 0 or not len(run.contacts):
+        return []
+    x0, y0, x1, y1 = walls.box()
+    seen = float(f"{0.01 * math.hypot(x1 - x0, y1 - y0):.0e}")
+    units = walls.units or "units"
+    worst = min(run.trusted_until(seen, "drawing"), key=lambda horizon: (horizon.whole, horizon.bounces))
+    when = "it never shows" if worst.whole else f"it may show (by {seen:g} {units}) after bounce {worst.bounces}"
+    return [f"edges are within {walls.measured_error:.2g} {units} of the drawn curves; {when} (--tolerance)"]
