@@ -74,3 +74,21 @@ def test_bad_option_is_a_usage_error(room):
     result = wallkit("import", room, "--tolerance", "-1")
     assert result.returncode == 2
     assert "tolerance" in result.stderr
+
+
+def test_snap_closes_the_gap_and_says_so(tmp_path):
+    file = tmp_path / "gap.svg"
+    file.write_text('<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 30V0H100V60H0V30.5" fill="none"/></svg>')
+    result = wallkit("import", file, "--snap", "0.5")
+    whole = json.loads(result.stdout)
+    assert [wall["closed"] for wall in whole["walls"]] == [True]
+    assert [problem["code"] for problem in whole["problems"]][-2:] == ["repaired-snap", "repaired-join"]
+    assert "moved by at most 0.25" in result.stderr
+
+
+def test_arcs_and_preview(room, tmp_path):
+    picture = tmp_path / "walls.svg"
+    result = wallkit("import", room, "--curves", "arcs", "--preview", picture)
+    assert result.returncode == 0, result.stderr
+    assert "bulges" in json.loads(result.stdout)["walls"][1]
+    assert picture.read_text().startswith("<svg")

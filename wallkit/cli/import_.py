@@ -33,12 +33,22 @@ def import_drawing(
     sides: options.Sides = "both",
     scale: options.Scale = 1.0,
     flip_y: options.FlipY = False,
+    snap: options.Snap = 0.0,
+    join: options.Join = False,
+    drop_duplicates: options.DropDuplicates = False,
+    resolve: options.Resolve = False,
+    union: options.Union = False,
+    min_width: options.MinWidth = 0.0,
+    simplify: options.Simplify = 0.0,
+    outline_strokes: options.OutlineStrokes = False,
 ) -> None:
     """Turn a drawing into walls: closed and open polylines with outward normals."""
     from wallkit.cli.messages import show_problems
     from wallkit.walls.build import import_walls
+    from wallkit.walls.repair import Repairs
 
     _check_ending(out)
+    repairs = Repairs(snap, join, drop_duplicates, resolve, union, min_width, simplify)
     walls = import_walls(
         source(file),
         tolerance=tolerance,
@@ -49,6 +59,8 @@ def import_drawing(
         sides=sides,
         scale=scale,
         flip_y=flip_y,
+        repairs=None if repairs == Repairs() else repairs,
+        outline_strokes=outline_strokes,
     )
     if preview:
         draw(walls, preview)

@@ -23,3 +23,15 @@ Arena = Annotated[bool, typer.Option("--arena", help="The outermost walls are ro
 Sides = Annotated[Literal["both", "outward"], typer.Option(help="From where closed walls are solid.")]
 Scale = Annotated[float, typer.Option(help="Factor on all coordinates.")]
 FlipY = Annotated[bool, typer.Option("--flip-y", help="Mirror the y axis (SVG's points down).")]
+Snap = Annotated[float, typer.Option(metavar="D", help="Move open ends up to D apart together, and join them.")]
+Join = Annotated[bool, typer.Option("--join", help="Join open paths whose ends meet.")]
+DropDuplicates = Annotated[bool, typer.Option("--drop-duplicates", help="Drop walls and edges drawn twice.")]
+Resolve = Annotated[
+    bool, typer.Option("--resolve", help="Self-crossing walls become the outline of what they enclose.")
+]
+Union = Annotated[bool, typer.Option("--union", help="Unite solids that overlap or share an edge.")]
+MinWidth = Annotated[float, typer.Option(metavar="D", help="Remove closed walls that no disc of diameter D fits into.")]
+Simplify = Annotated[float, typer.Option(metavar="D", help="Drop vertices where walls move by at most D.")]
+OutlineStrokes = Annotated[
+    bool, typer.Option("--outline-strokes", help="A stroke with a width becomes the solid that it paints.")
+]

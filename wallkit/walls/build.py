@@ -17,9 +17,9 @@ from wallkit.walls.clean import clean
 from wallkit.walls.contacts import find_contacts
 from wallkit.walls.filling import material_rings
 from wallkit.walls.flatten import Pieces, flatten
-from wallkit.walls.nesting import depths
+from wallkit.walls.orient import oriented
 from wallkit.walls.outlines import Outlines, assemble
-from wallkit.walls.rings import signed_areas, turned
+from wallkit.walls.repair import Repairs, repair
 from wallkit.walls.select import choose
 from wallkit.walls.strokes import Strokes, gather
 from wallkit.walls.validate import straight_edges, validate
@@ -36,10 +36,13 @@ def import_walls(
     curves: Curves = "lines",
     layers: Sequence[str] | None = None,
     hidden: bool = False,
+    snap: float = 0.0,
     arena: bool = False,
     sides: Sides = "both",
     scale: float = 1.0,
     flip_y: bool = False,
+    repairs: Repairs | None = None,
+    outline_strokes: bool = False,
 ) -> Walls:
     """Turn a drawing into walls.
 
@@ -50,10 +53,15 @@ def import_walls(
         curves: ``"lines"`` or ``"arcs"``.
         layers: globs on layer and group names; only these are taken.
         hidden: take hidden paths too.
+        snap: open ends within this distance of each other or of a wall are moved together, and joined; the
+            same as ``repairs`` with that ``snap``.
         arena: the outermost closed walls are rooms: what is inside is free, material is outside.
         sides: ``"both"`` or ``"outward"``, for closed walls; open ones are always two-sided.
         scale: factor on all coordinates; the places of problems are scaled too.
         flip_y: mirror the y axis (SVG's points down).
+        repairs: passes of :func:`wallkit.walls.repair.repair`, their lengths in the drawing's units; what they
+            changed is in ``problems``.
+        outline_strokes: a stroke with a width becomes the solid that it paints.
 
     Returns:
         Walls with everything noticed in ``problems``; nothing is left out without one.
@@ -67,18 +75,21 @@ def import_walls(
     drawing = source if isinstance(source, Drawing) else _read(source)
     chosen, problems = choose(drawing, layers, hidden)
     chosen, pointless = _with_segments(chosen)
+    if outline_strokes:
+        chosen, outlined = _outlined(chosen, tolerance)
+        pointless += outlined
     strokes = gather((sub for path in chosen for sub in path.subpaths), scale, flip_y)
-    within = default_tolerance(strokes) if tolerance is None else tolerance * abs(scale)
+    within = default_tolerance(strokes) if tolerance is None else tolerance * scale
     pieces = _edges(strokes, within, curves)
     outlines = clean(assemble(strokes, pieces, chosen))
-    walls = nested(outlines, sides, arena, within)
+    walls = nested(outlines, sides, arena, within, _scaled(repairs, snap, scale))
     found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *problems, *pointless)]
     return replace(
         walls,
         units=drawing.units if scale == 1 else "",
         y_axis=_flipped(drawing.y_axis) if flip_y else drawing.y_axis,
         tolerance=within,
-        measured_error=pieces.error,
+        measured_error=walls.measured_error + pieces.error,
         measured_normal_error=pieces.normal_error,
         source_file=drawing.file,
         source_sha256=drawing.sha256,
@@ -91,6 +102,26 @@ def _read(source: str | Path | IO[bytes] | IO[str]) -> Drawing:
 
     drawing: Drawing = read_drawing(source)
     return drawing
+
+
+def _scaled(repairs: Repairs | None, snap: float, scale: float) -> Repairs | None:
+    """The passes to run, lengths in the units of the result; None for none."""
+    if snap:
+        repairs = replace(repairs or Repairs(), snap=snap)
+    if repairs is None:
+        return None
+    return replace(
+        repairs, snap=repairs.snap * scale, min_width=repairs.min_width * scale, simplify=repairs.simplify * scale
+    )
+
+
+def _outlined(paths: list[DrawnPath], tolerance: float | None) -> tuple[list[DrawnPath], list[Problem]]:
+    from wallkit.walls.stroking import outline_strokes
+
+    within = (
+        default_tolerance(gather(sub for path in paths for sub in path.subpaths)) if tolerance is None else tolerance
+    )
+    return outline_strokes(paths, within)
 
 
 def _check(tolerance: float | None, curves: str, sides: str, scale: float) -> None:
@@ -144,27 +175,34 @@ def _edges(strokes: Strokes, tolerance: float, curves: Curves) -> Pieces:
     return fit_arcs(strokes, tolerance) if curves == "arcs" else flatten(strokes, tolerance)
 
 
-def nested(outlines: Outlines, sides: Sides, arena: bool, tolerance: float) -> Walls:
-    """Find out what is material, nest, orient, and check; even depth is a solid, odd depth a hole."""
-    plain = outlines.to_walls(sides)
-    plain.tolerance = tolerance
+def nested(outlines: Outlines, sides: Sides, arena: bool, tolerance: float, repairs: Repairs | None) -> Walls:
+    """Find out what is material, repair if asked to, nest, turn, and check."""
+    plain = replace(outlines.to_walls(sides), tolerance=tolerance)
     edges = straight_edges(plain)
     contacts = find_contacts(edges)
     keep, dropped = material_rings(outlines, edges, contacts.crossing_walls)
+    problems = outlines.problems + dropped
     if not keep.all():
         outlines = outlines.keep(keep)
-        plain = outlines.to_walls(sides)
-        plain.tolerance = tolerance
+        plain = replace(outlines.to_walls(sides), tolerance=tolerance)
         edges = straight_edges(plain)
         contacts = find_contacts(edges)
-    depth = depths(edges, contacts.crossing_walls)[0] + (1 if arena else 0)
-    lines = [outlines.paths[owner].line for owner in outlines.owner.tolist()]
-    problems = validate(plain, lines=lines, edges=edges, contacts=contacts)
-    area = signed_areas(outlines.vertices, outlines.bulges, outlines.offsets)
-    turn = outlines.closed & ((area > 0) != (depth % 2 == 0)) & (area != 0)
-    vertices, bulges = turned(outlines.vertices, outlines.bulges, outlines.offsets, turn)
-    walls = replace(outlines, vertices=vertices, bulges=bulges).to_walls(sides)
-    return replace(walls, depth=depth, problems=outlines.problems + dropped + problems)
+    owners = [outlines.paths[owner] for owner in outlines.owner.tolist()]
+    lines = [path.line for path in owners]
+    if repairs is not None:
+        even_odd = [path.fill is not None and path.fill_rule == "evenodd" for path in owners]
+        done = repair(plain, repairs, arena=arena, even_odd=even_odd, file_lines=lines)
+        problems = problems + [change.to_problem() for change in done.changes] + done.violations
+        return replace(done.walls, problems=_still_true(problems, done.walls))
+    walls = oriented(plain, arena, edges, contacts)
+    return replace(walls, problems=problems + validate(plain, lines=lines, edges=edges, contacts=contacts))
+
+
+def _still_true(problems: list[Problem], walls: Walls) -> list[Problem]:
+    """Leave out open paths that repair has closed: their reported end is no open end any more."""
+    first, last = walls.offsets[:-1][~walls.closed], walls.offsets[1:][~walls.closed] - 1
+    ends = {tuple(point) for point in walls.vertices[np.concatenate([first, last])].tolist()}
+    return [problem for problem in problems if problem.code != "open-path" or (problem.x, problem.y) in ends]
 
 
 def _flipped(axis: Literal["up", "down"]) -> Literal["up", "down"]:

@@ -22,6 +22,7 @@ import shapely
 from numpy.typing import NDArray
 
 from wallkit.walls.edges import Edges
+from wallkit.walls.orient import is_arena
 from wallkit.walls.shapes import straightened
 from wallkit.walls.strokes import FloatArray, IntArray
 from wallkit.walls.triangulation import Triangulation, triangulate
@@ -97,7 +98,7 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     a, b = _noded(edges)
     mesh = triangulate(a, b)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
-    return _rooms(mesh, edges, _is_arena(walls), narrow, least)
+    return _rooms(mesh, edges, is_arena(walls), narrow, least)
 
 
 def eroded(walls: Walls, radius: float) -> list[shapely.Polygon]:
@@ -122,10 +123,6 @@ def _noded(edges: Edges) -> tuple[FloatArray, FloatArray]:
     coordinates, index = shapely.get_coordinates(parts, return_index=True)
     joined = index[1:] == index[:-1]
     return coordinates[:-1][joined], coordinates[1:][joined]
-
-
-def _is_arena(walls: Walls) -> bool:
-    return bool(walls.closed.any() and walls.depth[walls.closed].min() % 2)
 
 
 def in_material(edges: Edges, arena: bool, points: FloatArray) -> NDArray[np.bool_]:
