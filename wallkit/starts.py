@@ -21,6 +21,7 @@ BALLS_LAYER = "balls"
 # A circle of four cubics, as drawing programs write it, is off by 2.7e-4 of its radius; hand-made ones by more.
 _ROUND = 0.02
 _FINE_STEP = math.pi / 256  # chords of arcs are then off by at most 2e-5 of the radius
+_WAYS = 64  # directions that are tried out of a face that may be open
 _FACES = 24  # so many of the largest faces are searched for the roomiest spot
 
 
@@ -125,10 +126,10 @@ def _sampled(segments: list[Segment]) -> FloatArray:
 def roomiest(walls: Walls) -> Spot | None:
     """Find the place inside the walls that is farthest from all of them, to 1 % of the distance or better.
 
-    Inside is every bounded face that the walls make; where there are open walls, which may nearly close a room,
-    also what remains of the box around them. Faces of less than half the largest one's area do not count: a room
-    with a wide pillar is meant, not the pillar. The search is shapely's ``maximum_inscribed_circle`` (GEOS, after
-    Mapbox's polylabel).
+    Inside is every bounded face that the walls make; where there are open walls, also what remains of the box
+    around them, if most ways out of it end at a wall, or if there is nothing else. Faces of less than half the
+    largest one's area do not count: a room with a wide pillar is meant, not the pillar. The search is shapely's
+    ``maximum_inscribed_circle`` (GEOS, after Mapbox's polylabel).
 
     Returns:
         The spot, or None where no face has room.
@@ -138,19 +139,10 @@ def roomiest(walls: Walls) -> Spot | None:
     rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
     if not rings:
         return None
-    lines = [shapely.linearrings(r) if c and len(r) > 2 else shapely.linestrings(r)
-             for r, c in zip(rings, walls.closed, strict=True)]  # fmt: skip
-    noded = shapely.node(shapely.multilinestrings(_as_lines(lines)))
-    faces = list(shapely.get_parts(shapely.polygonize([*shapely.get_parts(noded)])))
-    if not walls.closed.all():
-        around = shapely.difference(shapely.envelope(noded), shapely.union_all(faces))
-        faces += list(shapely.get_parts(around))
-    faces = [face for face in faces if face.geom_type == "Polygon"]
-    faces.sort(key=shapely.area, reverse=True)
-    if any(sides == "both" for sides in walls.sides):
-        faces = [face for face in faces if face.area >= 0.5 * faces[0].area]
+    lines = [np.vstack([ring, ring[:1]]) if c else ring for ring, c in zip(rings, walls.closed, strict=True)]
+    noded = shapely.node(shapely.multilinestrings([shapely.linestrings(line) for line in lines]))
     best: Spot | None = None
-    for face in faces[:_FACES]:
+    for face in _faces(walls, noded):
         # A circle in a face of area A has at most the radius sqrt(A / pi): smaller faces cannot win any more.
         if best and math.sqrt(face.area / math.pi) <= best.room:
             continue
@@ -158,6 +150,36 @@ def roomiest(walls: Walls) -> Spot | None:
         if spot and (best is None or spot.room > best.room) and not _in_material(walls, rings, spot):
             best = spot
     return best
+
+
+def _faces(walls: Walls, noded: Any) -> list[Any]:
+    """Give the faces that may be meant as rooms, the largest first."""
+    import shapely
+
+    faces = [*shapely.get_parts(shapely.polygonize([*shapely.get_parts(noded)]))]
+    if not walls.closed.all():
+        around = shapely.get_parts(shapely.difference(shapely.envelope(noded), shapely.union_all(faces)))
+        around = [part for part in around if part.geom_type == "Polygon" and not part.is_empty]
+        nearly = [part for part in sorted(around, key=shapely.area)[-4:] if _is_nearly_closed(part, noded)]
+        faces += nearly if faces or nearly else around
+    faces.sort(key=shapely.area, reverse=True)
+    if any(sides == "both" for sides in walls.sides):
+        faces = [face for face in faces if face.area >= 0.5 * faces[0].area]
+    return faces[:_FACES]
+
+
+def _is_nearly_closed(face: Any, noded: Any) -> bool:
+    """Tell whether most ways out of a face's roomiest spot end at a wall."""
+    import shapely
+
+    spot = _spot(face, noded)
+    if spot is None:
+        return False
+    x0, y0, x1, y1 = noded.bounds
+    angle = np.arange(_WAYS) * (math.tau / _WAYS)
+    ends = (spot.x, spot.y) + 2 * math.hypot(x1 - x0, y1 - y0) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    ways = shapely.linestrings([[(spot.x, spot.y), end] for end in ends.tolist()])
+    return int(np.count_nonzero(shapely.intersects(ways, noded))) >= 0.8 * _WAYS
 
 
 def _in_material(walls: Walls, rings: list[FloatArray], spot: Spot) -> bool:
@@ -177,13 +199,7 @@ def _in_material(walls: Walls, rings: list[FloatArray], spot: Spot) -> bool:
     return bool(x @ np.roll(y, -1) - y @ np.roll(x, -1) > 0)  # twice the signed area: positive is a solid
 
 
-def _as_lines(lines: list[object]) -> list[object]:
-    import shapely
-
-    return [shapely.linestrings(shapely.get_coordinates(line)) for line in lines]
-
-
-def _spot(face: object, walls: object) -> Spot | None:
+def _spot(face: Any, walls: Any) -> Spot | None:
     import shapely
 
     size = math.sqrt(shapely.area(face))
@@ -192,6 +208,8 @@ def _spot(face: object, walls: object) -> Spot | None:
     if not shapely.is_empty(inner):  # open walls inside: thickened by a hair, they become holes
         free = shapely.difference(face, shapely.buffer(inner, 1e-6 * size))
         free = max(shapely.get_parts(free), key=shapely.area, default=face)
+    if shapely.is_empty(free):
+        return None
     line = shapely.maximum_inscribed_circle(free, tolerance=0.005 * size)
     room = float(shapely.length(line))
     if not room > 0:

@@ -96,6 +96,12 @@ def test_no_ball_starts_inside_what_is_solid_from_outside():
     assert roomiest(hollow).room == pytest.approx(30, rel=0.02)
 
 
+def test_an_open_line_beside_a_box_is_no_room():
+    walls = Walls.from_polylines([ring(0, 0, 60, 60), [(0, 300), (400, 300)]], closed=[True, False])
+    spot = roomiest(walls)
+    assert (spot.x, spot.y, spot.room) == pytest.approx((30, 30, 30), rel=0.02)
+
+
 def test_walls_without_room_have_no_spot():
     assert roomiest(Walls.from_polylines([])) is None
     assert roomiest(Walls.from_polylines([[(0, 0), (5, 0)]])) is None
