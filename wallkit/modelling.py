@@ -32,8 +32,6 @@ class Modelled:
     """
 
     def __init__(self, scene: Scene, *, index: str = "auto") -> None:
-        if scene.gravity is not None and scene.gravity != (0.0, 0.0):
-            raise SceneError("gravity is not simulated yet", code="not-yet")
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
         self.origin = local_origin(scene.walls.vertices)
         least = float(self.radii.min()) if len(self.radii) else 0.0
@@ -100,7 +98,7 @@ def _model(scene: Scene, origin: FloatArray, least: float, radius: float, index:
         line_ids=line_ids,
         arc_entries=arc_records[arc_of_edge[arc_ids]] if len(arcs) else None,
         arc_ids=arc_ids,
-        corner_entries=corner_records[corner_ids] if radius > 0.0 else None,
+        corner_entries=corner_records[corner_ids],
         corner_ids=corner_ids,
         whole=whole,
         grid=grid,
@@ -112,6 +110,7 @@ def _model(scene: Scene, origin: FloatArray, least: float, radius: float, index:
         corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)).astype(np.int64),
         restitution=_restitution(scene),
         one_sided=one_sided,
+        gravity=_gravity(scene),
         extent=float(np.abs(vertices).max(initial=0.0)) + radius,
     )
 
@@ -185,6 +184,15 @@ def _fans(walls: Walls, vertices: FloatArray, lines: FloatArray, angles: FloatAr
 def _restitution(scene: Scene) -> FloatArray | None:
     pairs = np.array([(m.restitution, m.tangential_restitution) for m in scene.walls.materials], dtype=np.float64)
     return np.ascontiguousarray(pairs).reshape(-1) if np.any(pairs != 1.0) else None
+
+
+def _gravity(scene: Scene) -> FloatArray | None:
+    if scene.gravity is None:
+        return None
+    gravity = np.array(scene.gravity, dtype=np.float64)
+    if gravity.shape != (2,) or not np.isfinite(gravity).all():
+        raise SceneError(f"gravity is {scene.gravity!r}", code="bad-gravity", fix="give two numbers, GX,GY")
+    return gravity if gravity.any() else None
 
 
 def _one_sided(scene: Scene) -> IntArray | None:

@@ -47,6 +47,10 @@ class Kind(enum.IntEnum):
 
     EDGE = 0
     VERTEX = 1
+    SLIDE = 2
+    """From here on the ball keeps to the wall (gravity has brought it to rest against it)."""
+    LEAVE = 3
+    """The ball leaves the wall on which it slid."""
 
     @property
     def label(self) -> str:
@@ -144,5 +148,15 @@ class Run(Pictured):
                 state[ball] = contact["x"], contact["y"], contact["vx"], contact["vy"]
             span = min(time, float(self.final[ball]["time"])) - since
             if span > 0.0:
-                state[ball, 0:2] += span * state[ball, 2:4]
+                pull = self._pull(self.contacts[order[passed - 1]] if passed > offsets[ball] else None)
+                state[ball, 0:2] += span * (state[ball, 2:4] + 0.5 * span * pull)
+                state[ball, 2:4] += span * pull
         return state
+
+    def _pull(self, contact: Any) -> NDArray[np.float64]:
+        """Acceleration after a contact (None: at the start): gravity, or the part of it along a wall that holds."""
+        pull = np.asarray(self.scene.gravity if self.scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
+        if contact is None or contact["kind"] != Kind.SLIDE:
+            return pull
+        along = np.array([-contact["ny"], contact["nx"]])
+        return along * float(along @ pull)

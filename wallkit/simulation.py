@@ -10,9 +10,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.flight import fly
-from wallkit.kernels.jit import compiled, compiler_is_loaded
-from wallkit.kernels.model import LOG_STRIDE, NO_HIT, RUNNING, STATE_SIZE
+from wallkit.kernels.flight import fly, fly_all
+from wallkit.kernels.jit import compiled
+from wallkit.kernels.model import FREE, LOG_STRIDE, NO_HIT, RUNNING, STATE_SIZE, Counts
 from wallkit.modelling import Modelled
 from wallkit.run import CONTACT, FINAL, Ending, Run
 from wallkit.scene import FloatArray, Scene, SceneError
@@ -23,6 +23,8 @@ BOUNCE_GUARD = 1_000_000
 PATIENCE = 60_000
 """Entries looked at by interpreted kernels, a few microseconds each, before a run waits for the compiler."""
 CHUNK = 8192
+_compiled_features: set[tuple[bool, ...]] = set()  # combinations whose kernels this process has compiled or loaded
+START = Counts(last=NO_HIT, bounces=0, ending=RUNNING, still=0, held=NO_HIT, hold=FREE)
 
 
 def simulate(
@@ -65,6 +67,7 @@ class Flights:
 
     Attributes:
         start: (n, 4) positions and velocities at time 0.
+        hits: (W,) bounces by wall so far.
     """
 
     def __init__(self, scene: Scene, *, mode: Mode = "auto", index: str = "auto") -> None:
@@ -74,8 +77,10 @@ class Flights:
         position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
         self.start: FloatArray = np.hstack([position, velocity]).astype(np.float64)
         self._states = initial_states(self.modelled, position, velocity).tolist()
-        self._counts = [[NO_HIT, 0, RUNNING, 0] for _ in self._states]
+        self._counts = [list(START) for _ in self._states]
+        self.hits = np.zeros(len(scene.walls), dtype=np.int64)
         self._work = 0
+        self._features = tuple(feature is None for feature in self.modelled.model)
 
     def __len__(self) -> int:
         return len(self._states)
@@ -91,19 +96,29 @@ class Flights:
                 yield log
 
     def _piece(self, ball: int, until: float, limit: int) -> FloatArray:
-        radius, state, counts = float(self.modelled.radii[ball]), self._states[ball], self._counts[ball]
+        state, counts, radius = self._states[ball], self._counts[ball], float(self.modelled.radii[ball])
         room = max(1, min(CHUNK, limit - counts[1] + 1))
         if self._compile():
-            machine_log, machine_state = np.empty(room * LOG_STRIDE), np.array(state)
-            machine_counts = np.array(counts, dtype=np.int64)
-            noted = compiled(fly)(
-                self.modelled.model, radius, machine_state, machine_counts, until, limit, None, machine_log, room
+            model, machine_log = self.modelled.model, np.empty(room * LOG_STRIDE)
+            _compiled_features.add(self._features)
+            states, many_counts = np.array([state]), np.array([counts], dtype=np.int64)
+            noted = compiled(fly_all)(
+                model,
+                model.gravity,
+                np.array([radius]),
+                states,
+                many_counts,
+                until,
+                limit,
+                self.hits,
+                machine_log,
+                room,
             )
-            state[:], counts[:] = machine_state.tolist(), machine_counts.tolist()
+            state[:], counts[:] = states[0].tolist(), many_counts[0].tolist()
             return machine_log.reshape(room, LOG_STRIDE)[:noted]
         room = min(room, 256)
-        log = [0.0] * (room * LOG_STRIDE)
-        noted = fly(self.modelled.lists, radius, state, counts, until, limit, None, log, room)
+        lists, log = self.modelled.lists, [0.0] * (room * LOG_STRIDE)
+        noted = fly(lists, lists.gravity, radius, state, counts, until, limit, self.hits, log, room)
         self._work += (noted + 1) * self._entries_a_bounce()
         return np.array(log).reshape(room, LOG_STRIDE)[:noted]
 
@@ -124,11 +139,11 @@ class Flights:
         """
         state = initial_states(self.modelled, position[None], velocity[None])[0].tolist()
         state[4] = time
-        self._states[ball], self._counts[ball] = state, [last, self._counts[ball][1], RUNNING, 0]
+        self._states[ball], self._counts[ball] = state, [last, self._counts[ball][1], *START[2:]]
 
     def _compile(self) -> bool:
         if self.mode == "auto":
-            return compiler_is_loaded() or self._work > PATIENCE
+            return self._features in _compiled_features or self._work > PATIENCE
         return self.mode == "compiled"
 
     def _entries_a_bounce(self) -> int:
@@ -203,6 +218,8 @@ def initial_states(modelled: Modelled, position: FloatArray, velocity: FloatArra
     states[:, 0:2] = position - modelled.origin
     states[:, 2:4] = velocity
     states[:, 6] = velocity[:, 0] * velocity[:, 0] + velocity[:, 1] * velocity[:, 1]
+    if (gravity := modelled.model.gravity) is not None:
+        states[:, 6] -= 2.0 * (gravity[0] * states[:, 0] + gravity[1] * states[:, 1])
     states[:, 7:9], states[:, 9:11] = states[:, 0:2], velocity
     states[:, 11] = 2.0**-47 * np.maximum(np.abs(states[:, 0:2]).max(axis=1, initial=0.0), modelled.model.extent)
     return states

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from wallkit.kernels.flight import fly_all
 from wallkit.kernels.jit import compiled
-from wallkit.kernels.model import NO_HIT, RUNNING, STATE_SIZE
+from wallkit.kernels.model import STATE_SIZE
 from wallkit.modelling import Modelled
 from wallkit.run import Ending
 from wallkit.scene import FloatArray, Scene
-from wallkit.simulation import initial_states, is_gone, limits
+from wallkit.simulation import START, initial_states, is_gone, limits
 
 CHUNK = 512
 """Balls a task: enough to forget the cost of a task, few enough to share the work out evenly."""
@@ -70,13 +70,14 @@ def survey(
     modelled = Modelled(scene)
     position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
     states = initial_states(modelled, position, velocity)
-    counts = np.tile(np.array([NO_HIT, 0, RUNNING, 0], dtype=np.int64), (len(states), 1))
-    work = compiled(fly_all)
+    counts = np.tile(np.array(START, dtype=np.int64), (len(states), 1))
+    work, model, no_log = compiled(fly_all), modelled.model, np.empty(0)
 
     def fly_chunk(first: int) -> NDArray[np.int64]:
         part = slice(first, first + CHUNK)
         hits = np.zeros(len(scene.walls), dtype=np.int64)
-        work(modelled.model, modelled.radii[part], states[part], counts[part], limit_time, limit_bounces, hits)
+        radii, chunk_states, chunk_counts = modelled.radii[part], states[part], counts[part]
+        work(model, model.gravity, radii, chunk_states, chunk_counts, limit_time, limit_bounces, hits, no_log, 1)
         return hits
 
     starts = range(0, len(states), CHUNK)

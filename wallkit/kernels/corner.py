@@ -12,7 +12,7 @@ import math
 from wallkit.kernels.arcs import holds
 from wallkit.kernels.grid import home
 from wallkit.kernels.jit import kernel, rare_kernel
-from wallkit.kernels.model import AMBIGUOUS, NO_HIT
+from wallkit.kernels.model import AMBIGUOUS, COLLAPSES, NO_HIT
 from wallkit.kernels.motion import reflect
 
 SAME = 1e-9
@@ -25,7 +25,7 @@ def settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, toleranc
     """Find the edge that a point in a corner meets next, at once; or NO_HIT if it is free to go.
 
     Returns AMBIGUOUS if starting with the other wall would send the point elsewhere: an exact corner hit that
-    has no limit.
+    has no limit; COLLAPSES if restitution takes all speed before the point gets out.
     """
     cells, c = home(model, model.grid, x, y)
     found = NO_HIT
@@ -42,9 +42,24 @@ def settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, toleranc
             closest, found = lean, edge
     if found == NO_HIT:
         return NO_HIT
-    if still == 0 and not _order_is_free(model, last, found, x, y, from_vx, from_vy):
-        return AMBIGUOUS
-    return found
+    if still > 0:
+        return found
+    last_side = _came(model, last, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+    found_side = _came(model, found, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+    return _outcome(model, last, last_side, found, found_side, x, y, from_vx, from_vy)
+
+
+@rare_kernel
+def _came(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance):
+    """Side of an edge (1 that of ``normal_at``, or -1) from which the point came: that of where its flight began.
+
+    If it began on the edge too, the point left there on the side to which it flew.
+    """
+    side = _side(model, model.arcs, edge, from_x, from_y, tolerance)
+    if side == 0.0:
+        nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
+        side = from_vx * nx + from_vy * ny
+    return 1.0 if side > 0.0 else -1.0
 
 
 @rare_kernel
@@ -59,20 +74,15 @@ def _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tol
     if not touches:
         return -2.0
     nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
-    came = _side(model, model.arcs, edge, from_x, from_y, tolerance)
-    if came == 0.0:
-        came = from_vx * nx + from_vy * ny
+    came = _came(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance)
     toward = vx * nx + vy * ny
     if (came > 0.0) == (toward > 0.0) or toward == 0.0:
         return -2.0
     if _passes(model.one_sided, model, model.arcs, edge, came):
         return -2.0
     mx, my, _twice = normal_at(model, model.arcs, last, x, y)
-    side = _side(model, model.arcs, last, from_x, from_y, tolerance)
-    if side == 0.0:
-        side = from_vx * mx + from_vy * my
-    if side < 0.0:
-        mx, my = -mx, -my
+    side = _came(model, last, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+    mx, my = side * mx, side * my
     dx, dy = -ny, nx
     rise = dx * mx + dy * my
     if ends and not starts:
@@ -154,22 +164,22 @@ def _passes(one_sided, model, arcs, edge, came):
 
 
 @rare_kernel
-def _order_is_free(model, first, second, x, y, vx, vy):
-    """Bouncing off the two walls in turn gives the same outgoing velocity whichever comes first."""
-    ax, ay = _leave(model, first, second, x, y, vx, vy)
-    bx, by = _leave(model, second, first, x, y, vx, vy)
-    return (ax - bx) * (ax - bx) + (ay - by) * (ay - by) <= SAME * SAME * (vx * vx + vy * vy)
+def _outcome(model, first, first_side, second, second_side, x, y, vx, vy):
+    """Tell what bouncing off two edges in turn comes to, whichever is first: the second edge if that is the same."""
+    ax, ay = _leave(model, first, first_side, second, second_side, x, y, vx, vy)
+    bx, by = _leave(model, second, second_side, first, first_side, x, y, vx, vy)
+    small = SAME * SAME * (vx * vx + vy * vy)
+    if model.restitution is not None and ax * ax + ay * ay <= small:
+        return COLLAPSES
+    return second if (ax - bx) * (ax - bx) + (ay - by) * (ay - by) <= small else AMBIGUOUS
 
 
 @rare_kernel
-def _leave(model, first, second, x, y, vx, vy):
+def _leave(model, first, first_side, second, second_side, x, y, vx, vy):
     """Velocity after bouncing off two edges in turn until it recedes from both."""
     ax, ay, a_twice = normal_at(model, model.arcs, first, x, y)
     bx, by, b_twice = normal_at(model, model.arcs, second, x, y)
-    if vx * ax + vy * ay > 0.0:
-        ax, ay = -ax, -ay
-    if vx * bx + vy * by > 0.0:
-        bx, by = -bx, -by
+    ax, ay, bx, by = first_side * ax, first_side * ay, second_side * bx, second_side * by
     a_wall, b_wall = model.edge_wall[first], model.edge_wall[second]
     for _turn in range(TURNS):
         receding = True

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.corner import normal_at, settle
-from wallkit.kernels.grid import search
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.model import (
     AMBIGUOUS,
@@ -13,32 +12,38 @@ from wallkit.kernels.model import (
     AT_REST,
     BOUNCE_LIMIT,
     COLLAPSE,
+    COLLAPSES,
+    COMING_TO_REST,
     EDGE,
+    END_OF_EDGE,
+    LEAVE,
+    LEAVING,
     LEFT_SCENE,
     NO_HIT,
     RUNNING,
+    SLIDE,
+    SLIDING,
     TIME_REACHED,
     VERTEX,
 )
-from wallkit.kernels.motion import advance, reflect
-
-STILL_LIMIT = 1000
-"""Contacts in a row without any time passing: a ball caught between walls, or one that rolls into a hollow."""
+from wallkit.kernels.motion import advance
+from wallkit.kernels.pull import bounce, first_contact, held_after, keep_to, kept_energy, move, rests, towards
 
 
 @kernel
-def fly(model, radius, state, counts, until, limit, hits, log, capacity):
+def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity):
     """Fly one ball until its time, its bounce limit, an ending, or a full log.
 
     Args:
         model: the scene, see ``Model``.
+        gravity: ``model.gravity``, given by itself so that what it is not needed for is dropped.
         radius: of the ball; 0 for a point.
         state: floats of the ball (``STATE_SIZE``), read and written, so that a flight can go on later.
-        counts: integers of the ball, see ``Counts``: last feature, bounces, ending, contacts without time.
+        counts: integers of the ball, see ``Counts``.
         until: time at which to stop, or inf.
         limit: number of bounces at which to stop.
-        hits: bounces by wall, added to, or None.
-        log: flat floats, ``LOG_STRIDE`` a contact, or None.
+        hits: bounces by wall, added to.
+        log: flat floats, ``LOG_STRIDE`` a contact; empty to keep no contacts.
         capacity: contacts that fit in ``log``.
 
     Returns:
@@ -47,84 +52,114 @@ def fly(model, radius, state, counts, until, limit, hits, log, capacity):
     x, y, vx, vy, time, lost, energy = state[0], state[1], state[2], state[3], state[4], state[5], state[6]
     from_x, from_y, from_vx, from_vy = state[7], state[8], state[9], state[10]
     tolerance = state[11]
-    last, bounces, still = counts[0], counts[1], counts[3]
+    last, bounces, still, held, hold = counts[0], counts[1], counts[3], counts[4], counts[5]
     ending = RUNNING
     noted = 0
     while ending == RUNNING and noted < capacity:
-        if energy <= 0.0:
+        if gravity is None and energy <= 0.0:
             ending = AT_REST
             break
         if bounces >= limit:
             ending = BOUNCE_LIMIT
             break
         remaining = (until - time) - lost
-        t, feature, touched = search(
-            model, model.grid, radius, x, y, vx, vy, energy, last, tolerance, remaining, NO_HIT
+        if gravity is not None and hold in (COMING_TO_REST, LEAVING):
+            if hold == COMING_TO_REST:
+                x, y, vx, vy, t = keep_to(model, held, x, y, vx, vy, gravity)
+                time, lost = advance(time, lost, t)
+                energy = kept_energy(gravity, x, y, vx, vy)
+            nx, ny = towards(model, held, gravity)
+            kind = SLIDE if hold == COMING_TO_REST else LEAVE
+            note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, held, kind)
+            noted += 1 if len(log) > 0 else 0
+            hold += 1
+            if hold == SLIDING and rests(model, held, vx, vy, gravity):
+                ending = AT_REST
+            continue
+        t, feature, touched = first_contact(
+            model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance, remaining
         )
         if touched > 0 and last >= 0:
             met = settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still)
-            if met == AMBIGUOUS:
-                ending = AMBIGUOUS_CORNER
+            if met in (AMBIGUOUS, COLLAPSES):
+                ending = AMBIGUOUS_CORNER if met == AMBIGUOUS else COLLAPSE
                 break
             if met != NO_HIT:
                 t, feature = 0.0, met
         if feature == NO_HIT:
             ending = LEFT_SCENE if until == math.inf else TIME_REACHED
             break
-        if time + t > time:
+        if time + t > time and t * (abs(vx) + abs(vy)) > tolerance * 2.0**-6:
             still = 0
         else:
             still += 1
-            if still > STILL_LIMIT:
+            if still > still_limit(model.restitution):
                 ending = COLLAPSE
                 break
         if t > 0.0:
             from_x, from_y, from_vx, from_vy = x, y, vx, vy
-            x += t * vx
-            y += t * vy
+            x, y, vx, vy = move(model, gravity, held, hold, x, y, vx, vy, t)
             time, lost = advance(time, lost, t)
-        if feature >= 0:
-            nx, ny, twice = normal_at(model, model.arcs, feature, x, y)
-            wall = model.edge_wall[feature]
-        else:
-            corner = model.corners[-2 - feature]
-            nx, ny = x - corner.x, y - corner.y
-            twice = 2.0 / (nx * nx + ny * ny)
-            wall = model.corner_wall[-2 - feature]
+        if feature == END_OF_EDGE:
+            hold = LEAVING
+            last = held
+            continue
+        nx, ny, twice, wall = normal_of(model, feature, x, y)
         if vx * nx + vy * ny > 0.0:
             nx, ny = -nx, -ny
-        vx, vy, energy = reflect(model.restitution, wall, nx, ny, twice, vx, vy, energy)
+        vx, vy, energy = bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy)
         last = feature
         bounces += 1
-        if hits is not None:
-            hits[wall] += 1
-        if log is not None:
-            note(log, noted, time + lost, x, y, vx, vy, radius, nx, ny, feature)
-            noted += 1
+        hits[wall] += 1
+        note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
+        noted += 1 if len(log) > 0 else 0
+        if gravity is not None:
+            held, hold = held_after(model, gravity, feature, held, hold, vx, vy, nx, ny, tolerance)
     if ending == TIME_REACHED:
         remaining = (until - time) - lost
         if remaining > 0.0:
             from_x, from_y, from_vx, from_vy = x, y, vx, vy
-            x += remaining * vx
-            y += remaining * vy
+            x, y, vx, vy = move(model, gravity, held, hold, x, y, vx, vy, remaining)
             time, lost = until, 0.0
     state[0], state[1], state[2], state[3], state[4], state[5], state[6] = x, y, vx, vy, time, lost, energy
     state[7], state[8], state[9], state[10] = from_x, from_y, from_vx, from_vy
-    counts[0], counts[1], counts[2], counts[3] = last, bounces, ending, still
+    counts[0], counts[1], counts[2], counts[3], counts[4], counts[5] = last, bounces, ending, still, held, hold
     return noted
 
 
 @kernel
-def fly_all(model, radii, states, counts, until, limit, hits):
-    """Fly balls one after the other; only their last states and the bounces by wall are kept."""
-    for ball in range(len(radii)):
-        fly(model, radii[ball], states[ball], counts[ball], until, limit, hits, None, limit + 1)
+def normal_of(model, feature, x, y):
+    """Normal at a contact, any length and way, 2 / (n.n), and the wall."""
+    if feature >= 0:
+        nx, ny, twice = normal_at(model, model.arcs, feature, x, y)
+        return nx, ny, twice, model.edge_wall[feature]
+    corner = model.corners[-2 - feature]
+    nx, ny = x - corner.x, y - corner.y
+    return nx, ny, 2.0 / (nx * nx + ny * ny), model.corner_wall[-2 - feature]
 
 
 @kernel
-def note(log, row, time, x, y, vx, vy, radius, nx, ny, feature):
+def still_limit(restitution):
+    """Contacts in a row that rounding does not tell apart, in time or place, after which a ball is caught.
+
+    Caught between walls, or rolling into a hollow; with restitution, losing its speed in a wedge.
+    """
+    return 1000 if restitution is None else 100
+
+
+@kernel
+def fly_all(model, gravity, radii, states, counts, until, limit, hits, log, capacity):
+    """Fly balls one after the other, with an empty log, or one ball with a log; see ``fly``."""
+    noted = 0
+    for ball in range(len(radii)):
+        noted = fly(model, gravity, radii[ball], states[ball], counts[ball], until, limit, hits, log, capacity)
+    return noted
+
+
+@kernel
+def note(log, row, time, x, y, vx, vy, nx, ny, radius, feature, kind):
     """Write one contact to the log, the normal made a unit and pointing to the ball."""
-    if log is None:
+    if len(log) == 0:
         return
     length = math.sqrt(nx * nx + ny * ny)
     nx, ny = nx / length, ny / length
@@ -132,4 +167,4 @@ def note(log, row, time, x, y, vx, vy, radius, nx, ny, feature):
     log[o], log[o + 1], log[o + 2], log[o + 3], log[o + 4] = time, x, y, vx, vy
     log[o + 5], log[o + 6] = x - radius * nx, y - radius * ny
     log[o + 7], log[o + 8], log[o + 9] = nx, ny, float(feature)
-    log[o + 10] = float(EDGE if feature >= 0 else VERTEX)
+    log[o + 10] = float(kind)

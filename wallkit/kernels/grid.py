@@ -53,9 +53,14 @@ def home(model, grid, x, y):
     """Cells and the number of the one that lists what a point at (x, y) touches."""
     if grid is None:
         return model.whole, 0
-    column = _cell(x - grid.x0, grid.size, grid.columns)
-    row = _cell(y - grid.y0, grid.size, grid.rows)
+    column, row = cell_of(grid, x, y)
     return grid.cells, row * grid.columns + column
+
+
+@kernel
+def cell_of(grid, x, y):
+    """Column and row of a place, those at the border for places beyond."""
+    return _cell(x - grid.x0, grid.size, grid.columns), _cell(y - grid.y0, grid.size, grid.rows)
 
 
 @kernel
@@ -70,8 +75,7 @@ def _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, fea
     enter, leave = _clip(grid, x, y, vx, vy)
     if enter > leave or enter > best:
         return best, feature, touched
-    column = _cell(x + enter * vx - grid.x0, grid.size, grid.columns)
-    row = _cell(y + enter * vy - grid.y0, grid.size, grid.rows)
+    column, row = cell_of(grid, x + enter * vx, y + enter * vy)
     step_x = 1 if vx > 0.0 else -1
     step_y = 1 if vy > 0.0 else -1
     per_vx = 1.0 / vx if vx != 0.0 else math.inf

@@ -32,8 +32,8 @@ def scan_point(lines, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last
     The ray p + t v passes between a and b when the crosses of (a - p) and (b - p) with v differ in sign, 0
     counting as positive. A vertex has one such sign, shared by both of its edges, so no ray slips between
     neighbours or meets both. Which way the ray crosses follows from the same two signs, and it is an approach
-    if the point lies on that side: d = (p - a).n > 0 when the crosses rise. Then t = |d| length / |their
-    difference|, which is not 0 because their signs differ.
+    if the point lies on that side: d = (p - a).n > 0 when the crosses rise. Then t = |d| / |v.n|; where v.n rounds
+    to 0 or beyond, the difference of the crosses over the length stands in, which is not 0: their signs differ.
 
     A point within ``tolerance`` (the rounding of positions) of another edge has no side of its own there: that
     edge is left out and counted, and the caller settles it from where the point came from.
@@ -62,8 +62,12 @@ def scan_point(lines, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last
             continue
         if (cross_a < 0.0) != (d > 0.0):
             continue
-        gap = abs(d) * line.length
-        closing = abs(cross_b - cross_a)
+        gap = abs(d)
+        closing = vx * nx + vy * ny
+        if d > 0.0:
+            closing = -closing
+        if closing <= 0.0:  # all but parallel: rounding hides that the vertices lie on either side
+            closing = abs(cross_b - cross_a) / line.length
         if gap > reach * closing:
             continue
         if one_sided is not None:
@@ -136,8 +140,6 @@ def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
     Returns:
         (time, feature).
     """
-    if corners is None:
-        return best, feature
     per_energy = 1.0 / energy
     square = radius * radius
     for k in range(start, stop):
@@ -159,7 +161,7 @@ def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
             if -2 - ids[k] == last:
                 continue
             if one_sided is not None:
-                if one_sided[corner_wall[ids[k]]] != 0 and _behind(corner, ex + t * vx, ey + t * vy):
+                if one_sided[corner_wall[ids[k]]] != 0 and behind(corner, ex + t * vx, ey + t * vy):
                     continue
             best = t
             feature = -2 - ids[k]
@@ -167,6 +169,6 @@ def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
 
 
 @kernel
-def _behind(corner, ex, ey):
+def behind(corner, ex, ey):
     """A centre at e from a corner is behind it when it is against the sum of the normals there."""
     return ex * corner.sx + ey * corner.sy < 0.0

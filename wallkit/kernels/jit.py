@@ -57,11 +57,6 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
         setattr(config, "CACHE_DIR", theirs)  # noqa: B010
 
 
-def compiler_is_loaded() -> bool:
-    """Some kernel was compiled in this process already, so that using it again costs nothing."""
-    return compiled.cache_info().currsize > 0
-
-
 @cache
 def _register_all(register: Callable[..., Any]) -> None:
     for function in _marked:

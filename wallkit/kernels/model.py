@@ -13,18 +13,25 @@ from typing import Any, NamedTuple
 import numpy as np
 
 STATE_SIZE = 12
-"""x, y, vx, vy, time, what the time lost to rounding, speed squared; for points where the last flight began (x, y)
+"""x, y, vx, vy, time, what the time lost to rounding, speed squared (under gravity
+less 2 g.p, which a flight keeps); for points where the last flight began (x, y)
 and its velocity, and the tolerance: how far positions may be off by rounding."""
 LOG_STRIDE = 11
 """time, x, y, vx, vy, px, py, nx, ny, feature, kind."""
 
 NO_HIT = -1
 """No feature. Edge e is the feature e, corner j is the feature -2 - j."""
+END_OF_EDGE = -(2**61)
+"""In place of a feature: a sliding ball comes to the end of the edge that holds it."""
+COLLAPSES = -(2**60)
+"""In place of a feature: an exact corner hit that the ball does not get out of."""
 AMBIGUOUS = -(2**62)
 """In place of a feature: an exact corner hit whose outcome depends on which wall comes first."""
 
 RUNNING = -1
-EDGE, VERTEX = 0, 1
+EDGE, VERTEX, SLIDE, LEAVE = 0, 1, 2, 3
+FREE, COMING_TO_REST, SLIDING, LEAVING, LEFT = 0, 1, 2, 3, 4
+"""How an edge holds a ball under gravity: not; from the next moment; now; until the next moment; until just now."""
 TIME_REACHED, BOUNCE_LIMIT, LEFT_SCENE, AT_REST, COLLAPSE, AMBIGUOUS_CORNER = 0, 1, 2, 3, 4, 5
 
 
@@ -104,7 +111,7 @@ class Model(NamedTuple):
     """``Arc`` cell by cell; None when all edges are lines."""
     arc_ids: Any
     corner_entries: Any
-    """``Corner`` cell by cell; None when all balls are points."""
+    """``Corner`` cell by cell; empty when all balls are points."""
     corner_ids: Any
     whole: Any
     """All entries as the ``Cells`` of one cell."""
@@ -123,14 +130,22 @@ class Model(NamedTuple):
     """By wall: normal, tangential; None when all are 1."""
     one_sided: Any
     """By wall: 1 when solid from its outward side alone; None when all are two-sided."""
+    gravity: Any
+    """(gx, gy), or None."""
     extent: float
     """Largest absolute local coordinate."""
 
 
 class Counts(NamedTuple):
-    """Places in the integer state of a ball."""
+    """The integer state of a ball.
 
-    last: int = 0
-    bounces: int = 1
-    ending: int = 2
-    still: int = 3
+    Last feature; bounces; ending or RUNNING; contacts in a row without time; edge that holds it, or NO_HIT; how it
+    does, see FREE and the following.
+    """
+
+    last: int
+    bounces: int
+    ending: int
+    still: int
+    held: int
+    hold: int

@@ -1,0 +1,220 @@
+"""Time of impact under gravity: parabolas against lines, corners and arcs, and their way through the grid.
+
+A gap that falls through zero is a contact; ``roots`` finds when. A ball may meet both sides of one wall in one flight
+(up past its end, and down on it), so each side is asked; from behind, the gap must rise above zero before it falls.
+Where a contact counts only on part of a line or circle, the parts overlap by the rounding of positions.
+"""
+
+from __future__ import annotations
+
+import math
+
+from wallkit.kernels.arcs import holds
+from wallkit.kernels.grid import cell_of
+from wallkit.kernels.impact import behind, precedes
+from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
+
+
+@kernel
+def fall_line(
+    lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature
+):
+    """Earliest contact with the lines of entries start to stop: +-(d + vn t + gn t^2 / 2) - r falls through 0.
+
+    ``skipped`` is the line on which the ball slides or has just slid.
+
+    Returns:
+        (time, feature, number of other lines that a point touches where it starts).
+    """
+    touched = 0
+    slack = tolerance + radius * 2.0**-42
+    for k in range(start, stop):
+        if ids[k] == skipped:
+            continue
+        line = lines[k]
+        ex, ey = x - line.ax, y - line.ay
+        nx, ny = line.nx, line.ny
+        d, vn, gn = ex * nx + ey * ny, vx * nx + vy * ny, gx * nx + gy * ny
+        u, vu, gu = ey * nx - ex * ny, vy * nx - vx * ny, gy * nx - gx * ny
+        above = d > 0.0
+        if radius == 0.0 and abs(d) <= tolerance and -tolerance <= u <= line.length + tolerance:
+            touched += 1 if ids[k] != last else 0
+            above = vn > 0.0 or (vn == 0.0 and gn > 0.0)
+        for turn in range(2):
+            side = 1.0 if turn == 0 else -1.0
+            if side < 0.0 and one_sided is not None:
+                if one_sided[edge_wall[ids[k]]] != 0:
+                    continue
+            t = _fall_of_side(0.5 * side * gn, side * vn, side * d - radius, above != (side > 0.0))
+            if not (t < best or (t == best and precedes(ids[k], feature))) or (t <= 0.0 and ids[k] == last):
+                continue
+            foot = u + t * (vu + 0.5 * t * gu)
+            if -slack <= foot <= line.length + slack:
+                best, feature = t, ids[k]
+    return best, feature, touched
+
+
+@kernel
+def _fall_of_side(a, b, c, from_behind):
+    """First fall of a t^2 + b t + c through 0; from behind (below 0 now) only after it has risen."""
+    if not from_behind:
+        return first_fall_quadratic(a, b, c, math.inf)
+    if a >= 0.0 or b <= 0.0:
+        return NEVER
+    discriminant = b * b - 4.0 * a * c
+    if discriminant <= 0.0:
+        return NEVER
+    return -0.5 * (b + math.sqrt(discriminant)) / a
+
+
+@rare_kernel
+def _fall_after(c4, c3, c2, c1, c0, time, from_behind):
+    """First fall of a quartic through 0 at or after a time; from behind only after it has risen above 0."""
+    for turn in range(2):
+        f0 = (((c4 * time + c3) * time + c2) * time + c1) * time + c0
+        f1 = ((4.0 * c4 * time + 3.0 * c3) * time + 2.0 * c2) * time + c1
+        f2 = (6.0 * c4 * time + 3.0 * c3) * time + c2
+        f3 = 4.0 * c4 * time + c3
+        if turn == 0 and from_behind:
+            t = first_fall_quartic(-c4, -f3, -f2, -f1, -f0, math.inf)
+            if t == NEVER:
+                return NEVER
+            time += t
+        elif turn == 1 or not from_behind:
+            t = first_fall_quartic(c4, f3, f2, f1, f0, math.inf)
+            return time + t if t < NEVER else NEVER
+    return NEVER
+
+
+@kernel
+def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, last, best, feature):
+    """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls."""
+    for k in range(start, stop):
+        corner = corners[k]
+        ex, ey = x - corner.x, y - corner.y
+        t = _fall_after(
+            0.25 * (gx * gx + gy * gy),
+            vx * gx + vy * gy,
+            vx * vx + vy * vy + ex * gx + ey * gy,
+            2.0 * (ex * vx + ey * vy),
+            ex * ex + ey * ey - radius * radius,
+            0.0,
+            False,
+        )
+        if not (t < best or (t == best and precedes(-2 - ids[k], feature))) or (t <= 0.0 and -2 - ids[k] == last):
+            continue
+        if one_sided is not None:
+            if one_sided[corner_wall[ids[k]]] != 0 and behind(
+                corner, ex + t * (vx + 0.5 * t * gx), ey + t * (vy + 0.5 * t * gy)
+            ):
+                continue
+        best, feature = t, -2 - ids[k]
+    return best, feature
+
+
+@kernel
+def fall_arcs(
+    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, best, feature
+):
+    """Earliest contact with the arcs of entries start to stop: |e(t)|^2 - (R + r)^2 or (R - r)^2 - |e(t)|^2 falls.
+
+    Returns:
+        (time, feature, number of other arcs that a point touches where it starts).
+    """
+    touched = 0
+    if arcs is None:
+        return best, feature, touched
+    slack = tolerance + radius * 2.0**-42
+    c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
+    for k in range(start, stop):
+        arc = arcs[k]
+        wx, wy = x - arc.ax, y - arc.ay
+        ex, ey = wx + arc.sx, wy + arc.sy
+        power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
+        c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
+        outside = power >= 0.0
+        if radius == 0.0 and abs(power) <= (2.0 * arc.radius + tolerance) * tolerance and holds(arc, ex, ey, tolerance):
+            touched += 1 if ids[k] != last else 0
+            outside = c1 > 0.0 or (c1 == 0.0 and c2 > 0.0)
+        for turn in range(2):
+            side = 1.0 if turn == 0 else -1.0
+            if side < 0.0 and radius >= arc.radius:
+                continue
+            if one_sided is not None:
+                if one_sided[edge_wall[ids[k]]] != 0 and side * arc.turn < 0.0:
+                    continue
+            c0 = side * power - radius * (2.0 * arc.radius + side * radius)
+            t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, 0.0, outside != (side > 0.0))
+            for _again in range(2):
+                if not (t < best or (t == best and precedes(ids[k], feature))):
+                    break
+                if (t > 0.0 or ids[k] != last) and holds(
+                    arc, ex + t * (vx + 0.5 * t * gx), ey + t * (vy + 0.5 * t * gy), slack
+                ):
+                    best, feature = t, ids[k]
+                    break
+                t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, t, True)
+    return best, feature, touched
+
+
+@kernel
+def fall_scan(model, cells, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature):
+    """Earliest contact with the entries of one cell: (time, feature, edges touched by a point where it starts)."""
+    best, feature, touched = fall_line(
+        model.line_entries, model.line_ids, cells.line_start[c], cells.line_start[c + 1],
+        model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature,
+    )  # fmt: skip
+    best, feature, more = fall_arcs(
+        model.arc_entries, model.arc_ids, cells.arc_start[c], cells.arc_start[c + 1],
+        model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, best, feature,
+    )  # fmt: skip
+    best, feature = fall_corners(
+        model.corner_entries, model.corner_ids, cells.corner_start[c], cells.corner_start[c + 1],
+        model.one_sided, model.corner_wall, radius, x, y, vx, vy, gx, gy, last, best, feature,
+    )  # fmt: skip
+    return best, feature, touched + more
+
+
+@kernel
+def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature):
+    """Find the earliest contact before ``best``: (time, feature, edges touched by a point where it starts).
+
+    The cells at the grid's border reach on without end, so a ball that leaves the grid is followed back into it. A
+    coordinate of a parabola passes each border at most twice.
+    """
+    if grid is None:
+        return fall_scan(model, model.whole, 0, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature)
+    column, row = cell_of(grid, x, y)
+    touched = 0
+    now = 0.0
+    for _step in range(2 * (grid.columns + grid.rows) + 8):
+        best, feature, more = fall_scan(
+            model, grid.cells, row * grid.columns + column, radius, x, y, vx, vy, gx, gy,
+            last, skipped, tolerance, best, feature,
+        )  # fmt: skip
+        if now == 0.0:
+            touched += more
+        step_x, time_x = _leaving(grid.x0, grid.size, column, grid.columns, x, vx, gx, now)
+        step_y, time_y = _leaving(grid.y0, grid.size, row, grid.rows, y, vy, gy, now)
+        passed = min(time_x, time_y)
+        if passed == NEVER or best <= now + passed:
+            break
+        now += passed
+        if time_x < time_y:
+            column += step_x
+        else:
+            row += step_y
+    return best, feature, touched
+
+
+@kernel
+def _leaving(low, size, number, count, p, v, g, now):
+    """How long after ``now`` a coordinate leaves its column or row, and to which side: (step, time)."""
+    p_now, v_now = p + now * (v + 0.5 * now * g), v + now * g
+    up, down = NEVER, NEVER
+    if number < count - 1:
+        up = first_fall_quadratic(-0.5 * g, -v_now, low + (number + 1) * size - p_now, math.inf)
+    if number > 0:
+        down = first_fall_quadratic(0.5 * g, v_now, p_now - (low + number * size), math.inf)
+    return (1, up) if up < down else (-1, down)

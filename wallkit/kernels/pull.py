@@ -1,0 +1,173 @@
+"""What gravity does to a flight: parabolas, energy kept, and balls that have come to rest against a straight wall.
+
+With restitution e < 1 a ball that leaves a wall at the normal speed w, pressed back by p = -g.n, bounces without
+end in the time 2 w / (p (1 - e)). When the height it reaches, w^2 / (2 p), is below the rounding of positions, these
+bounces are taken at once. After that it keeps to the wall: at rest where tangential restitution f < 1 has stopped it
+(or nothing pulls), else sliding with the part of gravity along the wall, until the wall ends or something is met.
+
+Each kernel takes gravity as an argument of its own; where it is None only the straight flight is left of it.
+"""
+
+from __future__ import annotations
+
+import math
+
+from wallkit.kernels.falling import fall_search
+from wallkit.kernels.grid import search
+from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.model import COMING_TO_REST, END_OF_EDGE, FREE, LEFT, NO_HIT, SLIDING
+from wallkit.kernels.motion import reflect
+from wallkit.kernels.roots import first_fall_quadratic
+
+LEVEL = 2.0**-48
+"""A wall that turns gravity by less than this is level."""
+
+
+@kernel
+def first_contact(model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance, best):
+    """Find what ends the flight before ``best``: (time, feature, edges touched by a point where it starts)."""
+    if gravity is None:
+        return search(model, model.grid, radius, x, y, vx, vy, energy, last, tolerance, best, NO_HIT)
+    gx, gy = _pull(model, gravity, held, hold)
+    skipped = held if hold in (SLIDING, LEFT) else NO_HIT
+    t, feature, touched = fall_search(
+        model, model.grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, NO_HIT
+    )
+    if hold == SLIDING:
+        end = _end_of_edge(model, held, x, y, vx, vy, gx, gy)
+        if end < t:
+            return end, END_OF_EDGE, 0
+    return t, feature, touched
+
+
+@kernel
+def move(model, gravity, held, hold, x, y, vx, vy, t):
+    """Where a ball is after a time, and its velocity: p + v t + g t^2 / 2, v + g t."""
+    if gravity is None:
+        return x + t * vx, y + t * vy, vx, vy
+    gx, gy = _pull(model, gravity, held, hold)
+    return x + t * (vx + 0.5 * t * gx), y + t * (vy + 0.5 * t * gy), vx + t * gx, vy + t * gy
+
+
+@kernel
+def bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy):
+    """Turn the velocity at a contact: (vx, vy, energy kept by the next flight).
+
+    Under gravity a flight keeps v^2 - 2 g.p; the speed before the bounce is taken from it.
+    """
+    if gravity is None:
+        return reflect(model.restitution, wall, nx, ny, twice, vx, vy, energy)
+    height = 2.0 * (gravity[0] * x + gravity[1] * y)
+    vx, vy, square = reflect(model.restitution, wall, nx, ny, twice, vx, vy, max(energy + height, 0.0))
+    return vx, vy, square - height
+
+
+@kernel
+def kept_energy(gravity, x, y, vx, vy):
+    """What a flight keeps: v^2 - 2 g.p."""
+    return vx * vx + vy * vy - 2.0 * (gravity[0] * x + gravity[1] * y)
+
+
+@kernel
+def towards(model, held, gravity):
+    """Unit normal of the edge that holds a ball, towards the ball: against gravity."""
+    line = model.lines[held]
+    side = -1.0 if gravity[0] * line.nx + gravity[1] * line.ny > 0.0 else 1.0
+    return side * line.nx, side * line.ny
+
+
+@kernel
+def held_after(model, gravity, feature, held, hold, vx, vy, nx, ny, tolerance):
+    """Which edge holds a ball after a bounce off a feature (normal n towards it), and how: (edge, hold)."""
+    if hold == SLIDING and feature != held:
+        hx, hy = towards(model, held, gravity)
+        if _clings(gravity, hx, hy, vx, vy, tolerance):
+            return held, COMING_TO_REST
+    if feature >= 0 and _is_line(model, model.arcs, feature):
+        length = math.sqrt(nx * nx + ny * ny)
+        if _clings(gravity, nx / length, ny / length, vx, vy, tolerance):
+            return feature, COMING_TO_REST
+    return NO_HIT, FREE
+
+
+@kernel
+def _clings(gravity, nx, ny, vx, vy, tolerance):
+    """Pressed against a wall with unit normal n, a ball rises less than the tolerance."""
+    press = -(gravity[0] * nx + gravity[1] * ny)
+    away = vx * nx + vy * ny
+    return press > LEVEL * (abs(gravity[0]) + abs(gravity[1])) and away * away <= 2.0 * press * tolerance
+
+
+@kernel
+def _is_line(model, arcs, edge):
+    if arcs is None:
+        return True
+    return model.arc_of_edge[edge] < 0
+
+
+@kernel
+def keep_to(model, held, x, y, vx, vy, gravity):
+    """Take the last, endless bounces on an edge at once: (x, y, vx, vy after them, the time they take)."""
+    line = model.lines[held]
+    time, way, along = _last_bounces(
+        model, model.restitution, held, vx * line.nx + vy * line.ny, vy * line.nx - vx * line.ny, gravity
+    )
+    return x - way * line.ny, y + way * line.nx, -along * line.ny, along * line.nx, time
+
+
+@rare_kernel
+def _last_bounces(model, restitution, held, away, along, gravity):
+    """Sum the bounces: (time they take, way along the edge, speed along it after)."""
+    if restitution is None:
+        return 0.0, 0.0, along
+    wall = model.edge_wall[held]
+    e, f = restitution[2 * wall], restitution[2 * wall + 1]
+    if e >= 1.0:
+        return 0.0, 0.0, along
+    line = model.lines[held]
+    first = 2.0 * abs(away) / abs(gravity[0] * line.nx + gravity[1] * line.ny)
+    time = first / (1.0 - e)
+    if f < 1.0:
+        return time, along * first / (1.0 - e * f), 0.0
+    pull = gravity[1] * line.nx - gravity[0] * line.ny
+    return time, time * (along + 0.5 * time * pull), along + time * pull
+
+
+@kernel
+def rests(model, held, vx, vy, gravity):
+    """A ball that keeps to an edge stays where it is."""
+    gx, gy = _pull(model, gravity, held, SLIDING)
+    if vx != 0.0 or vy != 0.0:
+        return False
+    return (gx == 0.0 and gy == 0.0) or _is_rough(model.restitution, model.edge_wall[held])
+
+
+@kernel
+def _is_rough(restitution, wall):
+    if restitution is None:
+        return False
+    return restitution[2 * wall + 1] < 1.0
+
+
+@kernel
+def _pull(model, gravity, held, hold):
+    """Gravity as a ball feels it: all of it, or the part along the edge that holds it; none on a level one."""
+    if hold != SLIDING:
+        return gravity[0], gravity[1]
+    line = model.lines[held]
+    pull = gravity[1] * line.nx - gravity[0] * line.ny
+    if abs(pull) <= LEVEL * (abs(gravity[0]) + abs(gravity[1])):
+        return 0.0, 0.0
+    return -pull * line.ny, pull * line.nx
+
+
+@kernel
+def _end_of_edge(model, held, x, y, vx, vy, gx, gy):
+    """Time at which a ball that slides on an edge comes to its end; g is the pull along the edge."""
+    line = model.lines[held]
+    u = (y - line.ay) * line.nx - (x - line.ax) * line.ny
+    v = vy * line.nx - vx * line.ny
+    g = gy * line.nx - gx * line.ny
+    return min(
+        first_fall_quadratic(0.5 * g, v, u, math.inf), first_fall_quadratic(-0.5 * g, -v, line.length - u, math.inf)
+    )
