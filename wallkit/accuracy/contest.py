@@ -18,7 +18,7 @@ from wallkit.scene import Scene
 from wallkit.walls import Walls
 
 FloatArray = NDArray[np.float64]
-BOUNCES = 5  # the error is taken after so many: few enough that chaos has not mixed everything up
+BOUNCES = 3  # the error is taken after so many: few enough that chaos has not yet mixed everything up
 WRONG = 0.01  # a ball is somewhere else when it is off by this part of the scene's size
 WAYS = ("exact", "stop", "full-step", "reflect-in-place")
 
@@ -30,21 +30,25 @@ class Effort:
     Attributes:
         bounces: of the reference, in which the first wrong bounce is looked for.
         runs: the time is the least of so many.
+        draws: of the roundings, in the horizon's table.
         steps: time steps of what is stepped.
         tolerances: of what is drawn as lines or arcs, as parts of the scene's size.
+        finer: more of them for arcs, of which it takes so few.
         digits: of the reference to begin with; it adds more by itself until nothing changes.
         fixed: take the digits as they are.
     """
 
     bounces: int = 60
     runs: int = 5
+    draws: int = 4
     steps: tuple[float, ...] = (1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 1000, 1 / 5000)
     tolerances: tuple[float, ...] = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
+    finer: tuple[float, ...] = (1e-9,)
     digits: int = 32
     fixed: bool = False
 
 
-QUICK = Effort(bounces=30, runs=2, steps=(1 / 60, 1 / 240, 1 / 1000), tolerances=(1e-3, 1e-5, 1e-7))
+QUICK = Effort(bounces=20, runs=2, draws=3, steps=(1 / 60, 1 / 240, 1 / 1000), tolerances=(1e-3, 1e-5, 1e-7), finer=())
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,21 +135,21 @@ class Subject:
         arcs = None if scene.arcs is None else lambda t: scene.scene(t)
         return cls(scene.name, scene.story, lambda t: scene.scene(t, lines=True), arcs, scene.fitted)
 
-    def truth(self, size: float) -> Scene:
-        """Give the scene that the others are held against: arcs a thousandth of the finest tolerance."""
-        return self.lines(size) if self.arcs is None else self.arcs(1e-10 * size)
+    def truth(self, tolerance: float) -> Scene:
+        """Give the scene that the others are held against."""
+        return self.lines(tolerance) if self.arcs is None else self.arcs(tolerance)
 
 
 def contestants(subject: Subject, effort: Effort, size: float) -> Iterator[engines.Contestant]:
     """Set up everybody; walls of lines are as fine as a person would draw them for all that steps."""
     fine = subject.lines(1e-5 * size)
-    best = fine if subject.arcs is None else subject.arcs(1e-8 * size)
+    best = fine if subject.arcs is None else subject.arcs(min(effort.tolerances) * size)
     if subject.arcs is None:
         yield engines.exact(fine, "exact, lines", "as drawn", 0.0)
     else:
         for part in effort.tolerances:
             yield engines.exact(subject.lines(part * size), "exact, lines", f"within {part * size:.2g}", part * size)
-        for part in effort.tolerances if subject.swept else ():
+        for part in (*effort.tolerances, *effort.finer) if subject.swept else ():
             yield engines.exact(subject.arcs(part * size), "exact, arcs", f"within {part * size:.2g}", part * size)
         if not subject.swept:
             yield engines.exact(best, "exact, arcs", "as drawn", 0.0)
@@ -167,7 +171,7 @@ def contest(subject: Subject, effort: Effort, progress: Callable[[str], None] | 
     """
     low_x, low_y, high_x, high_y = subject.lines(1.0).walls.box()
     size = max(high_x - low_x, high_y - low_y) or 1.0
-    truth = subject.truth(size)
+    truth = subject.truth(min(*effort.tolerances, *effort.finer, 1.0) * size / 30)
     if progress:
         progress("reference")
     events = _reference(truth, effort)

@@ -21,6 +21,7 @@ from wallkit.scene import Scene
 from wallkit.walls import Walls
 
 FloatArray = NDArray[np.float64]
+Place = tuple[float, float]
 MOST_STEPS = 400_000
 
 
@@ -126,17 +127,19 @@ def _through(start: Callable[[], Stepper], dt: float, times: FloatArray, runs: i
 
 
 def pymunk_engine(scene: Scene, dt: float) -> Contestant:
-    """Wrap pymunk (Chipmunk): segments of no thickness, elasticity 1."""
+    """Wrap pymunk (Chipmunk): segments of no thickness that know their neighbours, elasticity 1."""
 
     def start() -> Stepper:
         import pymunk
 
         space = pymunk.Space()
         position, velocity, radius = _ball(scene)
-        for a, b in _segments(scene.walls):
-            line = pymunk.Segment(space.static_body, (a[0], a[1]), (b[0], b[1]), 0.0)
-            line.elasticity, line.friction = 1.0, 0.0
-            space.add(line)
+        for points, closed in _polylines(scene.walls):
+            for before, a, b, after in _with_neighbours(points, closed):
+                line = pymunk.Segment(space.static_body, a, b, 0.0)
+                line.set_neighbors(before, after)  # its manual's way against ghost hits at joints
+                line.elasticity, line.friction = 1.0, 0.0
+                space.add(line)
         body = pymunk.Body(1.0, math.inf)
         body.position, body.velocity = tuple(position), tuple(velocity)
         disc = pymunk.Circle(body, radius)
@@ -148,7 +151,7 @@ def pymunk_engine(scene: Scene, dt: float) -> Contestant:
 
 
 def box2d_engine(scene: Scene, dt: float) -> Contestant:
-    """Wrap Box2D 2.3: edges, a bullet (continuous collision), restitution 1, 8 and 3 iterations."""
+    """Wrap Box2D 2.3: chains, a bullet (continuous collision), restitution 1, 8 and 3 iterations."""
 
     def start() -> Stepper:
         with warnings.catch_warnings():
@@ -158,8 +161,11 @@ def box2d_engine(scene: Scene, dt: float) -> Contestant:
         position, velocity, radius = _ball(scene)
         world = Box2D.b2World(gravity=(0, 0), doSleep=False)
         ground = world.CreateStaticBody()
-        for a, b in _segments(scene.walls):
-            ground.CreateEdgeFixture(vertices=[tuple(a), tuple(b)], friction=0.0, restitution=1.0)
+        for points, closed in _polylines(scene.walls):
+            # chains know their neighbours, its manual's way against ghost hits at joints
+            shape = {"vertices_loop": points} if closed else {"vertices_chain": points}
+            chain = Box2D.b2ChainShape(**shape) if len(points) > 2 else Box2D.b2EdgeShape(vertices=points)
+            ground.CreateFixture(shape=chain, friction=0.0, restitution=1.0)
         body = world.CreateDynamicBody(position=tuple(position), bullet=True, fixedRotation=True, linearDamping=0.0)
         body.CreateCircleFixture(radius=radius, density=1.0, friction=0.0, restitution=1.0)
         body.linearVelocity = tuple(velocity)
@@ -239,9 +245,17 @@ def _ball(scene: Scene) -> tuple[FloatArray, FloatArray, float]:
     return position, velocity, float(np.atleast_1d(np.asarray(balls.radius, dtype=np.float64))[0])
 
 
-def _segments(walls: Walls) -> list[tuple[list[float], list[float]]]:
-    a, b = walls.vertices[walls.edge_starts], walls.vertices[walls.edge_ends]
-    return list(zip(a.tolist(), b.tolist(), strict=True))
+def _polylines(walls: Walls) -> list[tuple[list[Place], bool]]:
+    return [([(float(x), float(y)) for x, y in wall.vertices], wall.closed) for wall in walls]
+
+
+def _with_neighbours(points: list[Place], closed: bool) -> Iterator[tuple[Place, Place, Place, Place]]:
+    """Each edge with the points before and after it; at the ends of an open wall its own."""
+    count = len(points)
+    for k in range(count if closed else count - 1):
+        before = points[k - 1] if closed or k else points[k]
+        after = points[(k + 2) % count] if closed or k + 2 < count else points[k + 1]
+        yield before, points[k], points[(k + 1) % count], after
 
 
 def _fraction(dt: float) -> str:

@@ -75,7 +75,7 @@ def measure(subjects: Sequence[Subject], effort: Effort, *, tables: bool, told: 
         report.costs.extend(costs(100_000 if effort.runs < 5 else 300_000, effort.runs))
         if told:
             told("horizon")
-        report.departures.extend(departures(effort.bounces * 5))
+        report.departures.extend(departures(effort.bounces * 3, effort.draws))
     return report
 
 
