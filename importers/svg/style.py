@@ -329,6 +329,8 @@ def _font_shorthand(declaration: Any, origin: Origin) -> list[tuple[str, Any, bo
         if len(rest) >= 2 and rest[0].type == "literal" and rest[0].value == "/":
             height = parse_declaration("line-height", tinycss2.serialize([rest[1]]), origin)
             rest = rest[2:]
+        if height is None:
+            return []
         found.append(("line-height", height, declaration.important))
         return found if rest else []
     return []
