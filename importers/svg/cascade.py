@@ -8,12 +8,29 @@ from typing import Any
 from importers.limits import limit_error
 from importers.svg.notes import Notes
 from importers.svg.sheet import Sheet, matches_media
-from importers.svg.style import PRESENTATION, Declared, parse_any_inline, parse_declaration, parse_inline
+from importers.svg.style import (
+    PRESENTATION,
+    Declared,
+    Style,
+    inherit,
+    parse_any_inline,
+    parse_declaration,
+    parse_inline,
+)
 
 _NOTHING: Declared = {}
 MAX_CSS = 1_000_000
 # Fonts put into a drawing are larger than all else in it, and say nothing of its outlines.
 _FONT_FACE = re.compile(r"@font-face\s*\{[^{}]*\}", re.IGNORECASE)
+
+
+_NONE: tuple[Declared, Declared] = ({}, {})
+
+
+def _by_importance(declarations: list[tuple[str, Any, bool]]) -> tuple[Declared, Declared]:
+    """Give the normal and the important ones, each with what comes last winning."""
+    normal = {name: value for name, value, important in declarations if not important}
+    return normal, {name: value for name, value, important in declarations if important}
 
 
 class Cascade:
@@ -31,7 +48,8 @@ class Cascade:
         self._notes = notes
         self._element = texts[0][0] if texts else root
         self._css_left = MAX_CSS
-        self._inlines: dict[str, list[tuple[str, Any, bool]]] = {}
+        self._inlines: dict[str, tuple[Declared, Declared]] = {}
+        self._styles: dict[tuple[int, tuple[tuple[str, Any], ...]], Style] = {}
         sheets = [_FONT_FACE.sub("", text) for _, text in texts]
         self._charge(sum(map(len, sheets)))
         self._sheet = Sheet(sheets, root, self._report)
@@ -41,15 +59,15 @@ class Cascade:
         if self._css_left < 0:
             raise limit_error("characters of style sheets", f"{MAX_CSS:,}")
 
-    def _inline(self, text: str) -> list[tuple[str, Any, bool]]:
-        found = self._inlines.get(text)
-        if found is None:
+    def _inline(self, text: str) -> tuple[Declared, Declared]:
+        kept = self._inlines.get(text)
+        if kept is None:
             found = parse_inline(text)
             if found is None:
                 self._charge(len(text))
                 found = parse_any_inline(text)
-            self._inlines[text] = found
-        return found
+            kept = self._inlines[text] = _by_importance(found)
+        return kept
 
     def _report(self, code: str, message: str) -> None:
         self._notes.count(code, "warning", message, self._element, fix="write the style on the elements")
@@ -68,9 +86,19 @@ class Cascade:
         style = attributes.get("style")
         if self._sheet.empty and style is None:
             return found or _NOTHING
-        rules = [] if self._sheet.empty else self._sheet.declarations(element)
-        inline = self._inline(style) if style is not None else ()
-        for wanted in (False, True):
-            for source in (rules, inline):
-                found.update((name, value) for name, value, important in source if important is wanted)
+        rules = _NONE if self._sheet.empty else _by_importance(self._sheet.declarations(element))
+        inline = _NONE if style is None else self._inline(style)
+        for declarations in (rules[0], inline[0], rules[1], inline[1]):
+            if declarations:
+                found.update(declarations)
         return found
+
+    def inherited(self, parent: Style, declared: Declared) -> Style:
+        """Give an element's style; neighbours mostly look the same, so what was worked out is kept."""
+        if not declared:
+            return parent
+        key = (id(parent), tuple(declared.items()))  # every parent is kept here or by the walk
+        style = self._styles.get(key)
+        if style is None:
+            style = self._styles[key] = inherit(parent, declared)
+        return style

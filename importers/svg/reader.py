@@ -20,7 +20,7 @@ from importers.svg.placing import element_matrix, has_transform, nested_viewport
 from importers.svg.references import References
 from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
 from importers.svg.source import SVG_NS, Source, attributes_of
-from importers.svg.style import Declared, Style, inherit
+from importers.svg.style import Declared, Style
 from importers.svg.units import Viewport, to_px
 
 _GROUPS = frozenset(("g", "a", "svg", "switch", "use"))
@@ -96,6 +96,7 @@ class Reader:
         self.boxes: dict[Any, Box | None] = {}
         self.aside = 0
         self.segments = 0
+        self.initial = Style()
 
     def read(self) -> Drawing:
         """Walk the document and give the Drawing."""
@@ -117,7 +118,7 @@ class Reader:
 
     def _enter_root(self, root: Any) -> None:
         declared = self.cascade.declared(root, attributes_of(root))
-        style = inherit(Style(), declared)
+        style = self.cascade.inherited(self.initial, declared)
         matrix, viewport, shown = root_viewport(root, declared, style.font)
         if not shown:
             fix = "give the svg element a width, a height and a viewBox above 0"
@@ -192,7 +193,7 @@ class Reader:
 
     def _inside(self, tag: str, element: Any, attributes: Attributes, declared: Declared, around: Around) -> Around:
         """Give what the children of a group have around them."""
-        style = inherit(around.style, declared) if declared else around.style
+        style = self.cascade.inherited(around.style, declared)
         matrix = around.matrix
         display = declared.get("display")
         hidden = around.hidden or display == "none" or (display == "contents" and tag in ("svg", "use", "symbol"))
@@ -299,7 +300,7 @@ class Reader:
 
     def _draw(self, tag: str, element: Any, attributes: Attributes, around: Around) -> None:
         declared = self.cascade.declared(element, attributes)
-        style = inherit(around.style, declared) if declared else around.style
+        style = self.cascade.inherited(around.style, declared)
         lengths = Lengths(attributes, declared, around.viewport, style.font)
         shape = make_shape(tag, attributes, lengths)
         matrix = around.matrix
@@ -319,8 +320,10 @@ class Reader:
             message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
             self.notes.add("coordinate-too-large", "error", message, element, layer=around.layer, name=name)
             return
-        fill, stroke = self._paint(style.fill), self._paint(style.stroke)
-        width = to_px(style.stroke_width, around.viewport.diagonal, style.font) * mean_scale(matrix)
+        fill, stroke, width = self._paint(style.fill), self._paint(style.stroke), None
+        if stroke is not None:
+            width = to_px(style.stroke_width, around.viewport.diagonal, style.font) * mean_scale(matrix)
+            width = width if width <= MAX_COORDINATE else None
         self.drawing.paths.append(
             DrawnPath(
                 subpaths=subpaths,
@@ -331,7 +334,7 @@ class Reader:
                 locked=around.locked or attributes.get(SODIPODI + "insensitive") == "true",
                 fill=fill,
                 stroke=stroke,
-                stroke_width=width if stroke is not None else None,
+                stroke_width=width,
                 fill_rule="evenodd" if style.fill_rule == "evenodd" else "nonzero",
                 line=self.source.line(element),
                 tags=dict(tags_of(attributes, around.tags or {})),

@@ -66,7 +66,7 @@ def _decode(data: bytes, name: str, file: str) -> str:
 def attributes_of(element: Any) -> dict[str, str]:
     """Give an element's attributes as a dict, in a time that is linear in their number (lxml's own is not)."""
     if len(element.attrib) <= _FEW:
-        return dict(element.attrib)
+        return dict(element.items())
     return {str(value.attrname): str(value) for value in element.xpath("@*")}
 
 

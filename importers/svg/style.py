@@ -338,12 +338,6 @@ def _font_shorthand(declaration: Any, origin: Origin) -> list[tuple[str, Any, bo
 
 def inherit(parent: Style, declared: Declared) -> Style:
     """Give the style of an element from its parent's and its own declarations."""
-    return _inherit(parent, tuple(declared.items()))
-
-
-@lru_cache(maxsize=4096)  # neighbours mostly look the same
-def _inherit(parent: Style, items: tuple[tuple[str, Any], ...]) -> Style:
-    declared = dict(items)
     changes: dict[str, Any] = {}
     font = _font(parent, declared, changes)
     if font is not parent.font:
