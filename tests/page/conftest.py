@@ -32,7 +32,7 @@ def browser():
 def until(page, condition):
     """Wait until a condition in the page holds (its own policy forbids the eval that wait_for_function needs)."""
     assert page.evaluate(
-        f"""new Promise((done) => {{ const end = performance.now() + 20000;
+        f"""new Promise((done) => {{ const end = performance.now() + 60000;
         const look = () => ({condition}) ? done(true) : performance.now() > end ? done(false) : setTimeout(look, 10);
         look(); }})"""
     ), f"waited in vain for {condition}"

@@ -18,8 +18,8 @@ class Warmth:
     """Knows for which kinds of scene the kernels are compiled already.
 
     Numba compiles once for each set of features that a scene has (and finds it on disk later). The first question
-    about a kind starts that in a thread of its own; until it is done, short runs are interpreted, which gives the
-    same bits.
+    about a kind starts that in a thread of its own; until it is done, runs are interpreted, which gives the same
+    bits, and kept short.
     """
 
     def __init__(self) -> None:
@@ -27,8 +27,8 @@ class Warmth:
         self._ready: set[Key] = set()
         self._lock = threading.Lock()
 
-    def mode(self, scene: Scene, short: bool) -> Literal["auto", "interpreted"]:
-        """Say how to simulate a scene now; ``short`` is a run of a few bounces."""
+    def mode(self, scene: Scene) -> Literal["auto", "interpreted"]:
+        """Say how to simulate a scene now."""
         key = _kind(scene)
         if key in self._ready or not len(scene.balls):
             return "auto"
@@ -36,7 +36,7 @@ class Warmth:
             if key not in self._begun:
                 self._begun.add(key)
                 threading.Thread(target=self._compile, args=(scene, key), daemon=True).start()
-        return "interpreted" if short and len(scene.walls.vertices) <= _SMALL else "auto"
+        return "interpreted" if len(scene.walls.vertices) <= _SMALL else "auto"
 
     def _compile(self, scene: Scene, key: Key) -> None:
         from wallkit.simulation import simulate

@@ -118,6 +118,7 @@
 
     forgetShot() {
       this.shot = null;
+      this.asking = false;
       this.flying.forget();
       this.player.pause();
       this.player.time = 0;
@@ -160,14 +161,16 @@
       const falling = gravity ? Math.sqrt(Math.hypot(...gravity) * this.size) : 0;
       const until = (FIRST * this.size) / Math.max(speed, falling, 1e-6 * this.size);
       this.shot = { balls, until };
+      this.asking = false;
       this.flying.ask({ ...this.question(), ...this.shot });
     }
 
     flown(answer, asked) {
       const motion = new W.Motion(answer);
       motion.openEnded = true;
-      motion.full = answer.full;
+      motion.partial = answer.partial;
       this.asking = false;
+      if (answer.partial) setTimeout(() => this.wantsMore(), 1500); // meanwhile the compiler works
       this.shot = { balls: asked.balls, until: asked.until };
       if (asked.again) return this.player.load(motion);
       this.player.time = 0;
@@ -179,25 +182,27 @@
     // While playing, more of the run is asked for in good time: the same run, to a later end.
     wantsMore() {
       const { motion } = this.player;
-      if (!motion || !this.shot || motion.full) return false;
-      if (!motion.ending.includes("time reached") && !motion.ending.includes("left the scene")) return false;
-      if (!motion.ending.includes("time reached")) return false;
+      if (!motion || !this.shot || !(motion.partial || motion.ending.includes("time reached"))) return false;
       if (!this.asking) {
         this.asking = true;
-        this.flying.ask({ ...this.question(), balls: this.shot.balls, until: 2 * this.shot.until, again: true });
+        const until = (motion.partial ? 1 : 2) * this.shot.until;
+        this.flying.ask({ ...this.question(), balls: this.shot.balls, until, again: true });
       }
       return true;
     }
 
     eachFrame() {
       const { motion } = this.player;
-      if (this.player.playing && motion && this.player.time > 0.6 * motion.duration) this.wantsMore();
+      if (this.player.playing && motion && !motion.partial && this.player.time > 0.6 * motion.duration) this.wantsMore();
       this.readOut.refresh();
     }
 
     tapped(place) {
       const { problems } = this.document ?? { problems: [] };
-      const hit = problems.findIndex((problem) => problem.x !== null && Math.hypot(this.stage.screenX(problem.x) - place.x, this.stage.screenY(problem.y) - place.y) < 14);
+      const hit = problems.findIndex(({ x, y, severity }, index) => {
+        if (x === null || y === null || (severity === "info" && index !== this.player.chosen)) return false;
+        return Math.hypot(this.stage.screenX(x) - place.x, this.stage.screenY(y) - place.y) < 36;
+      });
       if (hit >= 0) this.controls.choose(hit, false);
     }
 

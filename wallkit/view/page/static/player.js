@@ -166,9 +166,9 @@
       if (this.playing) {
         if (this.lastFrame !== null) this.time += (Math.min(now - this.lastFrame, 250) / 1000) * this.rate;
         this.lastFrame = now;
-        if (this.time >= this.shownDuration() && !this.more?.()) {
+        if (this.time >= this.shownDuration()) {
           this.time = this.shownDuration();
-          this.pause();
+          if (!this.more?.()) this.pause();
         }
       }
       const began = performance.now();

@@ -117,7 +117,7 @@
     }
 
     // Goes to a place, close enough to see it; at once where motion is not wanted.
-    goTo(x, y, zoom = 6) {
+    goTo(x, y, zoom = 8) {
       const scale = Math.max(this.scale, this.fitScale() * zoom);
       const from = [this.x, this.y, Math.log(this.scale)];
       const to = [x, y, Math.log(scale)];

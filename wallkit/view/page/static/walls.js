@@ -94,7 +94,8 @@
       for (let w = 0; w < this.count; w++) if (this.onScreen(stage, this.boxes[w])) seen.push(w);
       const points = new Map(seen.map((w) => [w, this.points(w, stage)]));
       this.fill(ctx, stage, colours, points);
-      ctx.lineJoin = ctx.lineCap = "round";
+      ctx.lineCap = "round";
+      ctx.lineJoin = this.edges < 2000 ? "round" : "bevel"; // round joins cost most of the time of very many
       ctx.strokeStyle = colours.outline;
       for (const closed of [1, 0]) {
         ctx.beginPath();
@@ -241,25 +242,45 @@
     return kept;
   };
 
+  // Problems as numbered pins whose tip is the place. Notes are only in the list, until somebody chooses one.
   W.drawMarks = (ctx, stage, colours, problems, chosen) => {
     ctx.textAlign = "center";
     ctx.textBaseline = "middle";
+    const standing = [];
     problems.forEach((problem, index) => {
-      if (problem.x === null || problem.y === null) return;
+      if (problem.x === null || problem.y === null || (problem.severity === "info" && index !== chosen)) return;
       const [x, y] = [stage.screenX(problem.x), stage.screenY(problem.y)];
-      if (!(x > -20 && y > -20 && x < stage.width + 20 && y < stage.height + 20)) return;
-      disc(ctx, x, y, problem.severity === "info" ? 7.5 : 9, colours[problem.severity], colours.paper);
-      if (index === chosen) {
-        ctx.beginPath();
-        ctx.arc(x, y, 15, 0, 2 * Math.PI);
-        ctx.lineWidth = 2.5;
-        ctx.strokeStyle = colours[problem.severity];
-        ctx.stroke();
-      }
-      ctx.font = `600 ${index > 98 || problem.severity === "info" ? 8.5 : 10.5}px system-ui, sans-serif`;
-      ctx.fillStyle = colours.paper;
-      ctx.fillText(String(index + 1), x, y + 0.5);
+      if (!(x > -20 && y > -20 && x < stage.width + 20 && y < stage.height + 40)) return;
+      const before = standing.filter(([a, b]) => Math.hypot(a - x, b - y) < 20).length;
+      if (standing.length < 500) standing.push([x, y]);
+      pin(ctx, x, y, LEANS[before % LEANS.length], colours[problem.severity], colours.paper, String(index + 1), index === chosen);
     });
+  };
+
+  // Aslant, so that a pin does not hide the wall that it stands on, most being upright or level; close ones spread.
+  const LEANS = [0.7, -0.7, 2.44, -2.44];
+
+  const pin = (ctx, x, y, angle, colour, paper, text, chosen) => {
+    const [dx, dy] = [Math.sin(angle), -Math.cos(angle)];
+    const [cx, cy] = [x + 27 * dx, y + 27 * dy];
+    ctx.beginPath();
+    ctx.moveTo(x, y);
+    ctx.lineTo(cx + 4 * dy, cy - 4 * dx);
+    ctx.lineTo(cx - 4 * dy, cy + 4 * dx);
+    ctx.closePath();
+    ctx.fillStyle = colour;
+    ctx.fill();
+    disc(ctx, cx, cy, chosen ? 11 : 9, colour, paper);
+    if (chosen) {
+      ctx.beginPath();
+      ctx.arc(cx, cy, 15, 0, 2 * Math.PI);
+      ctx.lineWidth = 2.5;
+      ctx.strokeStyle = colour;
+      ctx.stroke();
+    }
+    ctx.font = `600 ${text.length > 2 ? 8 : 10.5}px system-ui, sans-serif`;
+    ctx.fillStyle = paper;
+    ctx.fillText(text, cx, cy + 0.5);
   };
 
   const disc = (ctx, x, y, radius, fill, stroke) => {

@@ -1,0 +1,147 @@
+"""Make the pictures of the page for the README: ``python docs/make_screenshots.py`` writes docs/images/page-*.png.
+
+Needs the extra ``test`` (playwright) and a Chromium on the PATH. Each picture is the page itself, in a state that a
+person reaches with a few clicks.
+"""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import sync_playwright
+
+from wallkit.cli.play import reader
+from wallkit.view.page.answers import Answers
+from wallkit.view.page.server import PageServer
+
+IMAGES = Path(__file__).parent / "images"
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
+             "--disable-background-networking", "--disable-component-update", "--disable-sync"]  # fmt: skip
+DESKTOP, PHONE = (1280, 800), (390, 844)
+
+
+@dataclass(frozen=True)
+class Shot:
+    """One picture: its name, the window, light or dark, and how to get there."""
+
+    name: str
+    size: tuple[int, int]
+    scheme: str
+    act: Callable[[Any], None]
+
+
+def opened(page: Any, sample: str) -> None:
+    """Open a sample and wait for the foretold path."""
+    page.get_by_role("button", name=sample, exact=False).first.click()
+    wait(page, "Wallkit.page.document && Wallkit.page.aim.foretold && !Wallkit.page.foretelling.busy")
+
+
+def flying(page: Any, button: str, after: float) -> None:
+    """Shoot, and stop the clock at a given part of what is known of the run."""
+    page.locator(button).click()
+    wait(page, "Wallkit.page.player.motion && !Wallkit.page.flying.busy")
+    page.evaluate(
+        """(part) => { const {player} = Wallkit.page; player.pause(); player.seek(part * player.motion.duration);
+        document.activeElement.blur(); }""",
+        after,
+    )
+
+
+def wait(page: Any, condition: str) -> None:
+    """Wait until something holds in the page."""
+    page.evaluate(
+        f"new Promise((done) => {{ const look = () => ({condition}) ? done() : setTimeout(look, 20); look(); }})"
+    )
+
+
+def gallery(page: Any) -> None:
+    """Wait for the pictures of the samples."""
+    wait(page, "[...document.images].every((image) => image.complete)")
+
+
+def aiming(page: Any) -> None:
+    """Aim in the lagoon, by a drag from the ball."""
+    opened(page, "Lagoon")
+    box = page.locator("#stage").bounding_box()
+    x, y = page.evaluate("(({stage, aim}) => [stage.screenX(aim.ball.x), stage.screenY(aim.ball.y)])(Wallkit.page)")
+    page.mouse.move(box["x"] + x, box["y"] + y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + x + 90, box["y"] + y - 120, steps=5)
+    page.mouse.up()
+    wait(page, "!Wallkit.page.foretelling.busy")
+
+
+def fan(page: Any) -> None:
+    """A hundred balls, close together at first, in Sinai's table."""
+    opened(page, "Sinai")
+    page.locator("#spread").fill("8")
+    flying(page, "#fan", 0.13)
+
+
+def stepping(page: Any) -> None:
+    """Stand exactly at a bounce, the normal drawn."""
+    opened(page, "Stadium")
+    flying(page, "#shoot", 0.24)
+    page.keyboard.press(".")
+    wait(page, "!Wallkit.page.player.asked")
+
+
+def problems(page: Any) -> None:
+    """Go to a problem in the list."""
+    opened(page, "Leaky room")
+    page.locator("#problems button").last.click()
+    wait(page, "!Wallkit.page.player.asked")
+
+
+def phone(page: Any) -> None:
+    """The same on a phone."""
+    opened(page, "Mushroom")
+    flying(page, "#shoot", 0.5)
+
+
+SHOTS = (
+    Shot("page-gallery", DESKTOP, "light", gallery),
+    Shot("page-aim", DESKTOP, "light", aiming),
+    Shot("page-fan", DESKTOP, "dark", fan),
+    Shot("page-bounce", DESKTOP, "light", stepping),
+    Shot("page-problem", DESKTOP, "dark", problems),
+    Shot("page-phone", PHONE, "light", phone),
+)
+
+
+def main() -> int:
+    """Make all pictures, or those named as arguments."""
+    found = next(filter(None, map(shutil.which, NAMES)), None)
+    if not found:
+        print(f"no browser: none of {', '.join(NAMES)} is on the PATH", file=sys.stderr)
+        return 2
+    IMAGES.mkdir(exist_ok=True)
+    with PageServer(Answers(reader())) as server, sync_playwright() as driver:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        browser = driver.chromium.launch(executable_path=found, args=ARGUMENTS)
+        for shot in SHOTS:
+            if sys.argv[1:] and shot.name not in sys.argv[1:]:
+                continue
+            width, height = shot.size
+            page = browser.new_page(
+                viewport={"width": width, "height": height}, color_scheme=shot.scheme, reduced_motion="reduce"
+            )
+            page.goto(server.url)
+            shot.act(page)
+            page.screenshot(path=IMAGES / f"{shot.name}.png")
+            page.close()
+            print(IMAGES / f"{shot.name}.png")
+        browser.close()
+        server.shutdown()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
