@@ -92,6 +92,13 @@ def test_open_path_is_two_sided_and_reported_with_its_gap():
     assert (walls.problems[0].x, walls.problems[0].y) == (10, 5)
 
 
+def test_open_path_that_nearly_closes_is_a_warning_and_a_line_is_none():
+    nearly = path(line((0, 0), (10, 0), (10, 10), (0, 10), (0, 0.5)))
+    walls = import_walls(drawing(nearly, path(line((20, 0), (30, 0), (30, 5)))))
+    assert [problem.severity for problem in walls.problems if problem.code == "open-path"] == ["warning", "info"]
+    assert "--snap 0.5" in walls.problems[0].fix
+
+
 def test_filled_open_path_is_closed_as_painted():
     walls = import_walls(drawing(path(line((0, 0), (10, 0), (10, 5)), fill="#000000")))
     assert walls.closed.tolist() == [True]

@@ -116,17 +116,25 @@ def _close_filled(outlines: Outlines) -> Outlines:
     return replace(outlines, closed=outlines.closed | close, problems=outlines.problems + problems)
 
 
+NEARLY_CLOSED = 0.1
+"""An open path whose gap is a smaller part of its length was probably meant to be closed; a wider one is a line."""
+
+
 def _report_open(outlines: Outlines) -> Outlines:
     problems: list[Problem] = []
     for index in np.flatnonzero(~outlines.closed).tolist():
         gap = _gap(outlines, index)
+        steps = np.diff(outlines.vertices[outlines.offsets[index] : outlines.offsets[index + 1]], axis=0)
+        nearly = gap < NEARLY_CLOSED * float(np.hypot(steps[:, 0], steps[:, 1]).sum())
         problems.append(
             outlines.problem(
                 index,
                 "open-path",
-                "warning",
+                "warning" if nearly else "info",
                 f"an open path: its ends are {gap:.6g} apart; taken as an open, two-sided wall",
-                f"close it in the drawing, or with --snap {at_least(gap)} if it should be closed",
+                f"close it in the drawing, or with --snap {at_least(gap)}"
+                if nearly
+                else "nothing to do if it is meant as a line",
                 outlines.vertices[outlines.offsets[index + 1] - 1],
             )
         )
