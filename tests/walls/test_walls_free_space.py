@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from drawn import circle, drawing, path, polygon
+from drawn import circle, drawing, line, path, polygon, square
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -101,3 +101,74 @@ def test_what_is_connected_agrees_with_shapelys_erosion(seed, radius):
         if gap.room_radius < radius * 1.01 or abs(gap.escape - 2 * radius) < 0.01 * radius:
             continue
         assert outside.contains(spot) == (gap.escape > 2 * radius)
+
+
+def as_walls(*lines, closed=False):
+    return Walls.from_polylines([np.array(points, dtype=float) for points in lines], closed)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(0.001, 20), st.floats(0, 2 * math.pi), st.floats(-1000, 1000), st.floats(0.1, 0.9))
+def test_a_gap_has_its_width_wherever_it_is(width, angle, shift, place):
+    low = place * (260 - width) + 30
+    room = np.array([(390, low + width), (390, 290), (30, 290), (30, 30), (390, 30), (390, low)])
+    turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+    (gap,) = free_space(as_walls(room @ turn + shift)).gaps
+    # coordinates up to 1500 are rounded to 2e-13
+    assert gap.width == pytest.approx(width, abs=1e-12, rel=1e-12)
+
+
+@pytest.mark.parametrize("curves", ["lines", "arcs"])
+def test_a_gap_between_two_round_pillars_is_between_the_arcs_themselves(curves):
+    """A corridor into a chamber, whose mouth two pillars narrow to 0.37."""
+    chamber = [(0, 20), (0, 100), (-100, 100), (-100, -100), (0, -100), (0, -20)]
+    pillars = [circle(0, y, 20 - 0.185) for y in (20, -20)]
+    outline = path(line(*chamber[:1], *chamber[1:]))
+    found = free_space(import_walls(drawing(outline, *(path(p) for p in pillars)), curves=curves, tolerance=0.05))
+    gap = next(gap for gap in found.gaps if gap.outside)
+    # lines are within the tolerance on either side; arcs are exact
+    assert gap.width == pytest.approx(0.37, abs=0.1 if curves == "lines" else 1e-9)
+
+
+def test_a_room_of_a_single_outline_is_its_inside():
+    found = free_space(import_walls(drawing(path(square(0, 0, 10)))))
+    assert found.closed_rooms == pytest.approx(np.array([[5, 5, 5]]))
+
+
+def test_inside_material_is_no_room_unless_a_ball_is_there():
+    walls = import_walls(drawing(path(square(0, 0, 100)), path(square(30, 30, 40))))
+    (hole,) = free_space(walls).closed_rooms
+    assert hole == pytest.approx([50, 50, 20])
+    (ring,) = free_space(walls, free=np.array([[10.0, 10.0]])).closed_rooms
+    # a square ring 30 wide: a disc in its corner touches two sides and the inner corner, r (1 + sqrt 2) = 30 sqrt 2
+    assert ring[2] == pytest.approx(30 * math.sqrt(2) / (1 + math.sqrt(2)), rel=1e-3)
+
+
+def test_an_eroded_square_is_the_smaller_square():
+    walls = as_walls(square_points := [(0, 0), (10, 0), (10, 10), (0, 10)], closed=True)
+    inside = [part for part in eroded(walls, 1) if part.within(shapely.Polygon(square_points))]
+    # straight sides are exact up to the factor 1 / cos(pi / 256) that keeps round corners on the safe side
+    assert [part.area for part in inside] == pytest.approx([64], rel=1e-4)
+
+
+def test_no_walls_and_a_single_line_have_no_rooms():
+    for walls in (as_walls(), as_walls([(0, 0), (1, 1)])):
+        found = free_space(walls)
+        assert found.gaps == []
+        assert not len(found.closed_rooms)
+        assert found.complete
+
+
+def test_a_polygon_of_many_edges_in_another_is_one_room():
+    t = np.linspace(0, 2 * math.pi, 2000, endpoint=False)
+    r = 100 + 5 * np.sin(9 * t)
+    outline = np.stack([r * np.cos(t), r * np.sin(t)], axis=1)
+    found = free_space(as_walls(outline, outline / 2, closed=True), free=np.array([[75.0, 0.0]]))
+    assert len(found.closed_rooms) == 1
+    assert found.complete
+    assert not found.gaps
+
+
+def test_islands_whose_edges_touch_do_not_hang_the_search():
+    walls = import_walls(drawing(*(path(polygon((k, 0), (k + 1, 0), (k, 1))) for k in range(30))))
+    assert free_space(walls).complete

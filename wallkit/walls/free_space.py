@@ -15,13 +15,14 @@ with the smaller roomiest circle is a room behind a gap.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from wallkit.walls.edges import Edges
+from wallkit.walls.nearest import ExactEdges, nearest_pair
 from wallkit.walls.orient import is_arena
 from wallkit.walls.shapes import straightened
 from wallkit.walls.strokes import FloatArray, IntArray
@@ -30,6 +31,10 @@ from wallkit.walls.validate import diagonal
 from wallkit.walls.walls import Walls
 
 MOST_EDGES = 200_000
+MOST_ROOMS = 100  # of more the circles are left as found, good to a third
+MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
+_STEPS, _DIRECTIONS = 36, 7
+_POINTS = 2_000
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
 
@@ -72,7 +77,7 @@ class FreeSpace:
     closed_rooms: FloatArray
     complete: bool = True
 
-    def leaks(self, radius: float) -> list[Gap]:
+    def leaks(self, radius: float = 0.0) -> list[Gap]:
         """Gaps through which a disc of this radius gets out of a room that it fits into; narrowest first."""
         return [gap for gap in self.gaps if gap.escape > 2 * radius and gap.room_radius > radius]
 
@@ -82,14 +87,19 @@ class FreeSpace:
         return [gap for gap in shut if not gap.outside]  # a room shut to the outside is as it should be
 
 
-def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
+def free_space(walls: Walls, narrow: float = _NARROW, free: FloatArray | None = None) -> FreeSpace:
     """Find the rooms and the gaps between them, for discs of any radius at once.
 
+    Where a disc may be. Inside material (see ``Walls``) is no room. But a drawing can mean its outlines as rooms:
+    with ``free`` places the parity of the first (how many closed walls are around it) is that of free space; and
+    where all that is left is the outside, as with a single outline, the inside of the outline is the room.
+
     Args:
-        walls: any walls; arcs are looked at as lines within a tenth of the tolerance. What is inside material
-            (see ``Walls``) is no room.
+        walls: any walls; arcs are looked at as lines within a tenth of the tolerance, and the gaps that are found
+            are then made exact.
         narrow: an opening is a gap up to this part of the width of the room behind it. Rooms narrower than the
             tolerance are none.
+        free: (n, 2) places that are not material, such as the balls'.
     """
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
     edges = Edges(vertices, offsets, walls.closed)
@@ -98,7 +108,73 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     a, b = _noded(edges)
     mesh = triangulate(a, b)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
-    return _rooms(mesh, edges, is_arena(walls), narrow, least)
+    found = _rooms(mesh, narrow, least)
+    arena = is_arena(walls)
+    if free is not None and len(free):
+        arena ^= bool(in_material(edges, arena, free[:1])[0])
+    chosen = _outside_material(found, edges, arena)
+    if free is None and not len(chosen.gaps) and not len(chosen.closed_rooms):
+        chosen = _outside_material(found, edges, not arena)
+    chosen = _roomier(chosen, edges, narrow)
+    return _sharpened(chosen, walls, vertices) if walls.has_arcs else chosen
+
+
+def _roomier(found: FreeSpace, edges: Edges, narrow: float) -> FreeSpace:
+    """Move the circles of rooms to where they are larger.
+
+    No step leaves a room: clearance changes by at most the way, so that from one circle of radius R to another
+    across a gap of clearance ``narrow`` R it is at least 2 (1 - narrow) R.
+    """
+    places = np.array([gap.room for gap in found.gaps]).reshape(-1, 2)
+    places = np.concatenate([places, found.closed_rooms[:, :2]])
+    if not 0 < len(places) <= MOST_ROOMS or narrow >= 1:
+        return found
+    radius = _clearance(edges, places)
+    step = radius * min(0.5, 1 - narrow)
+    for round_ in range(_STEPS):
+        angle = 2.4 * round_ + np.arange(_DIRECTIONS) * (2 * np.pi / _DIRECTIONS)  # turned on every time
+        around = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        trial = places[:, None] + step[:, None, None] * around
+        size = _clearance(edges, trial.reshape(-1, 2)).reshape(-1, _DIRECTIONS)
+        best, rows = size.argmax(axis=1), np.arange(len(places))
+        up = size[rows, best] > radius
+        places = np.where(up[:, None], trial[rows, best], places)
+        radius = np.maximum(radius, size[rows, best])
+        step = np.where(up, step, step * 0.7)
+    gaps = [
+        replace(gap, room=(float(x), float(y)), room_radius=float(r))
+        for gap, (x, y), r in zip(found.gaps, places, radius, strict=False)
+    ]
+    return FreeSpace(gaps, np.column_stack([places, radius])[len(gaps) :], found.complete)
+
+
+def _clearance(edges: Edges, points: FloatArray) -> FloatArray:
+    """Distance of each point from the nearest wall."""
+    _, distance = edges.tree.query_nearest(shapely.points(points), return_distance=True, all_matches=False)
+    clearance: FloatArray = distance
+    return clearance
+
+
+def _outside_material(found: FreeSpace, edges: Edges, arena: bool) -> FreeSpace:
+    rooms = np.array([gap.room for gap in found.gaps]).reshape(-1, 2)
+    free = ~in_material(edges, arena, rooms)
+    gaps = [gap for gap, wanted in zip(found.gaps, free, strict=True) if wanted]
+    closed = found.closed_rooms[~in_material(edges, arena, found.closed_rooms[:, :2])]
+    return FreeSpace(gaps, closed, found.complete)
+
+
+def _sharpened(found: FreeSpace, walls: Walls, vertices: FloatArray) -> FreeSpace:
+    """Measure gaps between the arcs themselves."""
+    exact = ExactEdges.of(walls)
+    reach = 4 * (walls.tolerance / 10 or 1e-4 * diagonal(vertices))
+    gaps = []
+    for gap in found.gaps[:MOST_SHARPENED]:
+        a, b = nearest_pair(exact, complex(*gap.a), complex(*gap.b), min(reach, 0.4 * gap.width))
+        width = abs(a - b)
+        escape = width if gap.escape == gap.width else gap.escape
+        gaps.append(replace(gap, width=width, escape=escape, a=(a.real, a.imag), b=(b.real, b.imag)))
+    gaps += found.gaps[MOST_SHARPENED:]
+    return replace(found, gaps=sorted(gaps, key=lambda gap: gap.width))
 
 
 def eroded(walls: Walls, radius: float) -> list[shapely.Polygon]:
@@ -127,19 +203,20 @@ def _noded(edges: Edges) -> tuple[FloatArray, FloatArray]:
 
 def in_material(edges: Edges, arena: bool, points: FloatArray) -> NDArray[np.bool_]:
     """Whether points lie in material: crossings of closed walls straight above, even or odd."""
-    if not len(points):
-        return np.empty(0, dtype=np.bool_)
-    top = float(edges.vertices[:, 1].max()) + 1
-    x, y = points.T
-    source, edge = edges.tree.query(shapely.box(x, y, x, np.maximum(y, top)))
-    p, a, b = points[source], edges.a[edge], edges.b[edge]
-    spans = (np.minimum(a[:, 0], b[:, 0]) <= p[:, 0]) & (p[:, 0] < np.maximum(a[:, 0], b[:, 0]))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        height = a[:, 1] + (p[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1]) / (b[:, 0] - a[:, 0])
-    above = spans & (height > p[:, 1]) & edges.closed[edges.wall[edge]]
-    count = np.bincount(source[above], minlength=len(points)) + (1 if arena else 0)
-    odd: NDArray[np.bool_] = count % 2 == 1
-    return odd
+    result = np.empty(len(points), dtype=np.bool_)
+    for begin in range(0, len(points), _POINTS):  # in portions, which bounds the memory for pairs
+        some = points[begin : begin + _POINTS]
+        top = float(edges.vertices[:, 1].max()) + 1
+        x, y = some.T
+        source, edge = edges.tree.query(shapely.box(x, y, x, np.maximum(y, top)))
+        p, a, b = some[source], edges.a[edge], edges.b[edge]
+        spans = (np.minimum(a[:, 0], b[:, 0]) <= p[:, 0]) & (p[:, 0] < np.maximum(a[:, 0], b[:, 0]))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            height = a[:, 1] + (p[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1]) / (b[:, 0] - a[:, 0])
+        above = spans & (height > p[:, 1]) & edges.closed[edges.wall[edge]]
+        count = np.bincount(source[above], minlength=len(some)) + (1 if arena else 0)
+        result[begin : begin + _POINTS] = count % 2 == 1
+    return result
 
 
 @dataclass(slots=True)
@@ -227,7 +304,7 @@ def _centres(mesh: Triangulation) -> FloatArray:
     return np.stack([np.where(acute[:, None], around, inner), inner])
 
 
-def _rooms(mesh: Triangulation, edges: Edges, arena: bool, narrow: float, least: float) -> FreeSpace:
+def _rooms(mesh: Triangulation, narrow: float, least: float) -> FreeSpace:
     """Unite edges and circles from the widest way down; note a gap where a room joins something roomier."""
     edge_count, count = len(mesh.ends), len(mesh.ends) + len(mesh.corners)
     circle, centre = _circles(mesh)
@@ -251,10 +328,7 @@ def _rooms(mesh: Triangulation, edges: Edges, arena: bool, narrow: float, least:
         parent[two] = one
     roots = np.unique([_find(parent, edge) for edge in np.flatnonzero(~mesh.wall).tolist()])
     closed = best[roots[np.isfinite(size[best[roots]]) & (size[best[roots]] > least)]]
-    closed = closed[~in_material(edges, arena, place[closed])]
-    gaps = _gaps(mesh, turns, tree, notes, size, place, outside)
-    free = ~in_material(edges, arena, np.array([gap.room for gap in gaps]).reshape(-1, 2))
-    gaps = sorted((gap for gap, wanted in zip(gaps, free, strict=True) if wanted), key=lambda gap: gap.width)
+    gaps = sorted(_gaps(mesh, turns, tree, notes, size, place, outside), key=lambda gap: gap.width)
     return FreeSpace(gaps, np.column_stack([place[closed], size[closed]]), mesh.complete)
 
 

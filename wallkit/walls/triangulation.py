@@ -11,6 +11,7 @@ from wallkit.walls.strokes import FloatArray, IntArray
 
 MOST_POINTS = 600_000
 _ROUNDS = 40
+_TIES = 6  # rounds for points on one circle, whose triangles are a matter of taste
 _FRAME = 4.0  # the frame around everything, in diagonals: far enough to count as outside
 
 
@@ -55,22 +56,31 @@ def triangulate(a: FloatArray, b: FloatArray) -> Triangulation:
     low, high = points.min(axis=0), points.max(axis=0)
     origin, size = (low + high) / 2, float(np.hypot(*(high - low))) or 1.0
     points = points - origin
-    points, segments, complete = _conform(points, segments, 1e-7 * size)
     frame = _FRAME * size * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-    everything = np.concatenate([points, frame])
-    found = Delaunay(everything)
-    corners = found.simplices.astype(np.int64)
-    count = len(everything)
-    sides = np.sort(np.stack([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]], axis=1), axis=2)
-    keys, edge = np.unique(sides[..., 0] * count + sides[..., 1], return_inverse=True)
-    ends = np.stack(np.divmod(keys, count), axis=1)
-    wall = np.isin(keys, segments[:, 0] * count + segments[:, 1])
+    for _ in range(_TIES):
+        points, segments, complete = _conform(points, segments, 1e-7 * size)
+        everything = np.concatenate([points, frame])
+        found = Delaunay(everything)
+        corners = found.simplices.astype(np.int64)
+        count = len(everything)
+        sides = np.sort(np.stack([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]], axis=1), axis=2)
+        keys, edge = np.unique(sides[..., 0] * count + sides[..., 1], return_inverse=True)
+        walls = segments.min(axis=1) * count + segments.max(axis=1)
+        missing = ~np.isin(walls, keys)
+        if not complete or not missing.any():
+            break
+        # four points on one circle: the other diagonal was taken, so the wall gets a point in its middle
+        cut, number = segments[missing], len(points) + np.arange(int(missing.sum()))
+        points = np.concatenate([points, points[cut].mean(axis=1)])
+        halves = [np.stack([cut[:, 0], number], axis=1), np.stack([cut[:, 1], number], axis=1)]
+        segments = np.concatenate([segments[~missing], *halves])
     neighbours = found.neighbors.astype(np.int64)
     edge = edge.reshape(-1, 3)
     outer = np.zeros(len(keys), dtype=np.bool_)
     outer[edge[neighbours < 0]] = True
-    complete = complete and int(wall.sum()) == len(segments)
-    return Triangulation(everything + origin, corners, neighbours, edge, ends, wall, outer, complete)
+    ends = np.stack(np.divmod(keys, count), axis=1)
+    complete = complete and not missing.any()
+    return Triangulation(everything + origin, corners, neighbours, edge, ends, np.isin(keys, walls), outer, complete)
 
 
 def _conform(points: FloatArray, segments: IntArray, shortest: float) -> tuple[FloatArray, IntArray, bool]:
