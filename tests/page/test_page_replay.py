@@ -4,17 +4,17 @@ import re
 import numpy as np
 import pytest
 
-from wallkit import Balls, Scene, Walls, simulate
+from wallkit import Balls, Kind, Material, Scene, Walls, simulate
 from wallkit.view.replay import replay_html, thinned
 
 ROOM = [(0, 0), (400, 0), (400, 300), (0, 300)]
 HOSTILE = "</script><img src=x onerror=\"document.title='owned'\"><!--"
 
 
-def scene(balls=1, gravity=None, y_axis="up", names=("room", "pillar")):
+def scene(balls=1, gravity=None, y_axis="up", names=("room", "pillar"), restitution=1.0):
     angle = np.linspace(0, 2 * math.pi, 12, endpoint=False)
     pillar = np.stack([200 + 40 * np.cos(angle), 150 + 40 * np.sin(angle)], axis=1)
-    walls = Walls.from_polylines([ROOM, pillar], names=list(names))
+    walls = Walls.from_polylines([ROOM, pillar], names=list(names), material=Material(restitution, 1.0))
     walls.y_axis = y_axis
     way = 0.6 + np.linspace(0, 0.3, balls)
     velocity = 170 * np.stack([np.cos(way), np.sin(way)], axis=1)
@@ -66,6 +66,17 @@ def test_balls_are_drawn_where_the_library_says(shown, y_axis):
     for time in [0.0, 0.3, 7.77, *run.contacts["time"][[0, 5, -1]], 20.0]:
         for ball, place in enumerate(run.position(time)):
             assert drawn_at(page, ball, time) == pytest.approx(expected_at(page, place), abs=1e-6)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("gravity", [(0.0, -60.0), (25.0, -50.0)])
+def test_falling_sliding_and_resting_balls_are_drawn_where_the_library_says(shown, gravity):
+    run = simulate(scene(balls=4, gravity=gravity, restitution=0.5), until=40.0)
+    assert Kind.SLIDE in run.contacts["kind"]
+    page = shown(run)
+    for time in [*np.linspace(0.0, 40.0, 60), *run.contacts["time"][::7]]:
+        for ball, place in enumerate(run.position(time)):
+            assert drawn_at(page, ball, float(time)) == pytest.approx(expected_at(page, place), abs=1e-6)
 
 
 @pytest.mark.browser

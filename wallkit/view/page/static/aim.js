@@ -140,7 +140,7 @@
         ctx.globalAlpha = 0.95 - (0.75 * k) / (last + 1);
         const f = motion.flight(0, k, FLIGHT);
         ctx.beginPath();
-        W.traceFlight(ctx, this.stage, f, f.until - f.time, motion.gravity);
+        W.traceFlight(ctx, this.stage, f, f.until - f.time);
         ctx.stroke();
       }
       ctx.setLineDash([]);

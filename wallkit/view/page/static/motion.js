@@ -13,6 +13,8 @@
     return new TYPES[type](bytes.buffer);
   };
 
+  const SLIDE = 2; // the kind of contact from which on a ball keeps to the wall (wallkit.Kind)
+
   // How many entries of the rising `times` are at most t (or below t); `at` maps a place to an index into times.
   const countUpTo = (t, length, at, below = false) => {
     let low = 0;
@@ -94,7 +96,17 @@
         into.contact = -1;
       }
       into.until = k < last ? this.time[this.ofBall[first + k]] : this.endOf(ball);
+      this.pull(into);
       return into;
+    }
+
+    // The acceleration of a flight: gravity, or the part of it along the wall on which the ball slides.
+    pull(into) {
+      [into.ax, into.ay] = this.gravity ?? [0, 0];
+      if (!this.gravity || into.contact < 0 || this.kind[into.contact] !== SLIDE) return;
+      const [tx, ty] = [-this.ny[into.contact], this.nx[into.contact]];
+      const along = tx * into.ax + ty * into.ay;
+      [into.ax, into.ay] = [tx * along, ty * along];
     }
 
     // A ball that left the scene flies on; every other one stands where its run ended.
@@ -102,16 +114,15 @@
       return this.ending[ball] === "left the scene" ? Infinity : this.end.time[ball];
     }
 
-    // Position and velocity at t: p + v dt + g dt^2 / 2 and v + g dt, from the contact before t.
+    // Position and velocity at t: p + v dt + a dt^2 / 2 and v + a dt, from the contact before t.
     state(ball, t, into = {}) {
       this.flight(ball, this.bouncesOf(ball, t), into);
       into.over = t > into.until;
       const dt = Math.max(0, Math.min(t, into.until) - into.time);
-      const [gx, gy] = this.gravity ?? [0, 0];
-      into.x += dt * (into.vx + 0.5 * gx * dt);
-      into.y += dt * (into.vy + 0.5 * gy * dt);
-      into.vx += gx * dt;
-      into.vy += gy * dt;
+      into.x += dt * (into.vx + 0.5 * into.ax * dt);
+      into.y += dt * (into.vy + 0.5 * into.ay * dt);
+      into.vx += into.ax * dt;
+      into.vy += into.ay * dt;
       return into;
     }
 

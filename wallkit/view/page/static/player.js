@@ -236,7 +236,7 @@
     traceFlight(ctx, ball, k) {
       const { motion, stage } = this;
       const f = motion.flight(ball, k, FLIGHT);
-      W.traceFlight(ctx, stage, f, Math.min(f.until, this.time) - f.time, motion.gravity);
+      W.traceFlight(ctx, stage, f, Math.min(f.until, this.time) - f.time);
     }
 
     drawGhosts(ctx, ball, ghosts) {
@@ -309,14 +309,13 @@
   const FLIGHT = {};
 
   // Adds a flight's path: from p with v for `span` seconds. The control point of the parabola is p + v span / 2.
-  W.traceFlight = (ctx, stage, f, span, gravity) => {
+  W.traceFlight = (ctx, stage, f, span) => {
     if (!(span > 0)) return;
     const far = Number.isFinite(span) ? span : (4 * (stage.width + stage.height)) / stage.scale / Math.max(Math.hypot(f.vx, f.vy), 1e-300);
-    const [gx, gy] = gravity ?? [0, 0];
     const [ax, ay] = [stage.screenX(f.x), stage.screenY(f.y)];
-    const bx = stage.screenX(f.x + far * (f.vx + 0.5 * gx * far));
-    const by = stage.screenY(f.y + far * (f.vy + 0.5 * gy * far));
-    if (gravity) {
+    const bx = stage.screenX(f.x + far * (f.vx + 0.5 * f.ax * far));
+    const by = stage.screenY(f.y + far * (f.vy + 0.5 * f.ay * far));
+    if (f.ax !== 0 || f.ay !== 0) {
       ctx.moveTo(ax, ay);
       ctx.quadraticCurveTo(stage.screenX(f.x + 0.5 * far * f.vx), stage.screenY(f.y + 0.5 * far * f.vy), bx, by);
       return;

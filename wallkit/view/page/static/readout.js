@@ -67,7 +67,7 @@
       if (!k) return "none yet";
       const { picture } = this.player;
       const name = picture ? picture.label(motion.wall[k - 1]) : `wall ${motion.wall[k - 1]}`;
-      const where = motion.kind[k - 1] ? `a corner of ${name}` : name;
+      const where = [name, `a corner of ${name}`, `slides on ${name}`, `leaves ${name}`][motion.kind[k - 1]];
       return motion.balls > 1 ? `ball ${motion.ball[k - 1] + 1}: ${where}` : where;
     }
 
