@@ -23,7 +23,18 @@ from wallkit.walls.files import from_json, load, to_json
 
 Kind = Literal["drawing", "walls", "scene"]
 
-_IMPORT_OPTIONS = {"tolerance", "curves", "layers", "hidden", "snap", "arena", "sides", "scale", "flip_y"}
+_IMPORT_OPTIONS = {
+    "tolerance",
+    "curves",
+    "layers",
+    "hidden",
+    "snap",
+    "arena",
+    "sides",
+    "scale",
+    "flip_y",
+    "outline_strokes",
+}
 _TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from wallkit.cli import main
+from wallkit.cli.simulate import progress_bar
 
 SCENE = """
 [[walls]]
@@ -206,3 +207,37 @@ def test_lines_and_arcs_differ_in_the_walls_that_are_flown(wallkit, tmp_path):
     file.write_text(DRAWING)
     assert "arc" in wallkit("simulate", file, "--bounces", 2)[1]
     assert "arc" not in wallkit("simulate", file, "--bounces", 2, "--curves", "lines")[1].split("\n")[1]
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_progress_is_drawn_on_a_terminal_alone_and_wiped_at_the_end(monkeypatch):
+    for stream, drawn in ((Terminal(), True), (io.StringIO(), False)):
+        monkeypatch.setattr(sys, "stderr", stream)
+        with progress_bar("simulating", after=-1.0) as report:
+            assert (report is not None) == drawn
+            if report:
+                monkeypatch.setattr("time.monotonic", lambda: 1e9)  # long after
+                report(0.5)
+                assert "simulating [###############...............]  50 %" in stream.getvalue()
+        assert stream.getvalue().endswith("\r\x1b[K") == drawn
+
+
+def test_snap_closes_a_gap_before_the_balls_fly(wallkit, tmp_path):
+    file = tmp_path / "gap.txt"
+    file.write_text("0 0 m\n100 0 l\n100 100 l\n0 100 l\n0 1 l\n")
+    assert "(1 open)" in wallkit("simulate", file)[1]
+    assert "open)" not in wallkit("simulate", file, "--snap", 2)[1].split("\n")[1]
+
+
+def test_scale_and_flip_act_on_walls_and_drawn_balls_alike(wallkit, tmp_path):
+    file = tmp_path / "room.svg"
+    file.write_text(DRAWING)
+    out = wallkit("simulate", file, "--scale", 0.5, "--flip-y", "--format", "json", "--bounces", 1)[1]
+    ball = json.loads(out)["scene"]["balls"][0]
+    assert ball["position"] == pytest.approx([30, -30])
+    assert ball["velocity"] == pytest.approx([50, -30])
+    assert ball["radius"] == pytest.approx(6)

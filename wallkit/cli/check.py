@@ -167,7 +167,7 @@ def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, radius: float
 
 def _draw(walls: Walls, problems: list[Problem], ways: list[Any], picture: str) -> None:
     """Write the picture with the ways through the leaks."""
-    from wallkit.files import write_whole
-    from wallkit.view.picture import walls_svg
+    from wallkit.view.picture import walls_canvas
+    from wallkit.view.write import write_picture
 
-    write_whole(picture, walls_svg(walls, problems, ways=ways))
+    write_picture(picture, walls_canvas(walls, problems, ways=ways))

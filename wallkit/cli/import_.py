@@ -24,7 +24,7 @@ def import_drawing(
     out: Annotated[
         str, typer.Option("-o", "--out", metavar="OUT", help="Where to write (.json); - is standard output.")
     ] = "-",
-    preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls and all findings (.svg).")] = "",
+    preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls and all findings (.svg, .png).")] = "",
     tolerance: options.Tolerance = None,
     curves: options.Curves = "lines",
     layer: options.Layer = None,
@@ -88,10 +88,10 @@ def _check_ending(out: str) -> None:
 
 def draw(walls: Walls, picture: str) -> None:
     """Write the picture of walls and their problems."""
-    from wallkit.files import write_whole
-    from wallkit.view.picture import walls_svg
+    from wallkit.view.picture import walls_canvas
+    from wallkit.view.write import write_picture
 
-    write_whole(picture, walls_svg(walls, problems=walls.problems))
+    write_picture(picture, walls_canvas(walls, walls.problems))
 
 
 def summarise(walls: Walls, stream: TextIO | None = None) -> None:

@@ -11,7 +11,7 @@ File = Annotated[
 ]
 Tolerance = Annotated[
     float | None,
-    typer.Option(help="Largest distance between a curve and its edges [default: 0.1 % of the diagonal, at most 0.1]."),
+    typer.Option(help="Largest distance between a curve and its edges (default: 0.1 % of the diagonal, at most 0.1)."),
 ]
 Curves = Annotated[Literal["lines", "arcs"], typer.Option(help="What curves become.")]
 Layer = Annotated[

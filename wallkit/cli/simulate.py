@@ -25,16 +25,16 @@ File = Annotated[
 ]
 Ball = Annotated[list[str] | None, typer.Option("--ball", metavar="X,Y", help="A ball's centre; may be repeated.")]
 Velocity = Annotated[str | None, typer.Option(metavar="VX,VY", help="Velocity of every ball, units per second.")]
-Speed = Annotated[float | None, typer.Option(metavar="S", help="Speed of every ball [default: 50].")]
+Speed = Annotated[float | None, typer.Option(metavar="S", help="Speed of every ball (default: 50).")]
 Angle = Annotated[
-    float | None, typer.Option(metavar="DEG", help="Direction, from the x towards the y axis [default: 30].")
+    float | None, typer.Option(metavar="DEG", help="Direction, from the x towards the y axis (default: 30).")
 ]
 Radius = Annotated[float | None, typer.Option(metavar="R", help="Radius of every ball; 0 is a point.")]
 Count = Annotated[int | None, typer.Option("--balls", metavar="N", help="N balls at random places and directions.")]
 Seed = Annotated[int, typer.Option(metavar="K", help="Seed of --balls.")]
 Until = Annotated[float | None, typer.Option(metavar="T", help="End after T seconds.", min=0)]
 Bounces = Annotated[
-    int | None, typer.Option(metavar="N", help="End after N bounces a ball [default, without --until: 100].", min=0)
+    int | None, typer.Option(metavar="N", help="End after N bounces a ball (default, without --until: 100).", min=0)
 ]
 Gravity = Annotated[str | None, typer.Option(metavar="GX,GY", help="Units per second squared, in the drawing's axes.")]
 Restitution = Annotated[
@@ -48,7 +48,7 @@ Out = Annotated[
     list[str] | None,
     typer.Option("-o", "--out", metavar="OUT", help=f"Where to; the ending decides: {' '.join(FORMATS)}. Repeatable."),
 ]
-Curves = Annotated[Literal["lines", "arcs"] | None, typer.Option(help="What curves become [default: arcs].")]
+Curves = Annotated[Literal["lines", "arcs"] | None, typer.Option(help="What curves become (default: arcs).")]
 
 
 def register(app: typer.Typer) -> None:
@@ -76,10 +76,14 @@ def simulate_file(
     tolerance: drawing_options.Tolerance = None,
     layer: drawing_options.Layer = None,
     hidden: drawing_options.Hidden = False,
+    snap: drawing_options.Snap = 0.0,
+    outline_strokes: drawing_options.OutlineStrokes = False,
     arena: drawing_options.Arena = False,
     sides: Annotated[
-        Literal["both", "outward"] | None, typer.Option(help="From where closed walls are solid [default: both].")
+        Literal["both", "outward"] | None, typer.Option(help="From where closed walls are solid (default: both).")
     ] = None,
+    scale: drawing_options.Scale = 1.0,
+    flip_y: drawing_options.FlipY = False,
     colour: Annotated[Literal["time", "speed"], typer.Option(help="What the path's colour tells.")] = "time",
     heat: Annotated[bool, typer.Option("--heat", help="Pictures show where balls spend their time.")] = False,
     theme: Annotated[
@@ -90,8 +94,11 @@ def simulate_file(
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
     from wallkit.cli.scene_input import Wishes, prepare
 
-    importing = {"curves": curves, "tolerance": tolerance, "layers": layer or None, "hidden": hidden or None,
-                 "arena": arena or None, "sides": sides}  # fmt: skip
+    importing = {
+        "curves": curves, "tolerance": tolerance, "layers": layer or None, "hidden": hidden or None, "snap": snap or None,
+        "outline_strokes": outline_strokes or None, "arena": arena or None, "sides": sides,
+        "scale": scale if scale != 1 else None, "flip_y": flip_y or None,
+    }  # fmt: skip
     wishes = Wishes(
         ball or [], velocity, speed, angle, radius, balls, seed, gravity, restitution, tangential_restitution, until,
         bounces, {key: value for key, value in importing.items() if value is not None},
@@ -195,13 +202,10 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
         with progress_bar("filming") as report:
             return film(run, kind, seconds=look["seconds"], theme=look["theme"], progress=report)
     from wallkit.view.run_picture import run_canvas
+    from wallkit.view.write import picture_data
 
     canvas = run_canvas(run, title=look["title"], colour=look["colour"], heat=look["heat"])
-    if kind == "svg":
-        return canvas.to_svg()
-    from wallkit.view.raster import png
-
-    return png(canvas, look["theme"])
+    return picture_data(f".{kind}", canvas, look["theme"])
 
 
 def _summary(file: str, prepared: Prepared, run: Run, trust: list[Any], targets: list[tuple[str, Format]]) -> list[str]:

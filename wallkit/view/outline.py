@@ -108,7 +108,8 @@ def _areas_by_material(walls: Walls, turned: bool) -> list[tuple[Material, list[
 def tick_places(walls: Walls, frame: Frame, spacing: float = 26.0) -> list[tuple[float, float, float, float, bool]]:
     """Choose where normals are shown: at edges' middles, at least about ``spacing`` pixels apart along a wall.
 
-    An arc shows one about every two spacings, each with the normal that it has there.
+    An arc shows one about every two spacings, each with the normal that it has there; a wall shorter than two
+    spacings shows none, where it is one of many.
 
     Returns:
         (x, y, nx, ny, both sides) in pixels, n of length one.
@@ -122,6 +123,8 @@ def tick_places(walls: Walls, frame: Frame, spacing: float = 26.0) -> list[tuple
     for index in range(len(walls)):
         both = not walls.closed[index] and walls.sides[index] == "both"
         walked, last = 0.0, -spacing
+        if len(walls) > 12 and lengths[offsets[index] : offsets[index + 1]].sum() < 2 * spacing:
+            continue
         for edge in range(offsets[index], offsets[index + 1]):
             length = float(lengths[edge])
             middle = walked + length / 2
