@@ -95,8 +95,8 @@ def simulate_file(
     from wallkit.cli.scene_input import Wishes, prepare
 
     importing = {
-        "curves": curves, "tolerance": tolerance, "layers": layer or None, "hidden": hidden or None, "snap": snap or None,
-        "outline_strokes": outline_strokes or None, "arena": arena or None, "sides": sides,
+        "curves": curves, "tolerance": tolerance, "layers": layer or None, "hidden": hidden or None,
+        "snap": snap or None, "outline_strokes": outline_strokes or None, "arena": arena or None, "sides": sides,
         "scale": scale if scale != 1 else None, "flip_y": flip_y or None,
     }  # fmt: skip
     wishes = Wishes(
