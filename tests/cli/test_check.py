@@ -71,3 +71,42 @@ def test_a_negative_radius_is_a_usage_error(leaky):
     result = wallkit("check", leaky, "--radius", -1)
     assert result.returncode == 2
     assert "radius" in result.stderr
+
+
+WITH_BALLS = """<svg xmlns="http://www.w3.org/2000/svg">
+<path id="room" fill="none" stroke="black" d="M0 30V0H100V60H0V32"/>
+<g id="balls"><circle cx="50" cy="30" r="{}"/></g></svg>"""
+
+
+@pytest.mark.parametrize(("radius", "leaks"), [(0.9, 1), (1.1, 0)])
+def test_the_ball_that_is_drawn_is_the_one_that_is_looked_at(tmp_path, radius, leaks):
+    file = tmp_path / "balls.svg"
+    file.write_text(WITH_BALLS.format(radius))
+    result = wallkit("check", file)
+    assert result.stdout.count("warning[leak]") == leaks
+    assert f"assumed: a ball of radius {radius}" in result.stdout
+
+
+def test_a_scene_is_checked_with_the_drawing_that_it_names(leaky, tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text('drawing = "leaky.svg"\n[[balls]]\nposition = [50, 30]\nvelocity = [1, 0]\nradius = 0.2\n')
+    report = json.loads(wallkit("check", scene, "--json").stdout)
+    assert report["radius"] == pytest.approx(0.2)
+    assert len(report["leaks"]) == 1
+
+
+def test_the_largest_ball_that_fits_is_told(tmp_path):
+    file = tmp_path / "clean.svg"
+    file.write_text(CLEAN)
+    assert "largest ball that fits in a room: radius 30," in wallkit("check", file).stdout
+
+
+def test_standard_input_is_read():
+    result = wallkit("check", "-", stdin=CLEAN)
+    assert (result.returncode, result.stderr) == (0, "")
+
+
+def test_what_is_no_drawing_is_an_error_and_not_a_finding(tmp_path):
+    file = tmp_path / "words.svg"
+    file.write_text("no drawing at all")
+    assert wallkit("check", file).returncode == 2

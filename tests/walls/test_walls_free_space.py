@@ -141,7 +141,7 @@ def test_inside_material_is_no_room_unless_a_ball_is_there():
     assert hole == pytest.approx([50, 50, 20])
     (ring,) = free_space(walls, free=np.array([[10.0, 10.0]])).closed_rooms
     # a square ring 30 wide: a disc in its corner touches two sides and the inner corner, r (1 + sqrt 2) = 30 sqrt 2
-    assert ring[2] == pytest.approx(30 * math.sqrt(2) / (1 + math.sqrt(2)), rel=1e-3)
+    assert ring[2] == pytest.approx(30 * math.sqrt(2) / (1 + math.sqrt(2)), rel=1e-4)
 
 
 def test_an_eroded_square_is_the_smaller_square():

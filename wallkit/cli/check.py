@@ -6,6 +6,8 @@ import io
 import json
 import math
 import sys
+from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -13,6 +15,9 @@ import typer
 from wallkit.cli import import_options as options
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from importers.problems import Problem
     from wallkit.walls import Walls
     from wallkit.walls.free_space import FreeSpace
@@ -28,12 +33,13 @@ def register(app: typer.Typer) -> None:
 def check(
     file: options.File,
     radius: Annotated[
-        float | None, typer.Option(metavar="R", help="Look for leaks of a ball this large [default: of any ball].")
+        float | None,
+        typer.Option(metavar="R", help="Look for leaks of a ball this large [default: the smallest drawn, else any]."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Write the findings as JSON to standard output.")] = False,
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls, findings and leaks (.svg).")] = "",
     tolerance: options.Tolerance = None,
-    curves: options.Curves = "lines",
+    curves: options.Curves = "arcs",
     layer: options.Layer = None,
     hidden: options.Hidden = False,
     arena: options.Arena = False,
@@ -54,16 +60,20 @@ def check(
         "scale": scale,
         "flip_y": flip_y,
     }
-    walls, assumed = _walls(file, importing)
-    space = free_space(walls)
-    problems = [*walls.problems, *leak_problems(space, radius)]
+    given = _read(file, importing)
+    walls = given.walls
+    if radius is None and len(given.radii):
+        radius = float(given.radii.min())
+        given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
+    space = free_space(walls, free=given.places if len(given.places) else None)
+    problems = [*walls.problems, *given.problems, *leak_problems(space, radius)]
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
         _draw(walls, problems, [gap.path for gap in reported_gaps(space, radius)[0]], preview)
     if as_json:
         print(json.dumps(_report(walls, problems, space, radius, len(findings)), ensure_ascii=False))
     else:
-        _tell(walls, problems, space, radius, assumed)
+        _tell(walls, problems, space, radius, given.assumed)
     raise typer.Exit(1 if findings else 0)
 
 
@@ -74,8 +84,21 @@ def _check_radius(radius: float | None) -> None:
         raise WallsError(f"radius is {radius!r}", code="bad-option", fix="give a number from 0")
 
 
-def _walls(file: str, importing: dict[str, Any]) -> tuple[Walls, str]:
-    """Walls of FILE, whatever it is, and what was assumed about it."""
+@dataclass(slots=True)
+class _Given:
+    """What FILE holds: walls, places and radii of its balls, findings about those, and what was assumed."""
+
+    walls: Walls
+    places: NDArray[np.float64]
+    radii: NDArray[np.float64]
+    problems: list[Problem] = field(default_factory=list)
+    assumed: list[str] = field(default_factory=list)
+
+
+def _read(file: str, importing: dict[str, Any]) -> _Given:
+    """Read FILE, whatever it is."""
+    import numpy as np
+
     from wallkit.cli.scene_input import read_input
     from wallkit.scene_files import kind_of, read_scene
     from wallkit.walls.files import loads
@@ -84,8 +107,11 @@ def _walls(file: str, importing: dict[str, Any]) -> tuple[Walls, str]:
     kind = kind_of(data)
     if kind == "drawing":
         return _of_drawing(data, file, importing)
-    walls = loads(data, file) if kind == "walls" else read_scene(data, file=file).scene.walls
-    return _checked_again(walls), ""
+    if kind == "walls":
+        return _Given(_checked_again(loads(data, file)), np.empty((0, 2)), np.empty(0))
+    scene = read_scene(data, file=file, folder=Path() if file == "-" else Path(file).parent).scene
+    balls = scene.balls
+    return _Given(_checked_again(scene.walls), np.asarray(balls.position), np.asarray(balls.radius))
 
 
 def _checked_again(walls: Walls) -> Walls:
@@ -99,7 +125,7 @@ def _checked_again(walls: Walls) -> Walls:
     return replace(walls, problems=[p for p in walls.problems if p.code not in codes] + found)
 
 
-def _of_drawing(data: bytes, file: str, importing: dict[str, Any]) -> tuple[Walls, str]:
+def _of_drawing(data: bytes, file: str, importing: dict[str, Any]) -> _Given:
     """Import a drawing; when all its balls start in what would be material, its outermost walls are rooms."""
     import numpy as np
 
@@ -112,13 +138,13 @@ def _of_drawing(data: bytes, file: str, importing: dict[str, Any]) -> tuple[Wall
     stream.name = file
     drawing = read_drawing(stream)
     walls = import_walls(drawing, **importing)
-    if importing["arena"]:
-        return walls, ""
-    balls, _ = drawn_balls(drawing, importing["scale"], importing["flip_y"])
-    if not balls or not in_material(walls, np.array([(ball.x, ball.y) for ball in balls])).all():
-        return walls, ""
-    importing = importing | {"arena": True}
-    return import_walls(drawing, **importing), "the outermost walls are a room, since all balls are in it (--arena)"
+    balls, problems = drawn_balls(drawing, importing["scale"], importing["flip_y"])
+    places = np.array([(ball.x, ball.y) for ball in balls]).reshape(-1, 2)
+    given = _Given(walls, places, np.array([ball.radius for ball in balls]), problems)
+    if len(balls) and not importing["arena"] and in_material(walls, places).all():
+        given.walls = import_walls(drawing, **(importing | {"arena": True}))
+        given.assumed.append("the outermost walls are a room, since all balls are in it (--arena)")
+    return given
 
 
 def _report(
@@ -143,14 +169,14 @@ def _report(
     }
 
 
-def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, radius: float | None, assumed: str) -> None:
+def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, radius: float | None, assumed: list[str]) -> None:
     from wallkit.cli.import_ import summarise
     from wallkit.cli.messages import show_problems
-    from wallkit.walls.leaks import reported_gaps
+    from wallkit.walls.leaks import middle, reported_gaps
 
     show_problems(problems, walls.source_file, sys.stdout)
-    if assumed:
-        print(f"assumed: {assumed}")
+    for sentence in assumed:
+        print(f"assumed: {sentence}")
     summarise(walls, sys.stdout)
     ball = "any ball" if radius is None else f"a ball of radius {radius:g}"
     leaks, shut = reported_gaps(space, radius)
@@ -162,7 +188,15 @@ def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, radius: float
         print(f"out of reach: {len(shut)} {'room' if len(shut) == 1 else 'rooms'}")
     rest = [gap for gap in space.gaps if gap not in leaks]
     if rest:
-        print(f"narrowest gap between rooms: {rest[0].width:.6g} wide")
+        print(f"narrowest gap between rooms: {rest[0].width:.6g} wide, at ({_at(middle(rest[0]))})")
+    rooms = [*space.closed_rooms.tolist(), *((*gap.room, gap.room_radius) for gap in space.gaps)]
+    if rooms:
+        x, y, largest = max(rooms, key=lambda room: room[2])
+        print(f"largest ball that fits in a room: radius {largest:.5g}, at ({_at((x, y))})")
+
+
+def _at(place: tuple[float, float]) -> str:
+    return f"{place[0]:.6g}, {place[1]:.6g}"
 
 
 def _draw(walls: Walls, problems: list[Problem], ways: list[Any], picture: str) -> None:

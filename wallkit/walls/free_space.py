@@ -33,7 +33,7 @@ from wallkit.walls.walls import Walls
 MOST_EDGES = 200_000
 MOST_ROOMS = 100  # of more the circles are left as found, good to a third
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
-_STEPS, _DIRECTIONS = 36, 7
+_STEPS, _DIRECTIONS = 48, 12
 _POINTS = 2_000
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
@@ -129,13 +129,14 @@ def _roomier(found: FreeSpace, edges: Edges, narrow: float) -> FreeSpace:
     places = np.concatenate([places, found.closed_rooms[:, :2]])
     if not 0 < len(places) <= MOST_ROOMS or narrow >= 1:
         return found
-    radius = _clearance(edges, places)
+    tree = shapely.STRtree(shapely.linestrings(np.stack([edges.a, edges.b], axis=1)))
+    radius = _clearance(tree, places)
     step = radius * min(0.5, 1 - narrow)
     for round_ in range(_STEPS):
         angle = 2.4 * round_ + np.arange(_DIRECTIONS) * (2 * np.pi / _DIRECTIONS)  # turned on every time
         around = np.stack([np.cos(angle), np.sin(angle)], axis=1)
         trial = places[:, None] + step[:, None, None] * around
-        size = _clearance(edges, trial.reshape(-1, 2)).reshape(-1, _DIRECTIONS)
+        size = _clearance(tree, trial.reshape(-1, 2)).reshape(-1, _DIRECTIONS)
         best, rows = size.argmax(axis=1), np.arange(len(places))
         up = size[rows, best] > radius
         places = np.where(up[:, None], trial[rows, best], places)
@@ -148,9 +149,9 @@ def _roomier(found: FreeSpace, edges: Edges, narrow: float) -> FreeSpace:
     return FreeSpace(gaps, np.column_stack([places, radius])[len(gaps) :], found.complete)
 
 
-def _clearance(edges: Edges, points: FloatArray) -> FloatArray:
+def _clearance(tree: shapely.STRtree, points: FloatArray) -> FloatArray:
     """Distance of each point from the nearest wall."""
-    _, distance = edges.tree.query_nearest(shapely.points(points), return_distance=True, all_matches=False)
+    _, distance = tree.query_nearest(shapely.points(points), return_distance=True, all_matches=False)
     clearance: FloatArray = distance
     return clearance
 
