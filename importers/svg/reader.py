@@ -46,10 +46,11 @@ _SILENT = frozenset(
         "glyph",
     )
 )
+# What is seen but has no outlines: the code of its problem, and what to do
 _NO_GEOMETRY = {
-    "text": "convert text to outlines in the drawing program",
-    "image": "trace the image in the drawing program",
-    "foreignObject": "draw its content as shapes",
+    "text": ("text-left-out", "to make walls of letters, convert the text to paths before saving"),
+    "image": ("image-left-out", "trace the image if its shapes are to be walls"),
+    "foreignObject": ("object-left-out", "draw its content as shapes if it is to be walls"),
 }
 
 
@@ -153,8 +154,8 @@ class Reader:
 
     def _skip(self, tag: str, element: Any) -> None:
         if tag in _NO_GEOMETRY:
-            message = f"<{tag}> has no outlines to read"
-            self.notes.count("no-geometry", "warning", message, element, fix=_NO_GEOMETRY[tag])
+            code, fix = _NO_GEOMETRY[tag]
+            self.notes.count(code, "info", f"<{tag}> has no outlines and is left out", element, fix=fix)
         elif tag in _NEVER:
             self.references.kept_back.append(element)
         elif tag in ("script", "animate", "animateTransform", "animateMotion", "animateColor", "set"):
@@ -318,7 +319,7 @@ class Reader:
             raise limit_error("segments of all paths", f"{MAX_ELEMENTS:,}", file=self.source.file)
         if not _within(subpaths):
             message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
-            self.notes.add("coordinate-too-large", "error", message, element, layer=around.layer, name=name)
+            self.notes.add("bad-coordinate", "error", message, element, layer=around.layer, name=name)
             return
         fill, stroke, width = self._paint(style.fill), self._paint(style.stroke), None
         if stroke is not None:

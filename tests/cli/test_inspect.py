@@ -43,7 +43,7 @@ def test_the_json_is_the_whole_drawing_and_nothing_else_on_standard_output(tmp_p
     assert [path["name"] for path in data["paths"]] == ["outer", "ball", "broken"]
     assert [path["visible"] for path in data["paths"]] == [True, False, True]
     assert data["paths"][0]["subpaths"][0]["segments"][0] == ["M", 10.0, 5.0]
-    assert {problem["code"] for problem in data["problems"]} == {"bad-path-data", "no-geometry"}
+    assert {problem["code"] for problem in data["problems"]} == {"bad-path-data", "text-left-out"}
 
 
 STORIES = {

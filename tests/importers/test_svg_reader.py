@@ -2,6 +2,8 @@
 
 import cmath
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -158,8 +160,8 @@ def test_every_element_that_is_left_out_is_counted_with_its_first_place():
         '<switch><g/><rect width="1" height="1"/></switch><use href="#nothing"/><use href="b.svg#c"/>'
     )
     told = {problem.message: (problem.code, problem.line) for problem in drawing.problems}
-    assert told["2 times: <text> has no outlines to read"] == ("no-geometry", 2)
-    assert told["<image> has no outlines to read"] == ("no-geometry", 3)
+    assert told["2 times: <text> has no outlines and is left out"] == ("text-left-out", 2)
+    assert told["<image> has no outlines and is left out"] == ("image-left-out", 3)
     assert told["shape in <defs> is not drawn by itself"][0] == "not-drawn"
     assert told["shape in <clipPath> is not drawn by itself"][0] == "not-drawn"
     for code in ("unknown-element", "foreign-element", "not-run", "nothing-drawn", "not-chosen", "bad-use"):
@@ -175,7 +177,7 @@ def test_every_element_that_is_left_out_is_counted_with_its_first_place():
         ('<polygon points="1,1 2,2 x"/>', "bad-points"),
         ('<polygon points="1,1 2,2 3"/>', "bad-points"),
         ('<rect width="5vw" height="5"/>', "assumed-unit"),
-        ('<rect width="1e10" height="5"/>', "coordinate-too-large"),
+        ('<rect width="1e10" height="5"/>', "bad-coordinate"),
         ("<style>@import url(a.css);</style>", "css-skipped"),
         ("<style>rect:qwe{fill:red}</style>", "css-skipped"),
         ('<style media="print">rect{fill:red}</style>', "css-skipped"),
@@ -311,3 +313,19 @@ def test_a_circle_is_a_circle_after_rotation_and_even_scale():
     radii = {number for segment in path.subpaths[0].segments[1:] for number in segment[1:3]}
     assert all(radius == pytest.approx(10, rel=1e-15) for radius in radii)
     assert len(path.subpaths[0].segments) == 5
+
+
+def test_every_code_of_the_reader_is_in_the_list_for_people():
+    root = Path(__file__).parents[2]
+    source = "".join(file.read_text("utf-8") for file in (root / "importers" / "svg").glob("*.py"))
+    source += (root / "importers" / "read.py").read_text("utf-8")
+    found = set(
+        re.findall(
+            r'(?:code=|notes\.(?:add|count)\(\s*|report\(|^    "\w+": \(|code = |else )"([a-z]+(?:-[a-z]+)+)"',
+            source,
+            re.M,
+        )
+    )
+    assert {"bad-path-data", "not-a-drawing", "css-skipped", "text-left-out", "bad-points", "no-size"} <= found
+    listed = set(re.findall(r"`([a-z-]+)`", (root / "docs" / "problems.md").read_text("utf-8")))
+    assert found <= listed

@@ -46,7 +46,8 @@ def describe(drawing: Drawing, colour: bool = False) -> str:
     lines.append(f"  units    {drawing.units}, y axis {drawing.y_axis}")
     lines.append(f"  paths    {_path_counts(drawing.paths)}")
     lines.append(f"  segments {_segment_counts(drawing.paths)}")
-    lines.append(f"  box      {_box_text(drawing.paths)}")
+    art = [path for path in drawing.paths if not path.guide]  # guides go far beyond what is drawn
+    lines.append(f"  box      {_box_text(art)}")
     lines += _layer_lines(drawing, colour)
     lines.append(f"  problems {count_by_severity(drawing.problems)}")
     return "\n".join(lines) + "\n"
@@ -106,7 +107,7 @@ def _layer_lines(drawing: Drawing, colour: bool) -> list[str]:
         count = len(by_layer[name])
         lines.append(
             f"    {paint(title, 'bold', colour)}: {count} path{'' if count == 1 else 's'}{words}; "
-            f"box {_box_text(by_layer[name])}"
+            f"box {_box_text([path for path in by_layer[name] if not path.guide])}"
         )
     if len(by_layer) > _MOST_LAYERS:
         lines.append(f"    and {len(by_layer) - _MOST_LAYERS} more layers")
