@@ -5,7 +5,8 @@ drops out. At a contact with unit normal n and velocity v (v' after) the neighbo
 ``dt = -dx.n / (v.n)``, at ``dx + v dt`` along the wall, where the normal is turned by ``dn = k (dx + v dt)``
 (k the curvature of the line that the ball's centre cannot cross: 0 beside a line, 1 / r about a corner,
 1 / (R + r) outside and -1 / (R - r) inside an arc). With the rule of the bounce
-``v' = T v - (T + R) (v.n) n`` and gravity g this gives the state just after, at the time of the run itself:
+``v' = T v - (T + R) (v.n) n`` and gravity g this gives the state just after, at the time of the run itself (a
+ball that begins to slide keeps what its error has along the wall):
 
     dx' = dx + (v - v') dt
     dv' = T w - (T + R) ((w.n) n + (v.dn) n + (v.n) dn) - g dt,      w = dv + g dt
@@ -147,13 +148,18 @@ def _kernel(function: Any, contacts: int) -> Any:
 
 
 def _course(scene: Scene, own: Any, ball: int) -> Course:
-    """What the kernels need of one ball's run: first velocity, path, bends, restitutions, gravity."""
+    """What the kernels need of one ball's run: first velocity, path, bends, restitutions, accelerations."""
     materials = scene.walls.materials
     table = np.array([(m.tangential_restitution, m.restitution) for m in materials]).reshape(-1, 2)
-    path = np.stack([own[name].astype(np.float64) for name in ("time", "vx", "vy", "nx", "ny")], axis=1)
+    path = np.stack([own[name].astype(np.float64) for name in ("time", "vx", "vy", "nx", "ny", "kind")], axis=1)
+    path[:, 5] = np.maximum(path[:, 5] - 1.0, 0.0)  # edge and vertex are bounces; slide and leave are not
     start = np.atleast_2d(np.asarray(scene.balls.velocity, dtype=np.float64))[ball]
     gravity = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
-    return start, np.ascontiguousarray(path), _bends(scene, own, ball), table[own["wall"]], gravity
+    pull = np.tile(gravity, (len(own) + 1, 1))
+    slides = path[:, 5] == 1.0
+    along = np.stack([-path[slides, 4], path[slides, 3]], axis=1)
+    pull[1:][slides] = along * (along @ gravity)[:, None]
+    return start, np.ascontiguousarray(path), _bends(scene, own, ball), table[own["wall"]], pull
 
 
 def _roundings(scene: Scene, own: Any, course: Course) -> FloatArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any, Literal
@@ -95,9 +96,9 @@ class Flights:
             if len(log):
                 yield log
 
-    def _piece(self, ball: int, until: float, limit: int) -> FloatArray:
+    def _piece(self, ball: int, until: float, limit: int, room: int | None = None) -> FloatArray:
         state, counts, radius = self._states[ball], self._counts[ball], float(self.modelled.radii[ball])
-        room = max(1, min(CHUNK, limit - counts[1] + 1))
+        room = room or max(1, min(CHUNK, limit - counts[1] + 1))
         if self._compile():
             model, machine_log = self.modelled.model, np.empty(room * LOG_STRIDE)
             _compiled_features.add(self._features)
@@ -124,8 +125,19 @@ class Flights:
 
     def next_contact(self, ball: int) -> FloatArray | None:
         """Fly a ball on to its next contact, (LOG_STRIDE,); None if it has none."""
-        pieces = list(self.fly(ball, math.inf, self._counts[ball][1] + 1))
-        return pieces[0][0] if pieces else None
+        counts = self._counts[ball]
+        if counts[2] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE):
+            counts[2] = RUNNING
+        if counts[2] != RUNNING:
+            return None
+        piece = self._piece(ball, math.inf, sys.maxsize, room=1)
+        return piece[0] if len(piece) else None
+
+    def ended(self, ball: int) -> float | None:
+        """Give the time at which a ball came to an end of its own (rest, collapse, ambiguous corner), or None."""
+        if self._counts[ball][2] in (RUNNING, Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE):
+            return None
+        return float(self._states[ball][4] + self._states[ball][5])
 
     def place(self, ball: int, position: FloatArray, velocity: FloatArray, time: float, last: int) -> None:
         """Let a ball go on from elsewhere, in the scene's coordinates.

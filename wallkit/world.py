@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wallkit.kernels.model import NO_HIT
-from wallkit.run import CONTACT
+from wallkit.run import CONTACT, Kind
 from wallkit.scene import FloatArray, Scene, SceneError
 from wallkit.simulation import Flights
 
@@ -63,6 +63,9 @@ class World:
         self._flights = Flights(scene, mode="compiled" if compile else "interpreted")
         self._base = self._flights.start.copy()  # where each ball was, and its velocity, ...
         self._since = np.zeros(len(self._base))  # ... when: after its last contact or change
+        self._gravity = np.zeros(2) if scene.gravity is None else np.array(scene.gravity, dtype=np.float64)
+        self._pull = np.tile(self._gravity, (len(self._base), 1))  # what accelerates each ball since
+        self._end = np.full(len(self._base), math.inf)  # when it rests for good, or is caught
         self._normal = np.zeros((len(self._base), 2))  # of that contact, and what was touched
         self._touched = np.full(len(self._base), NO_HIT, dtype=np.int64)
         self._next_time = np.full(len(self._base), math.inf)
@@ -78,13 +81,16 @@ class World:
     @property
     def position(self) -> FloatArray:
         """(n, 2) centres now."""
-        since = (self.time - self._since)[:, None]
-        return self._base[:, 0:2] + since * self._base[:, 2:4]
+        span = (np.minimum(self.time, self._end) - self._since)[:, None]
+        position: FloatArray = self._base[:, 0:2] + span * (self._base[:, 2:4] + 0.5 * span * self._pull)
+        return position
 
     @property
     def velocity(self) -> FloatArray:
         """(n, 2) velocities now."""
-        return self._base[:, 2:4].copy()
+        span = (np.minimum(self.time, self._end) - self._since)[:, None]
+        velocity: FloatArray = self._base[:, 2:4] + span * self._pull
+        return velocity
 
     def step(self, dt: float) -> NDArray[Any]:
         """Move everything on by ``dt`` seconds.
@@ -127,7 +133,7 @@ class World:
         """
         touched = int(self._touched[ball]) if position is None and self._since[ball] == self.time else NO_HIT
         here = self.position[ball] if position is None else np.asarray(position, dtype=np.float64)
-        speed = self._base[ball, 2:4] if velocity is None else np.asarray(velocity, dtype=np.float64)
+        speed = self.velocity[ball] if velocity is None else np.asarray(velocity, dtype=np.float64)
         if here.shape != (2,) or speed.shape != (2,) or not (np.isfinite(here).all() and np.isfinite(speed).all()):
             raise SceneError(f"ball {ball} cannot be put at {position!r}, {velocity!r}", code="bad-ball")
         normal = self._normal[ball]
@@ -140,14 +146,23 @@ class World:
         """Find the ball's next contact; the frames catch up with it later."""
         row = self._next[ball] = self._flights.next_contact(ball)
         self._next_time[ball] = math.inf if row is None else row[0]
+        end = self._flights.ended(ball) if row is None else None
+        self._end[ball] = math.inf if end is None else end
 
     def _accept(self, ball: int, row: FloatArray) -> None:
         """The frame has reached the contact: from there the ball goes on."""
         self._base[ball, 0:2] = row[1:3] + self._flights.modelled.origin
         self._base[ball, 2:4] = row[3:5]
-        self._since[ball] = row[0]
+        self._since[ball], self._pull[ball] = row[0], self._pull_after(row)
         self._normal[ball], self._touched[ball] = row[7:9], row[9]
         self._look_ahead(ball)
+
+    def _pull_after(self, row: FloatArray) -> FloatArray:
+        """Gravity, or the part of it along the wall on which the ball slides from here on."""
+        if row[10] != Kind.SLIDE:
+            return self._gravity
+        along = np.array([-row[8], row[7]])
+        return along * float(along @ self._gravity)
 
     def _accept_late(self, ball: int, row: FloatArray, end: float, dt: float) -> None:
         """Treat the contact as frame-stepping programs do; whatever else was in the frame is not looked at."""
@@ -163,5 +178,5 @@ class World:
     def _restart(self, ball: int, position: FloatArray, velocity: FloatArray, time: float, last: int) -> None:
         self._flights.place(ball, position, velocity, time, last)
         self._base[ball] = *position, *velocity
-        self._since[ball], self._touched[ball] = time, last
+        self._since[ball], self._touched[ball], self._pull[ball] = time, last, self._gravity
         self._look_ahead(ball)

@@ -113,3 +113,12 @@ def test_flattened_walls_are_trusted_less_far():
     real = next(k for k, e in enumerate(parted) if e > 0.1)
     assert drawing.bounces <= real
     assert drawing.bounces < rounding.bounces
+
+
+def test_a_ball_that_comes_to_rest_is_good_throughout():
+    # What restitution takes from the speed it takes from the error too; where it lies down is where it lies.
+    floor = Walls.from_polylines([[(-5.0, 0.0), (5.0, 0.0)]], closed=False, material=Material(0.5, 1.0))
+    scene = Scene(floor, Balls([(0.0, 1.0)], [(0.1, 0.0)], 0.1), gravity=(0.0, -9.81))
+    run = simulate(scene, until=20.0)
+    (said,) = run.trusted_until(1e-9)
+    assert said.whole

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wallkit import Balls, Scene, SceneError, Walls, World, simulate
+from wallkit import Balls, Kind, Material, Scene, SceneError, Walls, World, simulate
 from wallkit.accuracy import scenes
 
 FORWARD = (50 * math.cos(0.5), 50 * math.sin(0.5))
@@ -157,3 +157,32 @@ def test_many_frames_lose_no_time():
     for _ in range(10_000):
         world.step(1 / 60)
     assert world.time == float(10_000 * Fraction(1 / 60))
+
+
+def test_gravity_rest_and_sliding_are_those_of_simulate():
+    room = Walls.from_polylines([[(0.0, 0.0), (0.0, 8.0), (12.0, 8.0), (12.0, 0.0)]], material=Material(0.6, 0.9))
+    ramp = Walls.from_polylines([[(1.0, 3.0), (6.0, 1.0)]], closed=False, material=Material(0.3, 1.0))
+    walls = Walls.from_polylines(
+        [room.vertices, ramp.vertices], closed=[True, False], material=[room.materials[0], ramp.materials[0]]
+    )
+    balls = Balls([(2.0, 5.0), (9.0, 3.0)], [(0.0, 0.0), (3.0, 2.0)], [0.2, 0.0])
+    scene = Scene(walls, balls, gravity=(0.0, -9.81))
+    world = World(scene)
+    found = np.concatenate([world.step(0.1) for _ in range(300)])
+    run = simulate(scene, until=world.time)
+    assert {kind.label for kind in map(Kind, found["kind"])} >= {"edge", "slide"}
+    for name in found.dtype.names:
+        assert np.array_equal(found[name], run.contacts[name]), name
+    assert np.array_equal(world.position, run.position(world.time))
+    assert np.allclose(world.velocity, run.velocity(world.time), atol=1e-12)
+
+
+def test_between_contacts_a_ball_falls_on_a_parabola():
+    floor = Walls.from_polylines([[(-5.0, 0.0), (5.0, 0.0)]], closed=False)
+    world = World(Scene(floor, Balls([(0.0, 5.0)], [(1.0, 0.0)]), gravity=(0.0, -2.0)))
+    world.step(1.5)
+    assert world.position[0].tolist() == [1.5, 5.0 - 1.5**2]
+    assert world.velocity[0].tolist() == [1.0, -3.0]
+    world.place(0, velocity=(0.0, 0.0))
+    world.step(1.0)
+    assert world.position[0].tolist() == [1.5, 5.0 - 1.5**2 - 1.0]

@@ -47,8 +47,7 @@ def departure_row(row: Departure) -> Row:
 
 def cost_row(row: Cost) -> Row:
     """Give one thing's cost, under :data:`COST_HEAD`."""
-    time = f"{row.nanoseconds:.0f} ns" if row.nanoseconds is not None else "not built yet"
-    return row.what, time, f"{100 * row.more:+.0f} %" if row.more is not None else ""
+    return row.what, f"{row.nanoseconds:.0f} ns", f"{100 * row.more:+.0f} %" if row.more is not None else ""
 
 
 def number(value: float) -> str:
