@@ -112,9 +112,10 @@ def test_balls_at_random_are_the_same_for_the_same_seed_and_inside(wallkit, scen
 
 def test_options_override_the_scene(wallkit, scene):
     out = wallkit("simulate", scene, "--format", "json", "--ball", "50,60", "--velocity", "1,2", "--radius", 3,
-                  "--restitution", 0.5, "--until", 1)[1]  # fmt: skip
+                  "--restitution", 0.5, "--gravity", "0,-10", "--until", 1)[1]  # fmt: skip
     said = json.loads(out)["scene"]
     assert said["balls"] == [{"position": [50.0, 60.0], "velocity": [1.0, 2.0], "radius": 3.0}]
+    assert said["gravity"] == [0.0, -10.0]
     assert said["run"] == {"until": 1.0}
     assert said["walls"]["walls"][0]["material"]["restitution"] == 0.5
 
@@ -241,3 +242,16 @@ def test_scale_and_flip_act_on_walls_and_drawn_balls_alike(wallkit, tmp_path):
     assert ball["position"] == pytest.approx([30, -30])
     assert ball["velocity"] == pytest.approx([50, -30])
     assert ball["radius"] == pytest.approx(6)
+
+
+def test_a_dropped_ball_rests_in_the_closed_form_time(wallkit, tmp_path):
+    """T = sqrt(2 h / g) (1 + e) / (1 - e): 1.35457092 s for h = 1, g = 9.81, e = 0.5."""
+    file = tmp_path / "drop.toml"
+    file.write_text(
+        "gravity = [0, -9.81]\n[run]\nuntil = 10\n[[balls]]\nposition = [5, 1]\n"
+        "[[walls]]\nvertices = [[0, 0], [10, 0], [10, 9], [0, 9]]\nmaterial = { restitution = 0.5 }\n"
+    )
+    out = wallkit("simulate", file, "--format", "json")[1]
+    assert json.loads(out)["ending"] == ["at rest"]
+    assert json.loads(out)["final"][0]["time"] == pytest.approx(1.35457092, abs=1e-8)
+    assert "at rest" in wallkit("simulate", file)[1]

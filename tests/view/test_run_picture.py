@@ -86,7 +86,7 @@ def test_a_scene_shows_its_balls_with_an_arrow_each(run):
 def test_heat_sums_to_all_ball_seconds(run):
     flight = tracks(run)
     frame = fit(scene_box(run.scene), True, width=960, max_height=1100, margin=28)
-    cells = spent(flight, None, frame, 10.0, (int(frame.height / 10) + 1, int(frame.width / 10) + 1))
+    cells = spent(flight, frame, 10.0, (int(frame.height / 10) + 1, int(frame.width / 10) + 1))
     assert cells.sum() == pytest.approx((flight.until - flight.time).sum(), rel=1e-12)
 
 
@@ -133,3 +133,20 @@ def test_more_balls_than_are_drawn_still_make_a_picture():
     balls = wallkit.Balls(np.full((count, 2), 3.0), np.ones((count, 2)), np.linspace(0.1, 0.5, count))
     run = wallkit.simulate(wallkit.Scene(walls, balls), bounces=1)
     assert len(by_class(run_svg(run), "ball")) == 400
+
+
+def test_flight_under_gravity_is_drawn_as_the_exact_parabola():
+    walls = wallkit.Walls.from_polylines([[(0, 0), (10, 0), (10, 9), (0, 9)]])
+    run = wallkit.simulate(
+        wallkit.Scene(walls, wallkit.Balls([[2, 8]], [[1.0, 0]], 0.5), gravity=(0, -9.81)), bounces=3
+    )
+    frame = fit(scene_box(run.scene), True, width=960, max_height=1100, margin=28)
+    drawn = [
+        polylines(item.commands) for item in run_canvas(run).items if isinstance(item, Shape) and item.style == "path"
+    ]
+    points = np.concatenate([line for lines in drawn for line in lines])
+    fall = np.sqrt(2 * 7.5 / 9.81)  # seconds from y = 8 to the contact at y = 0.5
+    for t in np.linspace(0, fall, 25):
+        # The curve is sampled at even parts of the time of its stretch: 24 chords, so every 25th of the fall is there.
+        exact = frame.point(2 + t, 8 - 9.81 / 2 * t * t)
+        assert np.hypot(*(points - exact).T).min() < 1e-6

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import wallkit
+from wallkit import Kind
 from wallkit.view.tracks import tracks
 
 
@@ -52,3 +53,23 @@ def test_a_ball_that_leaves_is_followed_out_of_sight():
 def test_a_run_without_balls_or_contacts_has_empty_tracks():
     walls = wallkit.Walls.from_polylines([[(0, 0), (10, 0)]], closed=False)
     assert len(tracks(wallkit.simulate(wallkit.Scene(walls), until=1.0)).time) == 0
+
+
+def test_under_gravity_a_track_falls_slides_and_rests_as_the_run_says():
+    walls = wallkit.Walls.from_polylines(
+        [[(0, 0), (30, -6), (60, 0), (60, 40), (0, 40)]], material=wallkit.Material(0.5, 0.9)
+    )
+    balls = wallkit.Balls([[10, 20], [30, 30]], [[3.0, 1], [-4, 0]], [1, 0])
+    run = wallkit.simulate(wallkit.Scene(walls, balls, gravity=(0, -9.81)), until=60.0)
+    assert Kind.SLIDE in run.contacts["kind"]
+    flight = tracks(run)
+    for t in np.linspace(0, 30, 97):
+        for ball, place in enumerate(run.position(t)):
+            at = np.flatnonzero((flight.ball == ball) & (flight.time <= t))[-1]
+            s = min(t, flight.until[at]) - flight.time[at]
+            mine = flight.position[at] + flight.velocity[at] * s + flight.pull[at] * s * s / 2
+            assert np.allclose(mine, place, rtol=0, atol=1e-12)  # the same formula, summed in another order
+    # A stretch of some length ends where the next one begins, by the same motion: the pull is right for slides, too.
+    s = flight.until - flight.time
+    reached = flight.position + flight.velocity * s[:, None] + flight.pull * (s * s / 2)[:, None]
+    assert np.allclose(reached, flight.target, rtol=0, atol=1e-6)

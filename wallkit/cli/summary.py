@@ -76,7 +76,8 @@ def energy_words(run: Run) -> str:
     part = change / scale
     if abs(part) < 1e-9:
         return f"kept (to {abs(part):.1e})"
-    return f"{'lost' if part < 0 else 'gained'} {abs(part):.2%}"
+    first = " of the kinetic energy at the start" if gravity.any() and total else ""
+    return f"{'lost' if part < 0 else 'gained'} {abs(part):.2%}{first}"
 
 
 def drawing_words(run: Run) -> list[str]:

@@ -15,7 +15,7 @@ _CELLS = 96  # along the longer side
 _SAMPLES = 4_000_000  # at most, over all stretches
 
 
-def heat_rows(flight: Tracks, gravity: tuple[float, float] | None, frame: Frame) -> tuple[float, list[list[int]]]:
+def heat_rows(flight: Tracks, frame: Frame) -> tuple[float, list[list[int]]]:
     """Give the size of a cell in pixels and its rows of ramp steps, from the top; -1 where no ball came.
 
     Each stretch is sampled at even times, about three times a cell's width apart at its mean speed, and each sample
@@ -24,15 +24,13 @@ def heat_rows(flight: Tracks, gravity: tuple[float, float] | None, frame: Frame)
     """
     size = max(frame.width, frame.height) / _CELLS
     columns, lines = max(1, round(frame.width / size)), max(1, round(frame.height / size))
-    time = spent(flight, gravity, frame, size, (lines, columns))
+    time = spent(flight, frame, size, (lines, columns))
     most = float(time.max())
     steps = np.where(time > 0, np.sqrt(time / most) * (RAMP_STEPS - 1) if most > 0 else 0.0, -1.0)
     return size, np.round(steps).astype(int).tolist()
 
 
-def spent(
-    flight: Tracks, gravity: tuple[float, float] | None, frame: Frame, size: float, shape: tuple[int, int]
-) -> FloatArray:
+def spent(flight: Tracks, frame: Frame, size: float, shape: tuple[int, int]) -> FloatArray:
     """Give the ball-seconds spent in each cell, rows from the top of the screen."""
     duration = flight.until - flight.time
     length = np.hypot(*(flight.target - flight.position).T) * frame.scale
@@ -43,10 +41,7 @@ def spent(
     place = np.arange(len(stretch)) - np.repeat(np.cumsum(count) - count, count)
     share = (place + 0.5) / count[stretch]
     s = share * duration[stretch]
-    if gravity is None:  # along the line: a ball that slows down is still where the share says, nearly
-        at = flight.position[stretch] + (flight.target - flight.position)[stretch] * share[:, None]
-    else:
-        at = flight.position[stretch] + flight.velocity[stretch] * s[:, None] + np.outer(s * s / 2, gravity)
+    at = flight.position[stretch] + flight.velocity[stretch] * s[:, None] + flight.pull[stretch] * (s * s / 2)[:, None]
     pixels = (frame.points(at) - (frame.left, frame.top)) / size
     good = np.isfinite(pixels).all(axis=1)
     column, line = np.floor(pixels[good]).astype(np.int64).T

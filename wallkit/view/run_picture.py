@@ -78,11 +78,11 @@ def run_canvas(
     canvas.title = title or f"{len(run.ending)} balls, {len(run.contacts)} bounces"
     flight = tracks(run, MAX_MEASURED if heat else MAX_STRETCHES)
     if heat:
-        size, rows = heat_rows(flight, run.scene.gravity, frame)
+        size, rows = heat_rows(flight, frame)
         canvas.items.insert(0, Bitmap(frame.left, frame.top, size, rows, 0.9))
     else:
         steps, low, high = _steps(flight, colour)
-        draw_paths(canvas, flight, steps, run.scene, frame)
+        draw_paths(canvas, flight, steps, frame)
         _draw_ghosts(canvas, run, frame, flight, steps)
         _draw_starts(canvas, run.scene, frame)
         _draw_ends(canvas, flight, frame)
@@ -137,24 +137,24 @@ def _steps(flight: Tracks, colour: Colouring) -> tuple[NDArray[np.int64], float,
     return np.minimum((part * RAMP_STEPS).astype(np.int64), RAMP_STEPS - 1), low, high
 
 
-def draw_paths(canvas: Canvas, flight: Tracks, steps: NDArray[np.int64], scene: Scene, frame: Frame) -> None:
+def draw_paths(canvas: Canvas, flight: Tracks, steps: NDArray[np.int64], frame: Frame) -> None:
     """Draw each stretch: a line, or under gravity the parabola, which a quadratic Bezier curve is exactly."""
-    begin, end, middle = frame.points(flight.position), flight.target.copy(), None
+    begin, end = frame.points(flight.position), flight.target.copy()
     duration = flight.until - flight.time
     out = _leaves(flight, frame)
     for index in np.flatnonzero(out).tolist():
-        end[index], duration[index] = _clipped(flight, index, scene, frame)
+        end[index], duration[index] = _clipped(flight, index, frame)
     end = frame.points(end)
-    if scene.gravity is not None:
-        # The control point of p + v s + g s^2 / 2 over s in [0, T] is p + v T / 2, where its end tangents meet.
-        middle = frame.points(flight.position + flight.velocity * (duration / 2)[:, None])
+    # The control point of p + v s + a s^2 / 2 over s in [0, T] is p + v T / 2, where its end tangents meet.
+    middle = frame.points(flight.position + flight.velocity * (duration / 2)[:, None])
+    bent: list[bool] = (flight.pull != 0.0).any(axis=1).tolist()
     by_step: dict[int, list[Command]] = {}
     joined = np.concatenate([[False], (flight.contact[1:] >= 0) & (steps[1:] == steps[:-1]) & ~out[:-1]])
     for index, step in enumerate(steps.tolist()):
         commands = by_step.setdefault(step, [])
         if not (joined[index] and commands):
             commands.append(("M", *begin[index]))
-        commands.append(("L", *end[index]) if middle is None else ("Q", *middle[index], *end[index]))
+        commands.append(("Q", *middle[index], *end[index]) if bent[index] else ("L", *end[index]))
     opacity = 0.95 if len(steps) < 800 else 0.6
     for step, commands in sorted(by_step.items()):
         canvas.add(Shape("path", commands, step=step, opacity=opacity))
@@ -172,21 +172,20 @@ def _rim(frame: Frame) -> Box:
     return x0 - reach, y0 - reach, x1 + reach, y1 + reach
 
 
-def _clipped(flight: Tracks, index: int, scene: Scene, frame: Frame) -> tuple[FloatArray, float]:
+def _clipped(flight: Tracks, index: int, frame: Frame) -> tuple[FloatArray, float]:
     """Follow a stretch that leaves the picture up to its rim: the place there, and the time that it takes."""
     x0, y0, x1, y1 = _rim(frame)
-    p, v = flight.position[index], flight.velocity[index]
-    g = np.array(scene.gravity or (0.0, 0.0))
+    p, v, a = flight.position[index], flight.velocity[index], flight.pull[index]
     high = min(float(flight.until[index] - flight.time[index]), 1e9 / max(float(np.hypot(*v)), 1e-9))
     low = 0.0
     for _ in range(60):  # halve until the rim is between two neighbouring numbers, as far as a picture can tell
         middle = (low + high) / 2
-        x, y = p + v * middle + g * (middle * middle / 2)
+        x, y = p + v * middle + a * (middle * middle / 2)
         if x0 <= x <= x1 and y0 <= y <= y1:
             low = middle
         else:
             high = middle
-    return p + v * low + g * (low * low / 2), low
+    return p + v * low + a * (low * low / 2), low
 
 
 def _draw_ghosts(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: NDArray[np.int64]) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.run import Ending
+from wallkit.run import Ending, Kind
 
 if TYPE_CHECKING:
     from wallkit.run import Run
@@ -30,6 +30,7 @@ class Tracks:
         position: (m, 2) of the centre where it begins.
         target: (m, 2) where it ends: the next contact's centre, or the ball's last place.
         velocity: (m, 2) with which it begins.
+        pull: (m, 2) acceleration: gravity, or the part of it along the wall on which the ball slides.
         contact: (m,) index into ``run.contacts`` of the contact it begins with, -1 for the start.
         radius: (n,) of the balls.
         whole: the number of stretches before thinning.
@@ -41,6 +42,7 @@ class Tracks:
     position: FloatArray
     target: FloatArray
     velocity: FloatArray
+    pull: FloatArray
     contact: IntArray
     radius: FloatArray
     whole: int
@@ -92,10 +94,21 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
         position=column(("x", "y"), contact, start[ball]),
         target=column(("x", "y"), following, final[ball]),
         velocity=column(("vx", "vy"), contact, velocity[ball]),
+        pull=_pulls(run, contact),
         contact=contact.astype(np.int64),
         radius=radius,
         whole=whole,
     )
+
+
+def _pulls(run: Run, contact: IntArray) -> FloatArray:
+    pull = np.tile(np.array(run.scene.gravity or (0.0, 0.0), dtype=np.float64), (len(contact), 1))
+    if run.scene.gravity is not None and len(run.contacts):
+        begun = run.contacts[contact]
+        slides = (contact >= 0) & (begun["kind"] == Kind.SLIDE)
+        along = np.stack([-begun["ny"], begun["nx"]], axis=1)[slides]
+        pull[slides] = along * (along * pull[slides]).sum(axis=1)[:, None]
+    return pull
 
 
 def _taken(order: IntArray, index: IntArray) -> IntArray:
