@@ -53,5 +53,5 @@ def _sample(path: Path) -> Sample:
 def _first_comment(text: str) -> str:
     found = _COMMENT.search(text)
     words = " ".join((found[1] or found[2].replace("#", " ")).split()) if found else ""
-    sentences = re.split(r"(?<=[.!?])\s+", words)
+    sentences = [part for part in re.split(r"(?<=[.!?])\s+", words) if not part.startswith("wallkit ")]  # a command
     return " ".join(sentences[:2])

@@ -24,8 +24,8 @@ from wallkit.walls import Walls
 MOST_BALLS = 1_000
 MOST_CONTACTS = 100_000
 """In one answer, of all balls together."""
-INTERPRETED_CONTACTS = 3_000
-"""The same, as long as the compiler is at work; some half a second."""
+INTERPRETED_CONTACTS = 1_000
+"""The same, as long as the compiler is at work; a tenth of a second, with gravity one."""
 MOST_PROBLEMS = 500
 MOST_TIME = 1e12
 

@@ -126,11 +126,12 @@
       return into;
     }
 
-    // Energy per mass in (units/s)^2: v^2 / 2 - g . x, the height counted from where the ball began.
-    energy(ball, t) {
+    // Energy per mass in (units/s)^2: v^2 / 2 - g . x, the height counted from the lowest corner of a box.
+    energy(ball, t, [x0, y0, x1, y1]) {
       const s = this.state(ball, t);
       const [gx, gy] = this.gravity ?? [0, 0];
-      return (s.vx * s.vx + s.vy * s.vy) / 2 - gx * (s.x - this.start.x[ball]) - gy * (s.y - this.start.y[ball]);
+      const [lowX, lowY] = [gx > 0 ? x1 : x0, gy > 0 ? y1 : y0];
+      return (s.vx * s.vx + s.vy * s.vy) / 2 - gx * (s.x - lowX) - gy * (s.y - lowY);
     }
 
     // The time of the next contact after t, of any ball; null without one.

@@ -5,6 +5,7 @@
   const $ = (id) => document.getElementById(id);
 
   const FAN = 100;
+  const COMPUTING = "Computing…";
   const FIRST = 12; // crossings of the picture that the first request covers; more is asked for while it plays
 
   class Page {
@@ -106,6 +107,7 @@
     }
 
     complain(words) {
+      this.say("");
       $("message").querySelector("pre").textContent = words;
       $("message").hidden = false;
     }
@@ -134,6 +136,12 @@
 
     rerun() {
       this.flying.ask({ ...this.question(), ...this.shot, again: true });
+      this.sayWhenSlow();
+    }
+
+    sayWhenSlow() {
+      clearTimeout(this.slow);
+      this.slow = setTimeout(() => this.flying.busy && this.say(COMPUTING), 500);
     }
 
     shoot() {
@@ -163,9 +171,11 @@
       this.shot = { balls, until };
       this.asking = false;
       this.flying.ask({ ...this.question(), ...this.shot });
+      this.sayWhenSlow();
     }
 
     flown(answer, asked) {
+      if ($("toast").textContent === COMPUTING) this.say("");
       const motion = new W.Motion(answer);
       motion.openEnded = true;
       motion.partial = answer.partial;

@@ -55,8 +55,8 @@
     energy(motion, time) {
       let [now, first] = [0, 0];
       for (let b = 0; b < motion.balls; b++) {
-        now += motion.energy(b, time);
-        first += motion.energy(b, 0);
+        now += motion.energy(b, time, this.player.stage.box);
+        first += motion.energy(b, 0, this.player.stage.box);
       }
       if (!(first > 0)) return `${W.number(now / motion.balls)}`;
       return `${W.number(now / motion.balls)} (${((100 * now) / first).toFixed(2)} %)`;
@@ -90,7 +90,7 @@
   const endings = (motion) => {
     const counts = new Map();
     for (const ending of motion.ending) {
-      const words = motion.openEnded && ending === "time reached" ? "not yet" : ending;
+      const words = motion.openEnded && (motion.partial || ending === "time reached") ? "not yet" : ending;
       counts.set(words, (counts.get(words) ?? 0) + 1);
     }
     if (counts.size === 1) return [...counts.keys()][0];
