@@ -1,4 +1,4 @@
-"""On which side of a line a point lies: exact for the numbers as given, vectorised.
+"""On which side of a line a point lies: exact for the numbers as given (unless products underflow), vectorised.
 
 det = (ax - cx)(by - cy) - (ay - cy)(bx - cx) in floating point has the right sign where
 |det| > (3 + 16 u) u (|l| + |r|), u = 2^-53 (J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast
