@@ -172,18 +172,19 @@ class Walls(Pictured):
         if not -len(self) <= index < len(self):
             raise IndexError(f"wall {index} of {len(self)}")
         index %= len(self)
-        span = slice(self.offsets[index], self.offsets[index + 1])
-        edges = self.edge_offsets
+        span = slice(int(self.offsets[index]), int(self.offsets[index + 1]))
+        vertices, closed = self.vertices[span], bool(self.closed[index])
+        following = np.concatenate([vertices[1:], vertices[:1]]) if closed else vertices[1:]
         return Wall(
             name=self.names[index],
             layer=self.layers[index],
-            closed=bool(self.closed[index]),
+            closed=closed,
             depth=int(self.depth[index]),
             sides=self.sides[index],
             material=self.materials[index],
-            vertices=self.vertices[span],
+            vertices=vertices,
             bulges=self.bulges[span],
-            normals=self.normals[edges[index] : edges[index + 1]],
+            normals=_normals(vertices[: len(following)], following),
         )
 
     @property
@@ -209,10 +210,7 @@ class Walls(Pictured):
     @property
     def normals(self) -> FloatArray:
         """(E, 2) outward unit normals, at the chord for an arc; zero for an edge without length."""
-        d = self.vertices[self.edge_ends] - self.vertices[self.edge_starts]
-        length = np.hypot(d[:, 0], d[:, 1])
-        outward = np.stack([d[:, 1], -d[:, 0]], axis=1)
-        return np.divide(outward, length[:, None], out=np.zeros_like(outward), where=length[:, None] > 0)
+        return _normals(self.vertices[self.edge_starts], self.vertices[self.edge_ends])
 
     @property
     def has_arcs(self) -> bool:
@@ -256,6 +254,13 @@ class Walls(Pictured):
             return 0.0, 0.0, 0.0, 0.0
         low, high = self.vertices.min(axis=0), self.vertices.max(axis=0)
         return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+
+def _normals(a: FloatArray, b: FloatArray) -> FloatArray:
+    d = b - a
+    length = np.hypot(d[:, 0], d[:, 1])
+    outward = np.stack([d[:, 1], -d[:, 0]], axis=1)
+    return np.divide(outward, length[:, None], out=np.zeros_like(outward), where=length[:, None] > 0)
 
 
 def _points(points: ArrayLike, index: int) -> FloatArray:
