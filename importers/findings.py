@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from importers.limits import good_coordinate
 from importers.problems import Problem, Severity
 from importers.sources import Source
 
@@ -40,7 +41,7 @@ class _Entry:
     name: str
     x: float | None
     y: float | None
-    count: int = 1
+    count: int
 
 
 class Findings:
@@ -59,8 +60,9 @@ class Findings:
         layer: str = "",
         name: str = "",
         at: tuple[float, float] | None = None,
+        count: int = 1,
     ) -> None:
-        """Note one case.
+        """Note one case, or several.
 
         Args:
             kind: its kind.
@@ -70,16 +72,17 @@ class Findings:
             layer: the layer's name.
             name: the object's name.
             at: place in the drawing.
+            count: how many cases it stands for.
         """
         if apart and len(self._entries) > _MAX_APART:
             what = "other"
         key = (kind.code, what if apart else "")
         entry = self._entries.get(key)
         if entry is not None:
-            entry.count += 1
+            entry.count += count
             return
-        x, y = at if at is not None else (None, None)
-        self._entries[key] = _Entry(kind, position, what, layer, name, x, y)
+        x, y = at if at is not None and all(map(good_coordinate, at)) else (None, None)
+        self._entries[key] = _Entry(kind, position, what, layer, name, x, y, count)
 
     def has(self, kind: Kind) -> bool:
         """Tell whether there was a case of a kind."""

@@ -406,7 +406,10 @@ class Art:
         self._paint.stroke = "pattern"
 
     def _set_width(self, operands: Operands) -> None:
-        self._paint.width = float(operands[-1]) if operands else self._paint.width
+        (width,) = map(float, operands[-1:])
+        if not 0.0 <= width <= MAX_COORDINATE:
+            raise ValueError(width)
+        self._paint.width = width
 
     def _set_fill_rule(self, operands: Operands) -> None:
         self._fill_rule = "evenodd" if operands and float(operands[-1]) == 1 else "nonzero"

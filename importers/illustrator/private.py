@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import NamedTuple
 
 from importers.filters import ascii85
@@ -12,7 +11,6 @@ from importers.limits import Packing, Unpacker
 _BEGIN = b"%AI9_PrivateDataBegin"
 _END = b"%AI9_PrivateDataEnd"
 _STREAMS = (b"%AI9_DataStream", b"%AI24_DataStream")
-_LINE_START = re.compile(rb"(?:\A|[\r\n]+)%?")
 
 
 class PrivatePart(NamedTuple):
@@ -52,7 +50,10 @@ def find_private(data: bytes, start: int, stop: int, file: str = "") -> PrivateP
     if not found:
         return PrivatePart(data, begin, last, False, "")
     position, mark = min(found)
-    packed = ascii85(_LINE_START.sub(b"", data[position + len(mark) : last]), file)
+    text = data[position + len(mark) : last]
+    for line_start in (b"\r\n%", b"\r%", b"\n%"):
+        text = text.replace(line_start, b"")
+    packed = ascii85(text, file)
     packing: Packing = "zstd" if packed.startswith(b"\x28\xb5\x2f\xfd") else "zlib"
     unpacked = Unpacker(file).unpack(packed, packing)
     return PrivatePart(unpacked.data, 0, len(unpacked.data), True, unpacked.damage)

@@ -77,6 +77,7 @@ class ArtReader:
                 handler(operands)
             except (ValueError, TypeError):
                 art.failed(operator, operands)
+                self._tokens += 2
         return position
 
     def _read_token(self, position: int, stack: Operands) -> int:
@@ -153,6 +154,9 @@ class ArtReader:
     def _comment(self, position: int) -> int:
         """Read a comment, which here may be a name, a block without art or the end; give the position after it."""
         data, stop, art = self.source.data, self._stop, self.art
+        dull = scanner.DULL_LINES.match(data, position, stop)
+        if dull:
+            return dull.end()
         match = scanner.COMMENT.match(data, position, stop)
         end = match.end() if match else stop
         head = data[position : position + 24]
@@ -175,6 +179,7 @@ class ArtReader:
     def _skip_block(self, name: bytes, position: int, end: int) -> int:
         """Skip a block without art; give the position after it."""
         self.art.named = None
+        self._tokens += 2
         if name in self._endless:
             return end
         block_end = scanner.block_end(self.source.data, name, end, self._stop)
@@ -204,17 +209,17 @@ class ArtReader:
 
     def _page_end(self, end: int) -> int:
         """End the art; pages after the first are counted only."""
-        data = self.source.data
-        position = end
-        while (position := data.find(b"%%Page:", position, self._stop)) >= 0:
-            if data[position - 1] in b"\r\n":
-                self.art.find(findings.PAGES, position=position)
-            position += 7
-        return self._stop
+        data, stop = self.source.data, self._stop
+        first = scanner.find_note(data, b"%%Page:", end, stop)
+        if first >= 0:
+            pages = sum(data.count(line_end + b"%%Page:", first, stop) for line_end in (b"\n", b"\r"))
+            self.art.findings.add(findings.PAGES, first, count=pages + 1)
+        return stop
 
     def _hidden_line(self, line: bytes) -> None:
         """Read a line that is hidden from PostScript: a name of the object before it, or art that is none."""
         is_id = line.startswith(b"/XMLUID")
+        self._tokens += 4 if is_id else 1
         if is_id or b"(AIArtName)" in line:
             start = line.find(b"(")
             end = string_end(line, start, len(line)) if start >= 0 else -1

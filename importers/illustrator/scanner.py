@@ -17,6 +17,8 @@ WHITE = re.compile(rb"[\s\x00]+")
 WORD = re.compile(rb"[^\s\x00()<>\[\]{}/%]+")
 NUMBER = re.compile(rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 COMMENT = re.compile(rb"%[^\r\n]*")
+# Lines of dictionaries hidden from PostScript, of which some files have a million; none names an object or ends one.
+DULL_LINES = re.compile(rb"(?:%_(?!/XMLUID|%%BeginData)(?![^\r\n]*\(AIArtName\))(?:[^\r\n]*[,;:)\d])?[\r\n]+){1,5000}")
 LINE_END = re.compile(rb"\r\n|\r|\n")
 BRACE = re.compile(rb"[{}%(]")
 BEGIN_DATA = re.compile(rb"%(?:_%)?%BeginData:\s*(\d{1,12})\s*(\w*)\s*(\w*)")
@@ -105,6 +107,8 @@ def block_end(data: bytes, name: bytes, start: int, stop: int) -> int:
         while (position := _find_mark(data, b"Begin" + name, position, end)) >= 0:
             depth += 1
             position += len(name)
+            if depth > MAX_DEPTH:
+                return -1
         position = end + 3 + len(name)
     return position
 

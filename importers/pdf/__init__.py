@@ -106,6 +106,5 @@ def _page_problems(page: Page, pages: int) -> list[Problem]:
     if turn:
         notes.add(findings.ROTATED, None, what=f"{turn:g}")
     if pages > 1:
-        for _ in range(min(pages - 1, 10_000)):
-            notes.add(common.PAGES, None)
+        notes.add(common.PAGES, None, count=pages - 1)
     return notes.problems(Source(b"", has_lines=False))

@@ -391,6 +391,8 @@ class PageReader:
 
     def _set_width(self, operands: Operands) -> None:
         (width,) = map(float, operands)
+        if not 0.0 <= width <= MAX_COORDINATE:
+            raise ValueError(width)
         self._graphics = replace(self._graphics, width=width)
 
     def _set_device_colour(self, attribute: str, operands: Operands) -> None:
@@ -459,7 +461,7 @@ class PageReader:
 
     def _draw(self, operands: Operands) -> None:
         """``Do``: draw a form, or leave a picture out."""
-        name = operands[-1]
+        (name,) = operands[-1:]
         if not isinstance(name, Name):
             raise TypeError(name)
         self._references += 1

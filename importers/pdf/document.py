@@ -27,6 +27,10 @@ _ONE_FLATE = re.compile(rb"/Filter\s*(?:\[\s*)?/(?:FlateDecode|Fl)\s*(?:\]|/(?!F
 _DICTIONARY = 65_536  # bytes before a name in which the dictionary around it is looked for to begin
 _MAX_STRUCTURE = 100_000
 _MAX_CANDIDATES = 8
+_MAX_MENDED = 8 * 1024 * 1024  # bytes of a file whose table of objects is made anew
+# Pages in one node of the tree of pages: qpdf lists all pages while it opens a file, at 2 kB each.
+_MAX_KIDS = 50_000
+_KIDS = re.compile(rb"/Kids\s*\[([^\]]*)")
 _MAX_SLOW_BYTES = 4_000_000  # of LZW and RunLength data, which are decoded code by code
 _FILTER_NAMES = {"/Fl": "/FlateDecode", "/LZW": "/LZWDecode", "/A85": "/ASCII85Decode", "/AHx": "/ASCIIHexDecode"}
 _FILTER_NAMES["/RL"] = "/RunLengthDecode"
@@ -55,7 +59,7 @@ class Document:
         self._slow_bytes = 0
         self._check_structure(data)
         try:
-            self._pdf = pikepdf.open(io.BytesIO(data))
+            self._pdf = self._open(data)
         except pikepdf.PasswordError as error:
             raise DrawingError(
                 "the PDF is encrypted", code="encrypted", fix="save it without a password", file=file
@@ -67,6 +71,19 @@ class Document:
                 fix="save or export the drawing again; a repairing program such as qpdf may help",
                 file=file,
             ) from error
+
+    def _open(self, data: bytes) -> Any:
+        """Open the file; a broken one is mended only while that takes no time to speak of."""
+        import pikepdf
+
+        try:
+            return pikepdf.open(io.BytesIO(data), attempt_recovery=False)
+        except pikepdf.PasswordError:
+            raise
+        except (pikepdf.PdfError, pikepdf.PikepdfError, RuntimeError, ValueError):
+            if len(data) > _MAX_MENDED:
+                raise
+        return pikepdf.open(io.BytesIO(data))
 
     def close(self) -> None:
         """Give the file back."""
@@ -155,6 +172,9 @@ class Document:
 
     def _check_structure(self, data: bytes) -> None:
         """Make sure that what qpdf decodes on its own while opening the file stays within the limits."""
+        for kids in _KIDS.finditer(data):
+            if kids.group(1).count(b"R") > _MAX_KIDS:
+                raise limit_error("pages of a PDF", f"{_MAX_KIDS:,}", file=self.file)
         checked = 0
         for count, match in enumerate(_STRUCTURE.finditer(data)):
             if count > _MAX_STRUCTURE:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from importers.limits import MAX_COORDINATE
+
 Matrix = tuple[float, float, float, float, float, float]
 IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
 
@@ -44,6 +46,7 @@ class Graphics:
     stroke_space: str = ""
 
     def width_on_page(self) -> float:
-        """Give the line width in the page's units: times the geometric mean of the matrix's two scales."""
+        """Give the line width in the page's units: times the geometric mean of the matrix's two scales, in bounds."""
         a, b, c, d, _, _ = self.matrix
-        return self.width * math.sqrt(abs(a * d - b * c))
+        width = self.width * math.sqrt(abs(a * d - b * c))
+        return width if width <= MAX_COORDINATE else MAX_COORDINATE
