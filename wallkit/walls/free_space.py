@@ -26,7 +26,7 @@ from wallkit.walls.nearest import ExactEdges, nearest_pair
 from wallkit.walls.orient import is_arena
 from wallkit.walls.shapes import straightened
 from wallkit.walls.strokes import FloatArray, IntArray
-from wallkit.walls.triangulation import Triangulation, triangulate
+from wallkit.walls.triangulation import SHORTEST, Triangulation, triangulate
 from wallkit.walls.validate import diagonal
 from wallkit.walls.walls import Walls
 
@@ -98,7 +98,7 @@ def free_space(walls: Walls, narrow: float = _NARROW, free: FloatArray | None = 
         walls: any walls; arcs are looked at as lines within a tenth of the tolerance, and the gaps that are found
             are then made exact.
         narrow: an opening is a gap up to this part of the width of the room behind it. Rooms narrower than the
-            tolerance are none.
+            tolerance are none, nor are gaps below 4e-7 of the drawing's diagonal.
         free: (n, 2) places that are not material, such as the balls'.
     """
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
@@ -109,6 +109,8 @@ def free_space(walls: Walls, narrow: float = _NARROW, free: FloatArray | None = 
     mesh = triangulate(a, b)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
     found = _rooms(mesh, narrow, least)
+    seam = 4 * SHORTEST * diagonal(vertices)
+    found = replace(found, gaps=[gap for gap in found.gaps if gap.width > seam])
     arena = is_arena(walls)
     if free is not None and len(free):
         arena ^= bool(in_material(edges, arena, free[:1])[0])

@@ -11,6 +11,8 @@ from wallkit.walls.strokes import FloatArray, IntArray
 
 MOST_POINTS = 600_000
 _ROUNDS = 40
+SHORTEST = 1e-7  # of the size of everything: shorter pieces of walls are not cut further, and may be no edges
+_SAME = 1e-11  # of the size of everything: points as near are one
 _TIES = 6  # rounds for points on one circle, whose triangles are a matter of taste
 _FRAME = 4.0  # the frame around everything, in diagonals: far enough to count as outside
 
@@ -27,7 +29,7 @@ class Triangulation:
         ends: (N, 2) points of each edge, the smaller number first.
         wall: (N,) the edge is a piece of a wall.
         outer: (N,) the edge is on the frame.
-        complete: every piece of a wall is an edge.
+        complete: every piece of a wall is an edge, but for pieces of 2e-7 of the whole and less.
     """
 
     points: FloatArray
@@ -51,29 +53,31 @@ def triangulate(a: FloatArray, b: FloatArray) -> Triangulation:
     from scipy.spatial import Delaunay  # late: scipy is slow to import
 
     points, which = np.unique(np.concatenate([a, b]), axis=0, return_inverse=True)
-    segments = np.sort(which.reshape(-1).reshape(2, -1).T, axis=1)
-    segments = np.unique(segments[segments[:, 0] != segments[:, 1]], axis=0)
     low, high = points.min(axis=0), points.max(axis=0)
     origin, size = (low + high) / 2, float(np.hypot(*(high - low))) or 1.0
+    which = _merged(points, _SAME * size)[which.reshape(-1)]
+    kept, which = np.unique(which, return_inverse=True)
+    points = points[kept]
+    segments = np.sort(which.reshape(2, -1).T, axis=1)
+    segments = np.unique(segments[segments[:, 0] != segments[:, 1]], axis=0)
     points = points - origin
     frame = _FRAME * size * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    work = _Cut(points, segments, np.arange(len(segments)), segments, np.full(len(points), -1))
     for _ in range(_TIES):
-        points, segments, complete = _conform(points, segments, 1e-7 * size)
-        everything = np.concatenate([points, frame])
+        complete = _conform(work, SHORTEST * size, _SAME * size)
+        everything = np.concatenate([work.points, frame])
         found = Delaunay(everything)
         corners = found.simplices.astype(np.int64)
         count = len(everything)
-        sides = np.sort(np.stack([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]], axis=1), axis=2)
-        keys, edge = np.unique(sides[..., 0] * count + sides[..., 1], return_inverse=True)
-        walls = segments.min(axis=1) * count + segments.max(axis=1)
-        missing = ~np.isin(walls, keys)
+        sides = np.stack([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]], axis=1)
+        keys, edge = np.unique(_keys(sides.reshape(-1, 2), count), return_inverse=True)
+        walls = _keys(work.segments, count)
+        length = np.hypot(*(work.points[work.segments[:, 0]] - work.points[work.segments[:, 1]]).T)
+        missing = ~np.isin(walls, keys) & (length > 2 * SHORTEST * size)
         if not complete or not missing.any():
             break
         # four points on one circle: the other diagonal was taken, so the wall gets a point in its middle
-        cut, number = segments[missing], len(points) + np.arange(int(missing.sum()))
-        points = np.concatenate([points, points[cut].mean(axis=1)])
-        halves = [np.stack([cut[:, 0], number], axis=1), np.stack([cut[:, 1], number], axis=1)]
-        segments = np.concatenate([segments[~missing], *halves])
+        work.split(missing, work.points[work.segments[missing]].mean(axis=1))
     neighbours = found.neighbors.astype(np.int64)
     edge = edge.reshape(-1, 3)
     outer = np.zeros(len(keys), dtype=np.bool_)
@@ -83,11 +87,58 @@ def triangulate(a: FloatArray, b: FloatArray) -> Triangulation:
     return Triangulation(everything + origin, corners, neighbours, edge, ends, np.isin(keys, walls), outer, complete)
 
 
-def _conform(points: FloatArray, segments: IntArray, shortest: float) -> tuple[FloatArray, IntArray, bool]:
-    """Cut segments until no point lies in the circle over one of them."""
+def _merged(points: FloatArray, within: float) -> IntArray:
+    """For each point the first of those that are as near as rounding: a triangulation would leave the others out."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    one, two = cKDTree(points).query_pairs(within, output_type="ndarray").T
+    links = coo_matrix((np.ones(len(one)), (one, two)), shape=(len(points), len(points)))
+    _, group = connected_components(links, directed=False)
+    _, first = np.unique(group, return_index=True)
+    chosen: IntArray = first[group].astype(np.int64)
+    return chosen
+
+
+@dataclass(slots=True)
+class _Cut:
+    """Segments on their way to be edges, each a piece of an original one.
+
+    Attributes:
+        points: (P, 2).
+        segments: (S, 2) ends.
+        owner: (S,) the original segment that each is a piece of.
+        original: (O, 2) ends of the original segments.
+        of_point: (P,) the original segment that a point was put on, or -1.
+    """
+
+    points: FloatArray
+    segments: IntArray
+    owner: IntArray
+    original: IntArray
+    of_point: IntArray
+
+    def split(self, where: NDArray[np.bool_], at: FloatArray, known: IntArray | None = None) -> None:
+        """Cut the segments ``where`` at new points, one each, or at the points ``known`` where that is not -1."""
+        cut, owner = self.segments[where], self.owner[where]
+        new = np.ones(len(cut), dtype=np.bool_) if known is None else known < 0
+        number = len(self.points) + np.cumsum(new) - 1
+        if known is not None:
+            number = np.where(new, number, known)
+        self.points = np.concatenate([self.points, at[new]])
+        self.of_point = np.concatenate([self.of_point, owner[new]])
+        halves = [np.stack([cut[:, 0], number], axis=1), np.stack([number, cut[:, 1]], axis=1)]
+        self.segments = np.concatenate([self.segments[~where], *halves])
+        self.owner = np.concatenate([self.owner[~where], owner, owner])
+
+
+def _conform(work: _Cut, shortest: float, same: float) -> bool:
+    """Cut segments until no point lies in the circle over one of them; tell whether that came to an end."""
     from scipy.spatial import cKDTree
 
     for _ in range(_ROUNDS):
+        points, segments = work.points, work.segments
         p, q = points[segments[:, 0]], points[segments[:, 1]]
         middle, half = (p + q) / 2, np.hypot(*(q - p).T) / 2
         distance, nearest = cKDTree(points).query(middle, k=min(3, len(points)))
@@ -97,31 +148,38 @@ def _conform(points: FloatArray, segments: IntArray, shortest: float) -> tuple[F
         rows = np.arange(len(segments))
         inside = (distance[rows, column] < half * (1 - 1e-9)) & (half > shortest)
         if not inside.any():
-            return points, segments, True
-        cut = segments[inside]
-        if len(points) + len(cut) > MOST_POINTS:
+            return True
+        if len(points) + int(inside.sum()) > MOST_POINTS:
             break
-        new = _cut_points(points, segments, cut, nearest[rows, column][inside])
-        number = len(points) + np.arange(len(cut))
-        points = np.concatenate([points, new])
-        halves = [np.stack([cut[:, 0], number], axis=1), np.stack([cut[:, 1], number], axis=1)]
-        segments = np.concatenate([segments[~inside], *halves])
-    return points, segments, False
+        intruder = nearest[rows, column][inside]
+        new = _cut_points(work, inside, intruder)
+        touches = np.hypot(*(new - points[intruder]).T) <= same  # it lies on the segment, but for rounding
+        work.split(inside, new, np.where(touches, intruder, -1))
+    return False
 
 
-def _cut_points(points: FloatArray, segments: IntArray, cut: IntArray, intruder: IntArray) -> FloatArray:
-    """Where to cut each segment: the intruder's foot, or its distance from a shared end."""
-    count = len(points)
-    known = np.sort(segments, axis=1)
-    keys = known[:, 0] * count + known[:, 1]
-    p, q, v = points[cut[:, 0]], points[cut[:, 1]], points[intruder]
-    d = q - p
-    length = np.hypot(d[:, 0], d[:, 1])
-    part = ((v - p) * d).sum(axis=1) / (length * length)
-    for end, towards in ((0, 1.0), (1, -1.0)):
-        pair = np.sort(np.stack([cut[:, end], intruder], axis=1), axis=1)
-        joined = np.isin(pair[:, 0] * count + pair[:, 1], keys)
-        far = np.hypot(*(v - points[cut[:, end]]).T) / length
-        part = np.where(joined & (far < 1), far if towards > 0 else 1 - far, part)
-    cut_at: FloatArray = p + d * np.clip(part, 0.05, 0.95)[:, None]
-    return cut_at
+def _cut_points(work: _Cut, inside: NDArray[np.bool_], intruder: IntArray) -> FloatArray:
+    """Where to cut each segment: the intruder's foot, or its distance from a corner that both lines lead to."""
+    points, original = work.points, work.original
+    p, q = (points[work.segments[inside, k]] for k in (0, 1))
+    v, d = points[intruder], q - p
+    square = (d * d).sum(axis=1)
+    part = np.clip(((v - p) * d).sum(axis=1) / square, 1e-6, 1 - 1e-6)
+    keys = _keys(original, len(points))
+    mine = original[work.owner[inside]]
+    theirs = np.where(work.of_point[intruder, None] >= 0, original[work.of_point[intruder]], -1)
+    for end in (0, 1):
+        corner, other = mine[:, end], mine[:, 1 - end]
+        joined = (theirs == corner[:, None]).any(axis=1)
+        joined |= np.isin(_keys(np.stack([corner, intruder], axis=1), len(points)), keys)
+        away = points[other] - points[corner]
+        far = np.hypot(*(v - points[corner]).T) / np.hypot(*away.T)
+        there = ((points[corner] + away * far[:, None] - p) * d).sum(axis=1) / square
+        part = np.where(joined & (there > 1e-6) & (there < 1 - 1e-6), there, part)
+    return p + d * part[:, None]
+
+
+def _keys(pairs: IntArray, count: int) -> IntArray:
+    """One number a pair, whatever its order."""
+    keys: IntArray = pairs.min(axis=1) * count + pairs.max(axis=1)
+    return keys
