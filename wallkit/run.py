@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from importers.pictured import Pictured
+from wallkit.damping import damping_of, slowed_between
 
 if TYPE_CHECKING:
     from wallkit.horizon import Horizon, Source
@@ -51,6 +52,10 @@ class Kind(enum.IntEnum):
     """From here on the ball keeps to the wall (gravity has brought it to rest against it)."""
     LEAVE = 3
     """The ball leaves the wall on which it slid."""
+    ENTER = 4
+    """The centre crosses a sensor against its outward normal; wall and edge are the sensor's."""
+    EXIT = 5
+    """The centre crosses a sensor along its outward normal."""
 
     @property
     def label(self) -> str:
@@ -67,6 +72,7 @@ class Ending(enum.IntEnum):
     AT_REST = 3
     COLLAPSE = 4
     AMBIGUOUS_CORNER = 5
+    ABSORBED = 6
 
     @property
     def label(self) -> str:
@@ -84,18 +90,20 @@ class Run(Pictured):
         final: (n,) of ``FINAL``, one a ball. A ball that left the scene has its last contact here, unless the
             run was given an end time.
         ending: n endings, one a ball.
+        start: (n, 4) positions and velocities at time 0.
     """
 
     scene: Scene
     contacts: NDArray[Any]
     final: NDArray[Any]
     ending: tuple[Ending, ...]
-    _start: NDArray[np.float64] = field(repr=False, default_factory=lambda: np.empty((0, 4)))
+    start: NDArray[np.float64] = field(repr=False, default_factory=lambda: np.empty((0, 4)))
 
     @property
     def bounces(self) -> NDArray[np.int64]:
-        """(n,) contacts of each ball."""
-        return np.bincount(self.contacts["ball"], minlength=len(self.final)).astype(np.int64)
+        """(n,) bounces of each ball: its contacts with edges and corners."""
+        bounced = self.contacts["ball"][self.contacts["kind"] <= Kind.VERTEX]
+        return np.bincount(bounced, minlength=len(self.final)).astype(np.int64)
 
     def contacts_of(self, ball: int) -> NDArray[Any]:
         """Contacts of one ball, in order."""
@@ -124,36 +132,46 @@ class Run(Pictured):
 
         ends = self.final["time"].tolist()
         return [
-            trusted_until(self.scene, self.contacts_of(ball), ball, tolerance, source, end)
+            trusted_until(self.scene, own[own["kind"] <= Kind.VERTEX], ball, tolerance, source, end)
             for ball, end in enumerate(ends)
+            for own in [self.contacts_of(ball)]
         ]
 
     @cached_property
     def _by_ball(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         order = np.argsort(self.contacts["ball"], kind="stable")
         offsets = np.zeros(len(self.final) + 1, dtype=np.int64)
-        np.cumsum(self.bounces, out=offsets[1:])
+        np.cumsum(np.bincount(self.contacts["ball"], minlength=len(self.final)), out=offsets[1:])
         return order, offsets
 
     def _state(self, time: float) -> NDArray[np.float64]:
-        order, offsets = self._by_ball
-        state = np.array(self._start, dtype=np.float64)
-        times = self.contacts["time"][order]
+        state = np.array(self.start, dtype=np.float64)
         for ball in range(len(self.final)):
+            own = self._turns[ball]
+            passed = int(np.searchsorted(own["time"], time, side="right"))
+            contact = own[passed - 1] if passed else None
             since = 0.0
-            passed = offsets[ball] + np.searchsorted(times[offsets[ball] : offsets[ball + 1]], time, side="right")
-            if passed > offsets[ball]:
-                contact = self.contacts[order[passed - 1]]
+            if contact is not None:
                 since = float(contact["time"])
                 state[ball] = contact["x"], contact["y"], contact["vx"], contact["vy"]
             span = min(time, float(self.final[ball]["time"])) - since
             if span > 0.0:
-                pull = self._pull(self.contacts[order[passed - 1]] if passed > offsets[ball] else None)
-                state[ball, 0:2] += span * (state[ball, 2:4] + 0.5 * span * pull)
-                state[ball, 2:4] += span * pull
+                state[ball] = self._after(state[ball], contact, span)
         return state
 
-    def _pull(self, contact: Any) -> NDArray[np.float64]:
+    @cached_property
+    def _turns(self) -> list[NDArray[Any]]:
+        """By ball the contacts that change its flight; sensors do not."""
+        return [own[own["kind"] < Kind.ENTER] for own in map(self.contacts_of, range(len(self.final)))]
+
+    def _after(self, state: NDArray[np.float64], contact: Any, span: float) -> NDArray[np.float64]:
+        damping = damping_of(self.scene)
+        if damping is not None:
+            return slowed_between(damping, state, span)
+        pull = self.pull_after(contact)
+        return np.concatenate([state[0:2] + span * (state[2:4] + 0.5 * span * pull), state[2:4] + span * pull])
+
+    def pull_after(self, contact: Any) -> NDArray[np.float64]:
         """Acceleration after a contact (None: at the start): gravity, or the part of it along a wall that holds."""
         pull = np.asarray(self.scene.gravity if self.scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
         if contact is None or contact["kind"] != Kind.SLIDE:

@@ -63,11 +63,17 @@ class Scene(Pictured):
         walls: see :class:`wallkit.walls.Walls`.
         balls: see :class:`Balls`.
         gravity: (gx, gy) in units per second squared, or None.
+        rolling_friction: constant deceleration of a rolling ball, units per second squared, or None.
+        drag: rate k of dv/dt = -k v, per second, or None; neither acts together with the other or with gravity.
+        sensors: walls that report each crossing of a ball's centre and do not bounce it, or None.
     """
 
     walls: Walls
     balls: Balls = field(default_factory=lambda: Balls(np.empty((0, 2)), np.empty((0, 2))))
     gravity: tuple[float, float] | None = None
+    rolling_friction: float | None = None
+    drag: float | None = None
+    sensors: Walls | None = None
 
 
 def _pairs(values: ArrayLike, name: str) -> FloatArray:

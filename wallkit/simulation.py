@@ -11,12 +11,15 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.clearance import check_starts, settled
+from wallkit.damping import Slowed, damping_of, refuse_damping
 from wallkit.kernels.flight import fly, fly_all
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.model import FREE, LOG_STRIDE, NO_HIT, RUNNING, STATE_SIZE, Counts
 from wallkit.modelling import Modelled
 from wallkit.run import CONTACT, FINAL, Ending, Run
 from wallkit.scene import FloatArray, Scene, SceneError
+from wallkit.sensing import with_crossings
 
 Mode = Literal["auto", "interpreted", "compiled"]
 BOUNCE_GUARD = 1_000_000
@@ -34,6 +37,7 @@ def simulate(
     bounces: int | None = None,
     *,
     mode: Mode = "auto",
+    settle: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Run:
     """Fly every ball until a time, a number of bounces, or an ending of its own, and keep every contact.
@@ -44,23 +48,33 @@ def simulate(
         bounces: bounces a ball; None for at most ``BOUNCE_GUARD``. At least one of the two must be given.
         mode: ``"interpreted"`` or ``"compiled"`` kernels, which give the same bits; ``"auto"`` interprets until
             compiling pays.
+        settle: move discs that overlap a wall where they start to the nearest free spot.
         progress: called now and then with the part done, 0 to 1.
 
     Raises:
-        SceneError: neither limit was given, or the scene cannot be simulated.
+        SceneError: neither limit was given, a disc overlaps a wall at the start, or the scene cannot be simulated.
     """
     limit_time, limit_bounces = limits(until, bounces)
-    flights = Flights(scene, mode=mode)
+    if settle:
+        scene = settled(scene)
+    check_starts(scene)
+    damping = damping_of(scene)
+    if damping is not None and scene.sensors is not None:
+        raise SceneError("sensors do not work with friction or drag yet", code="not-yet", fix="leave one of them out")
+    flights = Flights(scene, mode=mode, damped=damping is not None)
     logs: list[FloatArray] = []
     owners: list[NDArray[np.int32]] = []
     for ball in range(len(flights)):
-        for log in flights.fly(ball, limit_time, limit_bounces):
+        pieces = flights.fly(ball, limit_time if damping is None else math.inf, limit_bounces)
+        if damping is not None:
+            pieces = flights.slow_down(ball, pieces, Slowed(damping, flights.local_start(ball), limit_time))
+        for log in pieces:
             logs.append(log)
             owners.append(np.full(len(log), ball, dtype=np.int32))
             if progress is not None:
                 progress(flights.part_done(ball, limit_time, limit_bounces))
     contacts = flights.contacts(logs, owners)
-    return Run(scene, contacts, flights.final(), flights.endings(), flights.start)
+    return with_crossings(Run(scene, contacts, flights.final(), flights.endings(), flights.start))
 
 
 class Flights:
@@ -71,7 +85,9 @@ class Flights:
         hits: (W,) bounces by wall so far.
     """
 
-    def __init__(self, scene: Scene, *, mode: Mode = "auto", index: str = "auto") -> None:
+    def __init__(self, scene: Scene, *, mode: Mode = "auto", index: str = "auto", damped: bool = False) -> None:
+        if not damped:
+            refuse_damping(scene)
         self.scene = scene
         self.modelled = Modelled(scene, index=index)
         self.mode = mode
@@ -122,6 +138,31 @@ class Flights:
         noted = fly(lists, lists.gravity, radius, state, counts, until, limit, self.hits, log, room)
         self._work += (noted + 1) * self._entries_a_bounce()
         return np.array(log).reshape(room, LOG_STRIDE)[:noted]
+
+    def local_start(self, ball: int) -> list[float]:
+        """Position and velocity of a ball at time 0, local coordinates."""
+        return [*(self.start[ball, 0:2] - self.modelled.origin).tolist(), *self.start[ball, 2:4].tolist()]
+
+    def slow_down(self, ball: int, pieces: Any, clock: Slowed) -> Any:
+        """Turn the contacts of a ball into those of one that friction or drag slows down; set its end."""
+        for log in pieces:
+            kept = 0
+            for row in log:
+                slowed = clock.contact(row[1], row[2], row[3], row[4])
+                if slowed is None:
+                    break
+                row[0], row[3], row[4] = slowed
+                kept += 1
+            if kept:
+                yield log[:kept]
+            if clock.done:
+                break
+        counts = self._counts[ball]
+        if not clock.done and counts[2] in (Ending.LEFT_SCENE, Ending.TIME_REACHED):
+            clock.stop()
+        if clock.done:
+            counts[2] = Ending.AT_REST if clock.at_rest else Ending.TIME_REACHED
+        self._states[ball][0:6] = [*clock.state, 0.0]
 
     def next_contact(self, ball: int) -> FloatArray | None:
         """Fly a ball on to its next contact, (LOG_STRIDE,); None if it has none."""

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.clearance import check_starts
+from wallkit.damping import refuse_damping
 from wallkit.kernels.flight import fly_all
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.model import STATE_SIZE
@@ -50,6 +52,7 @@ def survey(
     *,
     threads: int | None = None,
     executor: Executor | None = None,
+    check: bool = True,
 ) -> Totals:
     """Fly every ball until a time, a number of bounces, or an ending of its own, and keep only totals.
 
@@ -62,11 +65,15 @@ def survey(
         bounces: bounces a ball; None for the guard of ``simulate``. At least one of the two must be given.
         threads: how many to use; None for one a core.
         executor: threads of your own to use instead (a ``ThreadPoolExecutor``).
+        check: look whether a disc overlaps a wall at the start; False where that is known, to save the time.
 
     Raises:
         SceneError: neither limit was given, or the scene cannot be simulated.
     """
     limit_time, limit_bounces = limits(until, bounces)
+    refuse_damping(scene)
+    if check:
+        check_starts(scene)
     modelled = Modelled(scene)
     position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
     states = initial_states(modelled, position, velocity)

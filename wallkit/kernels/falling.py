@@ -16,7 +16,7 @@ from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
 
 
-@kernel
+@rare_kernel
 def fall_line(
     lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature
 ):
@@ -87,7 +87,7 @@ def _fall_after(c4, c3, c2, c1, c0, time, from_behind):
     return NEVER
 
 
-@kernel
+@rare_kernel
 def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, last, best, feature):
     """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls."""
     for k in range(start, stop):
@@ -113,7 +113,7 @@ def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
     return best, feature
 
 
-@kernel
+@rare_kernel
 def fall_arcs(
     arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, best, feature
 ):

@@ -7,6 +7,7 @@ import math
 from wallkit.kernels.corner import normal_at, settle
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.model import (
+    ABSORBED,
     AMBIGUOUS,
     AMBIGUOUS_CORNER,
     AT_REST,
@@ -113,6 +114,8 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
         hits[wall] += 1
         note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
         noted += 1 if len(log) > 0 else 0
+        if absorbs(model.restitution, wall):
+            ending = ABSORBED
         if gravity is not None:
             held, hold = held_after(model, gravity, feature, held, hold, vx, vy, nx, ny, tolerance)
     if ending == TIME_REACHED:
@@ -136,6 +139,14 @@ def normal_of(model, feature, x, y):
     corner = model.corners[-2 - feature]
     nx, ny = x - corner.x, y - corner.y
     return nx, ny, 2.0 / (nx * nx + ny * ny), model.corner_wall[-2 - feature]
+
+
+@kernel
+def absorbs(restitution, wall):
+    """Tell whether a wall leaves a ball no speed at all."""
+    if restitution is None:
+        return False
+    return restitution[2 * wall] == 0.0 and restitution[2 * wall + 1] == 0.0
 
 
 @kernel

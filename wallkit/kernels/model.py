@@ -32,7 +32,7 @@ RUNNING = -1
 EDGE, VERTEX, SLIDE, LEAVE = 0, 1, 2, 3
 FREE, COMING_TO_REST, SLIDING, LEAVING, LEFT = 0, 1, 2, 3, 4
 """How an edge holds a ball under gravity: not; from the next moment; now; until the next moment; until just now."""
-TIME_REACHED, BOUNCE_LIMIT, LEFT_SCENE, AT_REST, COLLAPSE, AMBIGUOUS_CORNER = 0, 1, 2, 3, 4, 5
+TIME_REACHED, BOUNCE_LIMIT, LEFT_SCENE, AT_REST, COLLAPSE, AMBIGUOUS_CORNER, ABSORBED = 0, 1, 2, 3, 4, 5, 6
 
 
 class Line(NamedTuple):

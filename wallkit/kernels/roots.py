@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.jit import kernel
+from wallkit.kernels.jit import kernel, rare_kernel
 
 NEVER = math.inf
 
@@ -50,7 +50,7 @@ def first_fall_quadratic(a: float, b: float, c: float, t_max: float) -> float:
     return t if t <= t_max else NEVER
 
 
-@kernel
+@rare_kernel
 def first_fall_quartic(c4: float, c3: float, c2: float, c1: float, c0: float, t_max: float) -> float:
     """Give the first t in [0, t_max] where f(t) = c4 t^4 + ... + c0 is <= 0 and falls; NEVER if there is none.
 
@@ -97,7 +97,7 @@ def first_fall_quartic(c4: float, c3: float, c2: float, c1: float, c0: float, t_
     return NEVER
 
 
-@kernel
+@rare_kernel
 def _fall_between(
     c4: float, c3: float, c2: float, c1: float, c0: float, start: float, f_start: float, end: float
 ) -> float:
@@ -109,7 +109,7 @@ def _fall_between(
     return _bracketed_root(c4, c3, c2, c1, c0, start, end)
 
 
-@kernel
+@rare_kernel
 def _bracketed_root(c4: float, c3: float, c2: float, c1: float, c0: float, low: float, high: float) -> float:
     """Give the root of a quartic between low and high, at which it has different signs (<= 0 counts as negative).
 

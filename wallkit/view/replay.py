@@ -83,7 +83,7 @@ def _only(run: Run, kept: np.ndarray) -> Run:
     position, velocity, radius = (np.asarray(values)[kept] for values in (balls.position, balls.velocity, balls.radius))
     scene = replace(run.scene, balls=Balls(position, velocity, radius))
     ending = tuple(run.ending[index] for index in kept)
-    return replace(run, scene=scene, contacts=contacts, final=run.final[kept], ending=ending, _start=run._start[kept])
+    return replace(run, scene=scene, contacts=contacts, final=run.final[kept], ending=ending, start=run.start[kept])
 
 
 def _ended(run: Run, most: int) -> Run:

@@ -1,0 +1,90 @@
+"""Fly balls through random closed drawings of lines and arcs until a number of bounces is reached; report any loss.
+
+    python benchmarks/soak.py 1000000000
+
+Each drawing is a star-shaped ring, every second one with some edges bowed into arcs; points and discs take turns. A
+ball is lost if it ends outside its ring by more than the rounding of coordinates, or leaves the scene.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+
+import numpy as np
+import shapely
+
+import wallkit
+from wallkit.run import Ending
+
+BALLS, BOUNCES = 400, 25_000
+
+
+def ring(rng, bowed):
+    """Vertices and bulges of a ring about (0, 0), of size 100."""
+    count = int(rng.choice([4, 6, 10, 20, 60, 200]))
+    angle = 2 * np.pi * (np.arange(count) + 0.8 * rng.random(count)) / count
+    points = (100.0 * (1 - 0.6 * rng.random(count)))[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return points, np.where(rng.random(count) < 0.5, rng.uniform(-0.15, 0.15, count), 0.0) if bowed else np.zeros(count)
+
+
+def outline(points, bulges, pieces=400):
+    """The ring with its arcs cut into many chords, and how far these miss the arcs."""
+    path, missed = [], 0.0
+    for a, b, bulge in zip(points, np.roll(points, -1, axis=0), bulges, strict=True):
+        if bulge == 0.0:
+            path.append(a)
+            continue
+        angle = 4 * math.atan(bulge)
+        chord = b - a
+        left = np.array([-chord[1], chord[0]])
+        centre = (a + b) / 2 + left * (1 - bulge**2) / (4 * bulge)
+        radius = math.hypot(*(a - centre))
+        turns = math.atan2(*(a - centre)[::-1]) + angle * np.arange(pieces) / pieces
+        path.extend(centre + radius * np.stack([np.cos(turns), np.sin(turns)], axis=1))
+        missed = max(missed, radius * (1 - math.cos(angle / pieces / 2)))
+    return shapely.Polygon(path), missed
+
+
+def fly(rng, number):
+    """Fly one drawing: (bounces, lost, drift of the speed, balls that ended in an ambiguous corner)."""
+    points, bulges = ring(rng, bowed=number % 2 == 1)
+    radius = float(rng.choice([0.0, 0.3, 1.5])) if number % 4 < 2 else 0.0
+    region, missed = outline(points, bulges)
+    free = region.buffer(-radius - missed - 1e-6)
+    if not region.is_valid or free.is_empty:
+        return 0, 0, 0.0, 0
+    tries = rng.uniform(-100, 100, (200 * BALLS, 2))
+    position = tries[shapely.contains_xy(free, tries[:, 0], tries[:, 1])][:BALLS]
+    angle = rng.uniform(0, 2 * np.pi, len(position))
+    velocity = 50.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    walls = wallkit.Walls.from_polylines([points], bulges=[bulges])
+    totals = wallkit.survey(wallkit.Scene(walls, wallkit.Balls(position, velocity, radius)), bounces=BOUNCES)
+    outside = shapely.distance(region, shapely.points(totals.position)) > missed + 1e-10
+    lost = int(np.count_nonzero(outside | (totals.ending == Ending.LEFT_SCENE)))
+    drift = np.abs(np.hypot(*totals.velocity.T) / np.hypot(*velocity.T) - 1).max(initial=0.0)
+    return int(totals.bounces.sum()), lost, float(drift), int((totals.ending == Ending.AMBIGUOUS_CORNER).sum())
+
+
+def main():
+    wanted = int(float(sys.argv[1])) if len(sys.argv) > 1 else 10_000_000
+    rng = np.random.default_rng(2026)
+    bounces = lost = corners = number = 0
+    drift, began, told = 0.0, time.time(), 0.0
+    while bounces < wanted:
+        more, gone, drifted, ambiguous = fly(rng, number)
+        bounces, lost, corners, number = bounces + more, lost + gone, corners + ambiguous, number + 1
+        drift = max(drift, drifted)
+        if time.time() - told > 20 or bounces >= wanted:
+            told = time.time()
+            print(
+                f"{number} drawings, {bounces:,} bounces, {lost} balls lost, drift of the speed {drift:.2g}, "
+                f"{corners} ambiguous corners, {told - began:.0f} s",
+                flush=True,
+            )
+    sys.exit(1 if lost else 0)
+
+
+if __name__ == "__main__":
+    main()
