@@ -63,3 +63,12 @@ def test_an_mp4_has_the_frames_that_were_asked_for(run, tmp_path):
         check=True,
     )
     assert len([line for line in said.stdout.splitlines() if not line.startswith("#")]) == 16
+
+
+def test_a_film_of_a_ball_that_comes_to_rest_is_paced_by_its_flight():
+    walls = wallkit.Walls.from_polylines([[(0, 0), (100, 0), (100, 70), (0, 70)]], material=wallkit.Material(0.6, 1))
+    scene = wallkit.Scene(walls, wallkit.Balls([[30, 60]], [[10.0, 0]], 2), gravity=(0, -100))
+    run = wallkit.simulate(scene, until=20.0)
+    # It falls 58 units in 1.08 s and bounces lower and lower: some 50 units a second on the way, so that 100 units in
+    # 1.8 s ask for about 1.1 (the median over all bounces, most of them tiny, would ask for far more).
+    assert films._Frames(run, 25, 5.0, "light", None).speedup == 1.0

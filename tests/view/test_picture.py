@@ -144,3 +144,14 @@ def test_a_drawing_shows_curves_as_they_are_and_hidden_paths_dashed():
     assert [p.get("class") for p in paths] == ["wk-material0", "wk-outline", "wk-hidden", "wk-scale"]
     assert "C" in paths[0].get("d")
     assert " -30 0 0 " in paths[0].get("d")  # turned over, the rotation and the sweep change sign
+
+
+def test_vertices_closer_than_the_eye_sees_are_drawn_as_one_and_the_shape_stays():
+    turn = np.linspace(0, 2 * np.pi, 100_001)[:-1]
+    svg = walls_svg(Walls.from_polylines([np.stack([np.cos(turn), np.sin(turn)], axis=1)]), normals=False)
+    path = next(p for p in ET.fromstring(svg).iter(f"{SVG}path") if p.get("class") == "wk-outline")
+    points = np.array([pair.split() for pair in path.get("d").strip("MZ").split("L")], dtype=float)
+    assert len(points) < 10_000
+    radius = np.hypot(*(points - points.mean(axis=0)).T)
+    assert np.ptp(radius) < 1.0  # the mean of points that are not evenly spread is off by a part of a pixel
+    assert np.hypot(*(points - np.roll(points, -1, axis=0)).T).max() < 2.0

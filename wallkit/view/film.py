@@ -24,7 +24,7 @@ from wallkit.view.picture import draw_walls, finish, round_length, started
 from wallkit.view.raster import Raster
 from wallkit.view.run_picture import scene_box
 from wallkit.view.theme import RAMP_STEPS, Theme
-from wallkit.view.tracks import arrays_of
+from wallkit.view.tracks import arrays_of, tracks
 
 if TYPE_CHECKING:
     from wallkit.run import Run
@@ -34,7 +34,7 @@ Progress = Callable[[float], None]
 
 _RATES = {"gif": 25, "mp4": 30}  # frames a second; GIF counts in hundredths, so that 25 is exact
 _WIDTH = 640.0
-_CROSSING = 2.5  # seconds of film for a ball to cross the picture, which sets how fast a film runs
+_CROSSING = 1.8  # seconds of film for a ball to cross the picture, which sets how fast a film runs
 _TRAIL = 0.9  # seconds of film that a trail lasts, and a ghost of a contact
 _TRAILS = 60  # so many balls at most draw trails
 
@@ -53,7 +53,7 @@ def film(
 ) -> bytes:
     """Make a film of a run.
 
-    Time runs at 1, 2 or 5 times a power of ten of real time, so that the balls cross the picture in about 2.5
+    Time runs at 1, 2 or 5 times a power of ten of real time, so that the balls cross the picture in about two
     seconds; the film says how fast, and how much of the run it shows.
 
     Args:
@@ -155,12 +155,17 @@ def _trail(points: deque[tuple[float, float, float]], time: float, since: float,
 
 
 def _speedup(run: Run, frame: Frame) -> float:
-    _, velocity, _ = arrays_of(run.scene.balls)
-    speeds = np.hypot(run.contacts["vx"], run.contacts["vy"]) if len(run.contacts) else np.hypot(*velocity.T)
-    moving = speeds[speeds > 0]
-    if not len(moving):
+    """Choose how fast time runs, from the speed on the way: each stretch counts with its length, so rest does not."""
+    flight = tracks(run, 200_000)
+    duration = flight.until - flight.time
+    last = flight.velocity + flight.pull * duration[:, None]
+    speeds = (np.hypot(*flight.velocity.T) + np.hypot(*last.T)) / 2  # the mean of both ends is near enough
+    length = speeds * duration
+    total = float(length.sum())
+    if not (total > 0 and np.isfinite(total)):
         return 1.0
-    crossing = max(frame.box[2] - frame.box[0], frame.box[3] - frame.box[1]) / float(np.median(moving))
+    speed = float((length * speeds).sum()) / total
+    crossing = max(frame.box[2] - frame.box[0], frame.box[3] - frame.box[1]) / speed
     return round_length(crossing / _CROSSING)
 
 

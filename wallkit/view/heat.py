@@ -33,7 +33,8 @@ def heat_rows(flight: Tracks, frame: Frame) -> tuple[float, list[list[int]]]:
 def spent(flight: Tracks, frame: Frame, size: float, shape: tuple[int, int]) -> FloatArray:
     """Give the ball-seconds spent in each cell, rows from the top of the screen."""
     duration = flight.until - flight.time
-    length = np.hypot(*(flight.target - flight.position).T) * frame.scale
+    longest = np.hypot(*flight.velocity.T) * duration + np.hypot(*flight.pull.T) * duration**2 / 2
+    length = longest * frame.scale  # of the way at most, up and down again included
     count = np.clip(np.ceil(3 * length / size), 1, 4 * _CELLS * 3)
     count[~np.isfinite(count)] = 1
     count = np.maximum(1, count * min(1.0, _SAMPLES / max(1.0, float(count.sum())))).astype(np.int64)

@@ -17,9 +17,14 @@ IntArray = NDArray[np.int64]
 
 
 def wall_path(walls: Walls, index: int, frame: Frame) -> list[Command]:
-    """Give one wall as path commands."""
+    """Give one wall as path commands; of more than 1,000 lines, vertices within half a pixel are drawn as one."""
     span = slice(walls.offsets[index], walls.offsets[index + 1])
     points, bulges, closed = frame.points(walls.vertices[span]), walls.bulges[span].tolist(), walls.closed[index]
+    if len(points) > 1000 and not any(bulges):
+        cells = np.round(2 * points)
+        apart = np.concatenate([[True], (cells[1:] != cells[:-1]).any(axis=1)])
+        apart[-1] = True
+        points, bulges = points[apart], [0.0] * int(apart.sum())
     ends = np.roll(points, -1, axis=0)
     edges = [_edge(a, b, bulge, frame.up) for a, b, bulge in zip(points, ends, bulges, strict=True)]
     start: Command = ("M", *points[0])
