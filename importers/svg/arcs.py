@@ -55,12 +55,13 @@ def _middle(
     """Give the middle of a nearly half arc, in the unit circle of its ellipse: at right angles to the chord."""
     dx, dy = (x - x0) / 2, (y - y0) / 2
     ux, uy = (cosine * dx + sine * dy) / rx, (cosine * dy - sine * dx) / ry
-    half = min(math.hypot(ux, uy), 1.0)  # sine of half the angle
-    depth = math.sqrt(max(0.0, 1.0 - half * half))  # distance from the chord to the centre
+    half = math.hypot(ux, uy)  # sine of half the angle
+    square = 1.0 - half * half
+    # distance from the chord to the centre; within a few roundings of 1 the chord is a diameter, as it was meant
+    depth = math.sqrt(square) if square > 1e-15 else 0.0
     rise = 1.0 + depth if large else 1.0 - depth  # from the chord to the arc's middle
     side = 1.0 if sweep else -1.0  # a sweep of 1 bows to (uy, -ux)
-    length = math.hypot(ux, uy)
-    vx, vy = side * uy / length * rise, -side * ux / length * rise
+    vx, vy = side * uy / half * rise, -side * ux / half * rise
     vx, vy = vx * rx, vy * ry
     return (x0 + x) / 2 + cosine * vx - sine * vy, (y0 + y) / 2 + sine * vx + cosine * vy
 

@@ -72,8 +72,14 @@ class Cascade:
     def _report(self, code: str, message: str) -> None:
         self._notes.count(code, "warning", message, self._element, fix="write the style on the elements")
 
-    def declared(self, element: Any, attributes: dict[str, str]) -> Declared:
-        """Give the winning declarations of an element: property to parsed value, invalid ones left out."""
+    def declared(self, element: Any, attributes: dict[str, str], chain: tuple[Any, ...] = ()) -> Declared:
+        """Give the winning declarations of an element: property to parsed value, invalid ones left out.
+
+        Args:
+            element: in the file.
+            attributes: of it.
+            chain: the targets of the ``use``s that it is seen through.
+        """
         found: Declared = {}
         for name, text in attributes.items():
             if name in PRESENTATION:
@@ -86,7 +92,11 @@ class Cascade:
         style = attributes.get("style")
         if self._sheet.empty and style is None:
             return found or _NOTHING
-        rules = _NONE if self._sheet.empty else _by_importance(self._sheet.declarations(element))
+        rules = (
+            _NONE
+            if self._sheet.empty
+            else _by_importance(self._sheet.declarations(element, chain[-1] if chain else None))
+        )
         inline = _NONE if style is None else self._inline(style)
         for declarations in (rules[0], inline[0], rules[1], inline[1]):
             if declarations:

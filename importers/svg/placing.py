@@ -67,8 +67,8 @@ def nested_viewport(
         size: what the ``use`` says, None where it says nothing.
     """
     x, y = lengths.get("x") or 0.0, lengths.get("y") or 0.0
-    width = size[0] if size[0] is not None else lengths.get("width")
-    height = size[1] if size[1] is not None else lengths.get("height")
+    width = size[0] if size[0] is not None else lengths.size("width")
+    height = size[1] if size[1] is not None else lengths.size("height")
     width = lengths.viewport.width if width is None else width
     height = lengths.viewport.height if height is None else height
     box = parse_view_box(element.get("viewBox"))
@@ -80,11 +80,18 @@ def nested_viewport(
 
 def use_size(tag: str, lengths: Lengths) -> tuple[float | None, float | None]:
     """Give the size that a ``use`` asks for its symbol or svg; a symbol without one fills the viewport."""
-    width, height = lengths.get("width"), lengths.get("height")
+    width, height = (_asked(lengths, name) for name in ("width", "height"))
     if tag == "symbol":
         width = lengths.viewport.width if width is None else width
         height = lengths.viewport.height if height is None else height
     return width, height
+
+
+def _asked(lengths: Lengths, name: str) -> float | None:
+    """Give a size of a ``use``: what is there but no length counts as 0."""
+    size = lengths.size(name)
+    written = lengths.attributes.get(name, "auto").strip() != "auto"
+    return 0.0 if size is None and written else size
 
 
 def has_transform(declared: Declared) -> bool:

@@ -176,7 +176,10 @@ class Reader:
 
     def _enter(self, tag: str, element: Any, attributes: Attributes, around: Around) -> None:
         """Go into an element that groups others."""
-        declared = self.cascade.declared(element, attributes)
+        if tag == "a" and element.getparent().tag == element.tag:
+            self.notes.count("not-drawn", "info", "<a> directly in <a> is not shown", element)
+            return
+        declared = self.cascade.declared(element, attributes, around.chain)
         inside = self._inside(tag, element, attributes, declared, around)
         if tag == "use":
             self._use(element, attributes, declared, inside)
@@ -275,7 +278,7 @@ class Reader:
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file)
         if tag in ("symbol", "svg"):
             own = attributes_of(target)
-            within = self._inside(tag, target, own, self.cascade.declared(target, own), inside)
+            within = self._inside(tag, target, own, self.cascade.declared(target, own, inside.chain), inside)
             self._nested(target, own, within, use_size(tag, lengths))
         elif tag in SHAPES or tag in _GROUPS or tag in _NO_GEOMETRY:
             self.stack.append((target, inside))
@@ -300,8 +303,11 @@ class Reader:
         self._push_children(element, replace(inside, matrix=multiply(inside.matrix, matrix), viewport=viewport))
 
     def _draw(self, tag: str, element: Any, attributes: Attributes, around: Around) -> None:
-        declared = self.cascade.declared(element, attributes)
+        declared = self.cascade.declared(element, attributes, around.chain)
         style = self.cascade.inherited(around.style, declared)
+        hidden = around.hidden or declared.get("display") in ("none", "contents")
+        if hidden and self.aside:  # what is not displayed counts for no box
+            return
         lengths = Lengths(attributes, declared, around.viewport, style.font)
         shape = make_shape(tag, attributes, lengths)
         matrix = around.matrix
@@ -331,7 +337,7 @@ class Reader:
                 name=name,
                 layer=around.layer,
                 groups=around.groups,
-                visible=style.visible and not around.hidden and declared.get("display") not in ("none", "contents"),
+                visible=style.visible and not hidden,
                 locked=around.locked or attributes.get(SODIPODI + "insensitive") == "true",
                 fill=fill,
                 stroke=stroke,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from typing import Any
+from urllib.parse import unquote
 
 from importers.limits import MAX_ELEMENTS, MAX_REFERENCES, limit_error
 from importers.svg.notes import Notes
@@ -37,7 +38,10 @@ class References:
 
     def _lookup(self, element: Any) -> Any:
         href = (self._href(element) or "").strip()
-        return self._ids.get(href[1:]) if href.startswith("#") else None
+        if not href.startswith("#"):
+            return None
+        found = self._ids.get(href[1:])
+        return self._ids.get(unquote(href[1:])) if found is None else found
 
     def target(self, element: Any, chain: tuple[Any, ...]) -> tuple[Any, str]:
         """Give what a ``use`` shows, or None and why it shows nothing."""

@@ -60,6 +60,12 @@ class Lengths:
             self.assumed.append(name)
         return to_px(terms, getattr(self.viewport, _AXES[name]), self.font)
 
+    def size(self, name: str) -> float | None:
+        """Give a width or height in user units; None where it is missing, ``auto`` or no length, 0 below 0."""
+        text = self.attributes.get(name)
+        terms = parse_length(text) if text is not None else None
+        return None if terms is None else max(0.0, to_px(terms, getattr(self.viewport, _AXES[name]), self.font))
+
     def _terms(self, name: str) -> Terms | None:
         if name in self.declared:
             value = self.declared[name]

@@ -107,13 +107,13 @@ class _Element(cssselect2.ElementWrapper):  # type: ignore[misc]
 class Sheet:
     """The rules of all style sheets of a file, matched against its elements.
 
-    Elements are matched where they stand in the file: an instance that ``use`` makes has the rules of its
-    original, as in browsers.
+    An instance that ``use`` makes is a tree of its own, as in browsers: its elements match by themselves and by
+    what is in the instance, not by what is around the original or around the ``use``.
     """
 
     def __init__(self, texts: Iterable[str], root: Any, report: Report) -> None:
         self._matcher = cssselect2.Matcher()
-        self._wrappers: dict[Any, Any] | None = None
+        self._wrappers: dict[Any, dict[Any, _Element]] = {}  # of each tree, by its root
         self._root = root
         self._steps = _Steps()
         self.empty = True
@@ -174,13 +174,19 @@ class Sheet:
                 self._matcher.add_selector(selector, declarations)
                 self.empty = False
 
-    def declarations(self, element: Any) -> list[tuple[str, Any, bool]]:
-        """Give the declarations that match, the weaker before the stronger."""
-        if self._wrappers is None:
-            whole = _Element.from_xml_root(self._root)
+    def declarations(self, element: Any, root: Any) -> list[tuple[str, Any, bool]]:
+        """Give the declarations that match, the weaker before the stronger.
+
+        Args:
+            element: in the file.
+            root: of the instance that it is seen in; None for the file itself.
+        """
+        root = self._root if root is None else root
+        if root not in self._wrappers:
+            whole = _Element.from_xml_root(root)
             whole.steps = self._steps
-            self._wrappers = {wrapper.etree_element: wrapper for wrapper in whole.iter_subtree()}
-        wrapper = self._wrappers.get(element)
+            self._wrappers[root] = {wrapper.etree_element: wrapper for wrapper in whole.iter_subtree()}
+        wrapper = self._wrappers[root].get(element)
         if wrapper is None:
             return []
         matcher = self._matcher

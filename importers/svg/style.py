@@ -183,7 +183,7 @@ def _origin(text: str, origin: Origin) -> tuple[Terms, Terms] | None:
         "bottom": ("y", 100.0),
         "center": ("", 50.0),
     }
-    parts: list[tuple[str, Terms]] = []
+    parts: list[tuple[str | None, Terms]] = []
     for token in tinycss2.parse_component_value_list(text.strip(), skip_comments=True):
         if token.type == "whitespace":
             continue
@@ -194,18 +194,18 @@ def _origin(text: str, origin: Origin) -> tuple[Terms, Terms] | None:
         terms = parse_length(tinycss2.serialize([token]), origin == "attribute")
         if terms is None:
             return None
-        parts.append(("", terms))
+        parts.append((None, terms))
     if not 1 <= len(parts) <= 3:
         return None
     if len(parts) == 1:
-        parts.append(("", ((50.0, "%"),)))
+        parts.append(("", ((50.0, "%"),)))  # as if it were "center"
         if parts[0][0] == "y":
             parts.reverse()
     (first_axis, first), (second_axis, second) = parts[:2]
-    if first_axis == "y" or second_axis == "x":
-        first, second = second, first
-        if first_axis == "x" or second_axis == "y":
+    if first_axis == "y" or second_axis == "x":  # only two words may change places
+        if first_axis in ("x", None) or second_axis in ("y", None):
             return None
+        first, second = second, first
     return first, second
 
 
@@ -217,8 +217,8 @@ def _path(text: str, origin: Origin) -> str | None:
         return ""
     if len(tokens) != 1 or tokens[0].type != "function" or tokens[0].lower_name != "path":
         return None
-    strings = [t for t in tokens[0].arguments if t.type == "string"]
-    return str(strings[0].value) if len(strings) == 1 else None
+    arguments = [t for t in tokens[0].arguments if t.type != "whitespace"]
+    return str(arguments[0].value) if len(arguments) == 1 and arguments[0].type == "string" else None
 
 
 _PARSERS: dict[str, Callable[[str, Origin], Any]] = {

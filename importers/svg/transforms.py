@@ -32,7 +32,7 @@ def parse_transform_attribute(text: str) -> Matrix | None:
         return IDENTITY
     while position < len(text):
         match = _FUNCTION.match(text, position)
-        numbers = _numbers(match[2]) if match else None
+        numbers = parse_numbers(match[2]) if match else None
         if match is None or numbers is None or len(numbers) not in _COUNTS[match[1]]:
             return None
         matrix = multiply(matrix, _matrix(match[1], numbers))
@@ -44,7 +44,8 @@ def parse_transform_attribute(text: str) -> Matrix | None:
     return matrix if all(map(math.isfinite, matrix)) else None
 
 
-def _numbers(text: str) -> list[float] | None:  # separated by white space or one comma; None when not
+def parse_numbers(text: str) -> list[float] | None:
+    """Read numbers separated by white space, one comma, or nothing where none is needed; None when not."""
     numbers, position = [], 0
     text = text.strip(" \t\r\n\f")
     while position < len(text):

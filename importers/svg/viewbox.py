@@ -6,11 +6,11 @@ import math
 import re
 
 from importers.svg.matrix import IDENTITY, Matrix
-from importers.svg.path_data import NUMBER
+from importers.svg.transforms import parse_numbers
 
 Box = tuple[float, float, float, float]  # x, y, width, height
 
-_ALIGN = re.compile(r"\s*(?:defer\s+)?(none|x(Min|Mid|Max)Y(Min|Mid|Max))(?:\s+(meet|slice))?\s*")
+_ALIGN = re.compile(r"\s*(none|x(Min|Mid|Max)Y(Min|Mid|Max))(?:\s+(meet|slice))?\s*")
 _PART = {"Min": 0.0, "Mid": 0.5, "Max": 1.0}
 
 
@@ -18,10 +18,10 @@ def parse_view_box(text: str | None) -> Box | None:
     """Read a viewBox; None when it is missing or wrong (a negative size is wrong, 0 is not)."""
     if text is None:
         return None
-    parts = re.split(r"[ \t\r\n\f]*,[ \t\r\n\f]*|[ \t\r\n\f]+", text.strip(" \t\r\n\f"))
-    if len(parts) != 4 or not all(NUMBER.fullmatch(part) for part in parts):
+    numbers = parse_numbers(text)
+    if numbers is None or len(numbers) != 4:
         return None
-    x, y, width, height = map(float, parts)
+    x, y, width, height = numbers
     if width < 0 or height < 0 or not all(map(math.isfinite, (x, y, width, height))):
         return None
     return x, y, width, height

@@ -143,6 +143,13 @@ def test_a_half_circle_is_given_in_quarters_whose_centre_is_well_known():
     assert abs((points - [0.4, 0.2]) ** 2).sum(axis=1) == pytest.approx(0.09, abs=1e-15)
 
 
+@pytest.mark.parametrize("radius", ["1e-3", "7.0710678118654755"])
+def test_the_middle_of_a_half_arc_is_right_to_the_last_digits(radius):
+    """Radii that are too small for the chord, or just reach: the chord is a diameter, its middle the centre."""
+    subpaths, _ = parse_path_data(f"M 50 50 A {radius} {radius} 0 0 1 60 60")
+    assert subpaths[0].segments[1][-2:] == pytest.approx((60, 50), abs=1e-13)
+
+
 @given(st.floats(0.1, 100), st.floats(0.1, 100), st.integers(-180, 180), st.booleans(), st.booleans(), NUMBERS, NUMBERS)
 def test_an_arc_lies_on_its_ellipse(rx, ry, degrees, large, sweep, x, y):
     """Undone, every point of an arc is at distance 1 from one centre, and the arc has the asked-for size."""
