@@ -223,6 +223,52 @@ def test_the_world_acts_at_once_and_without_a_new_shot(opened, server, drop, unt
     until(room, FLYING + " && Wallkit.page.player.motion.gravity && Wallkit.page.player.motion.gravity[0] === -40")
 
 
+def test_a_ball_is_aimed_anew_in_mid_flight(room, until):
+    room.keyboard.press("s")
+    until(room, FLYING)
+    room.keyboard.press("k")
+    x, y = room.evaluate(
+        """(() => { const {player} = Wallkit.page; player.seek(3.0);
+        const s = player.motion.state(0, 3.0); return [s.x, s.y]; })()"""
+    )
+    room.mouse.click(*on_screen(room, x, y))  # a click alone changes nothing
+    assert room.evaluate("Wallkit.page.player.motion !== null && Wallkit.page.aim.ball.x === 80")
+    press_and_drag(room, (x, y), (x + 40, y - 60))
+    room.mouse.up()
+    until(room, FORETOLD)
+    ball = room.evaluate("Wallkit.page.aim.ball")
+    assert (ball["x"], ball["y"]) == (x, y)
+    assert (ball["vx"], ball["vy"]) == pytest.approx((40, -60), abs=1.5)
+
+
+def test_two_fingers_zoom_about_the_place_between_them(opened, server, drop, until):
+    page = opened(server.url, viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    drop(page, "room.svg", ROOM)
+    box = page.locator("#stage").bounding_box()
+    middle = [box["x"] + 200, box["y"] + 220]
+    place = "[Wallkit.page.stage.drawingX(200), Wallkit.page.stage.drawingY(220), Wallkit.page.stage.scale]"
+    x, y, scale = page.evaluate(place)
+    fingers = page.context.new_cdp_session(page)
+    for kind, reach in (("touchStart", 40), ("touchMove", 60), ("touchMove", 80), ("touchEnd", 0)):
+        points = [{"x": middle[0] - reach, "y": middle[1], "id": 0}, {"x": middle[0] + reach, "y": middle[1], "id": 1}]
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points if reach else []})
+    until(page, "!Wallkit.page.stage.fitted")
+    after = page.evaluate(place)
+    assert after[2] / scale == pytest.approx(2.0, rel=0.15)  # a pan begins after 4 pixels
+    assert after[:2] == pytest.approx([x, y], abs=6 / scale)
+
+
+def test_a_drawing_can_be_chosen_or_pasted(page, until):
+    page.set_input_files("#file", {"name": "mine.svg", "mimeType": "image/svg+xml", "buffer": ROOM.encode()})
+    until(page, "Wallkit.page.document && Wallkit.page.document.name === 'mine.svg'")
+    page.evaluate(
+        """(() => { const data = new DataTransfer(); data.setData("text/plain", "0 0 m\\n90 0 l\\n90 80 l\\n0 0 l\\n");
+        document.dispatchEvent(new ClipboardEvent("paste", {clipboardData: data})); })()"""
+    )
+    until(page, "Wallkit.page.document.name === 'pasted text'")
+    assert page.evaluate("Wallkit.page.document.walls.edges") == 3
+
+
 def test_numbers_aim_too(room, until):
     room.get_by_label("Speed", exact=True).fill("100")
     room.get_by_label("Angle").fill("90")

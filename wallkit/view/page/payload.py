@@ -27,7 +27,7 @@ FULL_PRECISION_CONTACTS = 100_000
 Float32, off by at most 6e-8 of the picture's size. Times are always Float64."""
 
 HORIZON_CONTACTS = 5_000
-"""The horizon is told of runs of up to so many contacts."""
+"""So many contacts of a run are looked at for its horizon."""
 
 
 def column(values: ArrayLike, kind: str) -> dict[str, str]:
@@ -103,10 +103,17 @@ def run_table(run: Run, *, left_out: str = "", horizon: bool = True) -> Table:
 
 
 def horizon_table(run: Run) -> Table | None:
-    """Give up to where a single ball's run is good to 1e-6; None for many balls or a long run (it takes its time)."""
-    if len(run.final) != 1 or not 0 < len(run.contacts) <= HORIZON_CONTACTS:
+    """Give up to where a single ball's run is good to 1e-6; None for many balls, or where a long run begins too well.
+
+    Of a long run only the beginning is looked at: nearly always trust ends there.
+    """
+    from wallkit.horizon import trusted_until
+
+    if len(run.final) != 1 or not len(run.contacts):
         return None
-    horizon = run.trusted_until()[0]
+    horizon = trusted_until(run.scene, run.contacts[:HORIZON_CONTACTS], 0, end=float(run.final["time"][0]))
+    if horizon.whole and len(run.contacts) > HORIZON_CONTACTS:
+        return None
     return {"whole": horizon.whole, "time": horizon.time, "sentence": horizon.sentence()}
 
 

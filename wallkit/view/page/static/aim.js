@@ -48,37 +48,54 @@
       this.stage.host.classList.toggle("placing", on);
     }
 
+    // The ball that a press means: one in flight where it is now, or one at its start; {index, x, y} or null.
     near({ x, y }) {
-      let best = -1;
+      const { stage } = this;
+      let best = null;
       let least = Infinity;
-      this.balls.forEach((ball, index) => {
-        const away = Math.hypot(this.stage.screenX(ball.x) - x, this.stage.screenY(ball.y) - y);
-        const reach = Math.max(REACH, ball.radius * this.stage.scale);
-        if (away <= reach && away < least) [best, least] = [index, away];
-      });
+      for (const place of [...this.inFlight(), ...this.balls.map((ball, index) => ({ index, x: ball.x, y: ball.y }))]) {
+        const away = Math.hypot(stage.screenX(place.x) - x, stage.screenY(place.y) - y);
+        const reach = Math.max(REACH, this.balls[place.index].radius * stage.scale);
+        if (away <= reach && away < least) [best, least] = [place, away];
+      }
       return best;
+    }
+
+    inFlight() {
+      const { motion, time } = this.player;
+      if (!motion || !(time > 0) || motion.balls !== this.balls.length) return [];
+      return this.balls.map((_, index) => {
+        const { x, y } = motion.state(index, time);
+        return { index, x, y };
+      });
     }
 
     hover(event) {
       if (event.pointerType === "touch") return;
-      this.stage.host.classList.toggle("over-ball", !this.placing && this.near(this.stage.place(event)) >= 0);
+      this.stage.host.classList.toggle("over-ball", !this.placing && this.near(this.stage.place(event)) !== null);
     }
 
-    // A press on a ball is an aim; in placing mode a press anywhere moves the chosen ball there.
+    // A press on a ball is an aim, from where it is; in placing mode a press anywhere moves the chosen ball there.
     grab(place) {
       if (this.placing) {
         this.moveTo(place);
         return { move: (to) => this.moveTo(to), end: () => this.placed() };
       }
-      const index = this.near(place);
-      if (index < 0) return null;
-      this.chosen = index;
+      const found = this.near(place);
+      if (!found) return null;
+      this.chosen = found.index;
       const before = { ...this.ball };
+      let begun = false;
       return {
-        move: (to) => this.pull(to),
+        move: (to) => {
+          if (!begun) Object.assign(this.ball, { x: found.x, y: found.y });
+          begun = true;
+          this.pull(to);
+        },
         end: (_to, cancelled) => {
-          if (cancelled) Object.assign(this.ball, { vx: before.vx, vy: before.vy });
-          this.changed("velocity", true);
+          if (begun && cancelled) Object.assign(this.ball, before);
+          if (begun) this.changed();
+          else this.player.wake();
         },
       };
     }
@@ -86,14 +103,14 @@
     pull(to) {
       this.ball.vx = (this.stage.drawingX(to.x) - this.ball.x) / this.seconds;
       this.ball.vy = (this.stage.drawingY(to.y) - this.ball.y) / this.seconds;
-      this.changed("velocity");
+      this.changed();
     }
 
     moveTo(to) {
       if (!this.ball) return;
       this.ball.x = this.stage.drawingX(to.x);
       this.ball.y = this.stage.drawingY(to.y);
-      this.changed("position");
+      this.changed();
     }
 
     foretell(lane, question) {

@@ -18,7 +18,7 @@
       this.shot = null; // {balls, until} of the run that is shown
       this.player.onframe = () => this.eachFrame();
       this.player.more = () => this.wantsMore();
-      this.aim.changed = (what, done) => this.aimed(what, done);
+      this.aim.changed = () => this.aimed();
       this.aim.placed = () => this.togglePlacing(false);
       this.stage.tap = (place) => this.tapped(place);
       this.foretelling = new W.Lane("api/simulate", (answer) => this.foretold(answer), (words) => this.unclear(words));
@@ -44,6 +44,7 @@
 
     key(event) {
       if (event.ctrlKey || event.metaKey || event.altKey || W.typing(event.target) || !this.document) return;
+      if (!$("gallery").hidden) return void (event.key === "Escape" && this.gallery.close());
       const act = {
         Enter: event.target.closest?.("button, summary, a, select, label, input") ? null : () => this.shoot(),
         s: () => this.shoot(),
@@ -69,6 +70,7 @@
         this.aim.set(document.balls.map((ball) => ({ ...ball })));
         this.aim.suitArrow(this.size);
         this.forgetShot();
+        this.stage.front.focus({ preventScroll: true });
       }
       this.controls.show(document, again);
       if (this.shot) this.rerun();
@@ -112,7 +114,7 @@
       $("message").hidden = false;
     }
 
-    aimed(what) {
+    aimed() {
       this.forgetShot();
       this.controls.showAim();
       this.foretell();

@@ -38,7 +38,7 @@
       const { ball, seconds } = this.page.aim;
       if (!ball) return;
       const span = seconds === 1 ? "in a second" : `in ${seconds} s`;
-      $("aim-hint").textContent = `Drag from the ball to aim. The arrow is how far it goes ${span}.`;
+      $("aim-hint").textContent = `Drag from the ball to aim, also in mid-flight. The arrow is how far it goes ${span}.`;
       const up = this.page.stage.up ? 1 : -1;
       put("speed", Math.hypot(ball.vx, ball.vy));
       put("angle", (Math.atan2(up * ball.vy, ball.vx) * 180) / Math.PI);
