@@ -66,7 +66,7 @@ def check(
         radius = float(given.radii.min())
         given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
     space = free_space(walls, free=given.places if len(given.places) else None)
-    problems = [*walls.problems, *given.problems, *leak_problems(space, radius)]
+    problems = sorted([*leak_problems(space, radius), *walls.problems, *given.problems], key=_rank)
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
         _draw(walls, problems, [gap.path for gap in reported_gaps(space, radius)[0]], preview)
@@ -75,6 +75,11 @@ def check(
     else:
         _tell(walls, problems, space, radius, given.assumed)
     raise typer.Exit(1 if findings else 0)
+
+
+def _rank(problem: Problem) -> int:
+    """The severe first, and among those in the order of coming: a picture has no room for all."""
+    return ("error", "warning", "info").index(problem.severity)
 
 
 def _check_radius(radius: float | None) -> None:

@@ -176,7 +176,8 @@ def _cut_points(work: _Cut, inside: NDArray[np.bool_], intruder: IntArray) -> Fl
         far = np.hypot(*(v - points[corner]).T) / np.hypot(*away.T)
         there = ((points[corner] + away * far[:, None] - p) * d).sum(axis=1) / square
         part = np.where(joined & (there > 1e-6) & (there < 1 - 1e-6), there, part)
-    return p + d * part[:, None]
+    cut: FloatArray = p + d * part[:, None]
+    return cut
 
 
 def _keys(pairs: IntArray, count: int) -> IntArray:

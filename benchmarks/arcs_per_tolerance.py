@@ -1,0 +1,80 @@
+"""How many edges curves cost per tolerance, as lines and as arcs, and the order of convergence.
+
+    python benchmarks/arcs_per_tolerance.py [CURVES]
+
+prints the table of docs/arcs.md. The order between two rows is log(ratio of tolerances) / log(ratio of edges):
+2 for lines, 3 for arcs.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+
+import numpy as np
+
+from importers.drawing import Subpath
+from wallkit.walls.arcs import fit_arcs
+from wallkit.walls.flatten import flatten
+from wallkit.walls.strokes import Strokes, gather
+
+TOLERANCES = [10.0**-k for k in range(7)]
+FEWEST_FOR_LINES = 1e-4  # below it lines take millions of edges
+
+
+def cubics(count: int) -> Strokes:
+    """Random cubics in a square of 100: a third of them with loops, cusps nearly so, and inflections."""
+    points = np.random.default_rng(1).uniform(0, 100, (count, 4, 2))
+    return gather(Subpath([("M", *p[0].tolist()), ("C", *p[1:].ravel().tolist())], False) for p in points)
+
+
+def ellipses(count: int) -> Strokes:
+    """Half ellipses of 100 by 10 to 90, turned at random."""
+    rng = np.random.default_rng(2)
+    subpaths = []
+    for ry, turn in zip(rng.uniform(10, 90, count), rng.uniform(0, 180, count), strict=True):
+        end = 100 * np.exp(1j * math.radians(turn))
+        arc = ("A", 100.0, float(ry), float(turn), 0, 1, float(end.real), float(end.imag))
+        subpaths.append(Subpath([("M", float(-end.real), float(-end.imag)), arc], False))
+    return gather(subpaths)
+
+
+def order(few: float, many: float) -> str:
+    return f"{math.log(10) / math.log(many / few):.2f}" if few and many > few else ""
+
+
+def table(name: str, strokes: Strokes, count: int) -> None:
+    print(f"\n{name}\n")
+    heads = [
+        "tolerance",
+        "lines a curve",
+        "order",
+        "arcs a curve",
+        "order",
+        "largest distance",
+        "normals off by",
+        "s per 10,000",
+    ]
+    print("| " + " | ".join(heads) + " |")
+    print("|---" * len(heads) + "|")
+    lines = arcs = 0.0
+    for tolerance in TOLERANCES:
+        begin = time.perf_counter()
+        fitted = fit_arcs(strokes, tolerance)
+        seconds = (time.perf_counter() - begin) / count * 10_000
+        before, arcs = arcs, len(fitted.ends) / count
+        cells = ["", ""]
+        if tolerance >= FEWEST_FOR_LINES * 0.99:
+            lines_before, lines = lines, len(flatten(strokes, tolerance).ends) / count
+            cells = [f"{lines:.1f}", order(lines_before, lines)]
+        print(
+            f"| {tolerance:g} | {cells[0]} | {cells[1]} | {arcs:.1f} | {order(before, arcs)} | {fitted.error:.3g} "
+            f"| {fitted.normal_error:.2g} | {seconds:.2f} |"
+        )
+
+
+if __name__ == "__main__":
+    curves = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
+    table("Random cubics", cubics(curves), curves)
+    table("Half ellipses", ellipses(curves), curves)
