@@ -206,7 +206,9 @@ def _halving(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatArray
     return np.concatenate(cut_ids), np.concatenate(cut_ts)
 
 
-_SAMPLES = 33  # where the turn is sampled; equal shares are only kept where the bound proves them
+# Where the density is sampled, and how many edges by halving make it worth while: between samples it counts as
+# even, which near a cusp takes many. Equal shares are only kept where the bound proves them.
+_SAMPLES = ((33, 2), (513, 24))
 
 
 def _even_cuts(
@@ -221,35 +223,37 @@ def _even_cuts(
         Curve of each cut, its t, and which curves are taken.
     """
     taken = np.zeros(len(cubics), dtype=np.bool_)
-    rows = np.flatnonzero(halved >= 2)
-    none = np.empty(0, dtype=np.int64), np.empty(0), taken
-    if not len(rows):
-        return none
-    t, share = _shares(cubics[rows])
+    found: list[tuple[IntArray, FloatArray]] = [(np.empty(0, dtype=np.int64), np.empty(0))]
+    for samples, worth in _SAMPLES:
+        rows = np.flatnonzero((halved >= worth) & ~taken)
+        for begin in range(0, len(rows), 4096):
+            found += _even_rows(cubics, rows[begin : begin + 4096], halved, tolerance, samples, taken)
+    return np.concatenate([ids for ids, _ in found]), np.concatenate([ts for _, ts in found]), taken
+
+
+def _even_rows(
+    cubics: FloatArray, rows: IntArray, halved: IntArray, tolerance: float, samples: int, taken: NDArray[np.bool_]
+) -> list[tuple[IntArray, FloatArray]]:
+    """Try the predicted number of pieces and a few more; mark the rows of curves that are taken."""
+    t, share = _shares(cubics[rows], samples)
     wanted = np.ceil(share[:, -1] / math.sqrt(8 * tolerance)).astype(np.int64)
-    found_ids: list[IntArray] = []
-    found_ts: list[FloatArray] = []
-    open_rows = np.ones(len(rows), dtype=np.bool_)
-    for extra in range(4):
-        count = np.maximum(wanted + extra, 1)
-        trial = np.flatnonzero(open_rows & (count <= halved[rows]))
+    found = []
+    for extra in range(5):
+        count = np.maximum(wanted + extra * np.maximum(wanted // 64, 1), 1)
+        trial = np.flatnonzero(~taken[rows] & (count <= halved[rows]))
         if not len(trial):
             break
         which, cuts = _invert(t, share[trial], count[trial])
         passed = _passes(cubics[rows[trial]], which, cuts, count[trial], tolerance)
-        open_rows[trial[passed]] = False
         taken[rows[trial[passed]]] = True
         keep = passed[which]
-        found_ids.append(rows[trial[which[keep]]])
-        found_ts.append(cuts[keep])
-    if not found_ids:
-        return none
-    return np.concatenate(found_ids), np.concatenate(found_ts), taken
+        found.append((rows[trial[which[keep]]], cuts[keep]))
+    return found
 
 
-def _shares(cubics: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _shares(cubics: FloatArray, samples: int) -> tuple[FloatArray, FloatArray]:
     """Sample parameters (k,) and the running integral of the density at them: (n, k)."""
-    t = np.linspace(0.0, 1.0, _SAMPLES)
+    t = np.linspace(0.0, 1.0, samples)
     middle = (t[1:] + t[:-1]) / 2
     d = 3 * np.diff(cubics, axis=1)
     dd = 2 * np.diff(d, axis=1)
@@ -260,7 +264,7 @@ def _shares(cubics: FloatArray) -> tuple[FloatArray, FloatArray]:
     speed = np.hypot(first[:, 0], first[:, 1])
     density = np.sqrt(np.divide(cross, speed, out=np.zeros_like(cross), where=speed > 0))
     density += 1e-3 * density.max(axis=1, keepdims=True)  # so that the integral rises everywhere
-    share = np.concatenate([np.zeros((len(cubics), 1)), np.cumsum(density, axis=1)], axis=1) / (_SAMPLES - 1)
+    share = np.concatenate([np.zeros((len(cubics), 1)), np.cumsum(density, axis=1)], axis=1) / (samples - 1)
     return t, share
 
 
