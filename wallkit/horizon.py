@@ -31,6 +31,7 @@ from numpy.typing import NDArray
 
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.tangent import carry, stretch
+from wallkit.near_misses import CORNER, GRAZE, Flights, circles, near_misses
 from wallkit.scene import Scene
 
 FloatArray = NDArray[np.float64]
@@ -215,17 +216,6 @@ def _bends(scene: Scene, own: Any, ball: int) -> FloatArray:
     return bends
 
 
-def circles(a: FloatArray, b: FloatArray, bulge: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Centre and radius of the circles of arcs; of lines (bulge 0) something harmless."""
-    k = np.where(bulge == 0, 1.0, bulge)
-    d = b - a
-    length = np.hypot(d[:, 0], d[:, 1])
-    radius = length * (1 + k * k) / (4 * np.abs(k))
-    back = (1 - k * k) / (4 * k)  # from the middle of the chord, to the left, in chord lengths
-    centre = (a + b) / 2 + back[:, None] * np.stack([-d[:, 1], d[:, 0]], axis=1)
-    return centre, radius
-
-
 def _radius(scene: Scene, ball: int) -> float:
     radii = np.asarray(scene.balls.radius, dtype=np.float64)
     return float(radii if radii.ndim == 0 else radii[ball])
@@ -238,19 +228,27 @@ def _first_doubt(scene: Scene, own: Any, ball: int, worst: FloatArray) -> tuple[
     radius = _radius(scene, ball)
     doubts = np.zeros(len(own), dtype=np.int8)
     grazing = _grazing_depth(scene, own, ball)
-    doubts[grazing <= worst] = 2
-    if scene.gravity is None:
-        start = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
-        ends = np.stack([own["x"], own["y"]], axis=1)
-        starts = np.concatenate([start[None], ends[:-1]])
-        for index, clear in _near_corners(scene, starts, ends, radius, float(worst.max())):
-            doubts[index[clear <= worst[index]]] = 1
-        for index, clear in _near_arcs(scene, starts, ends, radius):
-            doubts[index[clear <= worst[index]]] = 2
+    doubts[grazing <= worst] = GRAZE
+    for index, clear, decides in near_misses(scene, _flights(scene, own, ball), radius, float(worst.max())):
+        doubts[index[clear <= worst[index]]] = decides
     found = np.flatnonzero(doubts)
     if not len(found):
         return len(own), ""
-    return int(found[0]), "corner" if doubts[found[0]] == 1 else "graze"
+    return int(found[0]), "corner" if doubts[found[0]] == CORNER else "graze"
+
+
+def _flights(scene: Scene, own: Any, ball: int) -> Flights:
+    first, path, _, _, pull = _course(scene, own, ball)
+    begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
+    ends = np.stack([own["x"], own["y"]], axis=1)
+    slides = np.concatenate([[False], path[:-1, 5] == 1.0])  # a ball that slides misses nothing
+    return Flights(
+        start=np.concatenate([begin[None], ends[:-1]]),
+        end=ends,
+        velocity=np.concatenate([first[None], path[:-1, 1:3]]),
+        time=np.where(slides, 0.0, np.diff(path[:, 0], prepend=0.0)),
+        pull=pull[:-1] if scene.gravity is not None else None,
+    )
 
 
 def _grazing_depth(scene: Scene, own: Any, ball: int) -> FloatArray:
@@ -261,70 +259,3 @@ def _grazing_depth(scene: Scene, own: Any, ball: int) -> FloatArray:
     lost = cosine**2 / (1 + np.sqrt(np.maximum(0.0, 1 - cosine**2)))
     depth: FloatArray = np.divide(lost, bends, out=np.full(len(own), np.inf), where=bends > 0)
     return depth
-
-
-def _near_corners(
-    scene: Scene, starts: FloatArray, ends: FloatArray, radius: float, reach: float
-) -> list[tuple[NDArray[np.int64], FloatArray]]:
-    """Pairs (flight, clearance) of straight flights that pass a corner by no more than ``reach``."""
-    import shapely
-
-    corners = _turning_corners(scene)
-    if not len(corners):
-        return []
-    flights = shapely.linestrings(np.stack([starts, ends], axis=1))
-    found, corner = shapely.STRtree(shapely.points(corners)).query(
-        flights, predicate="dwithin", distance=radius + reach
-    )
-    along, clear = _closest(starts[found], ends[found], corners[corner])
-    # A disc rolls from an edge on to its corner without a jump: only a corner passed in full flight decides.
-    # For a point the hit itself counts; where it started is the last flight's end and was judged there.
-    decides = (along > 0) & ((along < 1) | (radius == 0))
-    return [(found[decides], np.maximum(0.0, clear[decides] - radius))]
-
-
-def _turning_corners(scene: Scene) -> FloatArray:
-    """(m, 2) vertices where a wall ends, or turns: at the others a hit to the left or right is the same."""
-    walls = scene.walls
-    start, end = walls.edge_starts, walls.edge_ends
-    d = walls.vertices[end] - walls.vertices[start]
-    chord = np.arctan2(d[:, 1], d[:, 0])
-    half = 2 * np.arctan(walls.bulges[start])  # an arc leaves its chord by half its angle
-    leaving = np.full(len(walls.vertices), np.nan)
-    arriving = np.full(len(walls.vertices), np.nan)
-    leaving[start], arriving[end] = chord - half, chord + half
-    turn = leaving - arriving
-    straight = np.abs(np.remainder(turn + math.pi, math.tau) - math.pi) < 1e-12
-    return np.asarray(walls.vertices[~straight], dtype=np.float64)
-
-
-def _near_arcs(
-    scene: Scene, starts: FloatArray, ends: FloatArray, radius: float
-) -> list[tuple[NDArray[np.int64], FloatArray]]:
-    """Pairs (flight, clearance) of flights that pass the convex side of an arc."""
-    walls = scene.walls
-    edges = np.flatnonzero(walls.bulges[walls.edge_starts])
-    a, b = walls.vertices[walls.edge_starts[edges]], walls.vertices[walls.edge_ends[edges]]
-    bulge = walls.bulges[walls.edge_starts[edges]]
-    centres, curves = circles(a, b, bulge)
-    chord = b - a
-    to_middle = np.sign(bulge)[:, None] * np.stack([chord[:, 1], -chord[:, 0]], axis=1)
-    to_middle /= np.maximum(np.hypot(to_middle[:, 0], to_middle[:, 1]), 1e-300)[:, None]
-    cos_half = np.cos(2 * np.arctan(np.abs(bulge)))
-    pairs = []
-    for centre, curve, middle, limit in zip(centres, curves, to_middle, cos_half, strict=True):
-        along, distance = _closest(starts, ends, np.broadcast_to(centre, starts.shape))
-        foot = starts + along[:, None] * (ends - starts) - centre
-        beside = (foot @ middle >= limit * np.maximum(distance, 1e-300)) & (along > 0) & (along < 1)
-        index = np.flatnonzero(beside & (distance >= curve + radius))
-        pairs.append((index, distance[index] - curve - radius))
-    return pairs
-
-
-def _closest(starts: FloatArray, ends: FloatArray, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Where along each segment (0 to 1) a point is closest, and how far it is from there."""
-    d = ends - starts
-    length2 = np.maximum((d * d).sum(axis=1), 1e-300)
-    along = np.clip(((points - starts) * d).sum(axis=1) / length2, 0.0, 1.0)
-    away = points - starts - along[:, None] * d
-    return along, np.hypot(away[:, 0], away[:, 1])

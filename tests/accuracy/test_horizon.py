@@ -8,6 +8,7 @@ import pytest
 from wallkit import horizon, simulate
 from wallkit.accuracy import scenes
 from wallkit.accuracy.reference import Reference, sure_events
+from wallkit.near_misses import CORNER, GRAZE, near_misses
 from wallkit.run import CONTACT
 from wallkit.scene import Balls, Scene
 from wallkit.walls import Material, Walls
@@ -122,3 +123,30 @@ def test_a_ball_that_comes_to_rest_is_good_throughout():
     run = simulate(scene, until=20.0)
     (said,) = run.trusted_until(1e-9)
     assert said.whole
+
+
+@pytest.mark.parametrize("gravity", [None, (0.0, -9.81)])
+@pytest.mark.parametrize("by", [1e-9, 1e-3])
+def test_a_corner_passed_by_a_hair_is_noticed(gravity, by):
+    # The disc of radius 1 flies over the end of a stick, as near as `by`; under gravity at the top of its throw.
+    down = 0.0 if gravity is None else 9.81 * 3.0  # the top after 3 s
+    height = 1.0 + by - (0.0 if gravity is None else 0.5 * 9.81 * 9.0)
+    walls = Walls.from_polylines([[(0.0, 0.0), (0.0, -200.0)], [(25.0, -300.0), (25.0, 300.0)]], closed=False)
+    scene = Scene(walls, Balls([(-15.0, height)], [(5.0, down)], 1.0), gravity=gravity)
+    contacts = simulate(scene, bounces=1).contacts
+    assert contacts["wall"].tolist() == [1]
+    near = list(near_misses(scene, horizon._flights(scene, contacts, 0), 1.0, 1e-6))
+    found = [clear for flights, clear, what in near if what == CORNER and len(flights)]
+    assert len(found) == (by < 1e-6)
+    if found:
+        assert found[0][0] == pytest.approx(by, abs=1e-13)
+
+
+def test_a_parabola_that_turns_round_just_below_a_ceiling_is_noticed():
+    walls = scenes.room([(0, 0), (0, 8), (20, 8), (20, 0)])
+    up = math.sqrt(2 * 9.81 * (7.0 - 1e-8 - 2.0))  # from 2 to 1e-8 below where a disc of radius 1 touches
+    scene = Scene(walls, Balls([(3.0, 2.0)], [(2.0, up)], 1.0), gravity=(0.0, -9.81))
+    contacts = simulate(scene, bounces=1).contacts
+    near = list(near_misses(scene, horizon._flights(scene, contacts, 0), 1.0, 1e-6))
+    clear = [found for flights, found, what in near if what == GRAZE and len(flights)]
+    assert clear[0][0] == pytest.approx(1e-8, abs=1e-13)

@@ -9,7 +9,7 @@ import numpy as np
 
 from wallkit.accuracy.contest import Subject, along
 from wallkit.accuracy.scenes import lines_for_turn
-from wallkit.horizon import circles
+from wallkit.near_misses import circles
 from wallkit.scene import Scene
 from wallkit.walls import Walls
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.horizon import circles
+from wallkit.near_misses import circles
 from wallkit.scene import Balls, Scene
 from wallkit.walls import Walls
 

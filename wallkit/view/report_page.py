@@ -18,7 +18,7 @@ def report_html(report: Report) -> str:
         f"<figure>{work_precision_svg(report.contests)}</figure>",
         f"<h2>Every figure</h2><p>Error: units of the scene, after {BOUNCES} bounces. s per s: processor seconds for a "
         "second of flight. First wrong: the bounce after which the ball is somewhere else, by 1 % of the scene.</p>",
-        *(_contest(found) for found in report.contests),
+        *(_contest(found, shown=len(report.contests) == 1) for found in report.contests),
     ]
     if report.departures:
         parts.append(_horizon(report))
@@ -33,9 +33,11 @@ def report_html(report: Report) -> str:
     )
 
 
-def _contest(found: Contest) -> str:
+def _contest(found: Contest, *, shown: bool) -> str:
     rows = [tables.point_row(point, found.bounces) for points in found.series().values() for point in points]
-    return f"<details><summary>{escape(tables.title(found))}</summary>{_table(tables.POINT_HEAD, rows)}</details>"
+    opened = " open" if shown else ""
+    table = _table(tables.POINT_HEAD, rows)
+    return f"<details{opened}><summary>{escape(tables.title(found))}</summary>{table}</details>"
 
 
 def _horizon(report: Report) -> str:

@@ -204,12 +204,12 @@ def _marker(shape: str, x: float, y: float) -> str:
 _MEANINGS = {
     "exact, lines": "wallkit, curves as lines: finer from point to point",
     "exact, arcs": "wallkit, curves as arcs",
-    "step, exact": "World, exact within the step",
-    "step, stop": "World, stop at the contact",
-    "step, full-step": "World, to the contact, then a full step",
-    "step, reflect-in-place": "World, turn where the ball is",
-    "pymunk": "pymunk, steps of 1/30 s and finer",
-    "Box2D 2.3": "Box2D 2.3, steps of 1/30 s and finer",
+    "step, exact": "World in frames, exact within each",
+    "step, stop": "World in frames, stop at the contact",
+    "step, full-step": "World in frames, a full step after the contact",
+    "step, reflect-in-place": "World in frames, turn where the ball is",
+    "pymunk": "pymunk: smaller steps take more time",
+    "Box2D 2.3": "Box2D 2.3: smaller steps take more time",
     "billiards": "billiards (Python, event-driven)",
 }
 
