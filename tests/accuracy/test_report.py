@@ -64,7 +64,9 @@ def test_a_slow_contestant_stops_at_the_limit_of_steps():
 
 
 def test_the_best_is_the_fastest_of_the_least_wrong():
-    points = [Point("s", str(k), 0.0, e, s, None, 0.0, False) for k, (e, s) in enumerate([(1, 1), (0.1, 5), (0.15, 2)])]
+    points = [
+        Point("s", str(k), 0.0, e, s, None, 0.0, False, 5) for k, (e, s) in enumerate([(1, 1), (0.1, 5), (0.15, 2)])
+    ]
     assert tables.best(points).setting == "2"
 
 
@@ -77,7 +79,7 @@ def test_the_diagram_is_xml_with_a_panel_a_scene(box):
 
 def test_points_without_a_figure_are_left_out_of_the_diagram():
     nan = float("nan")
-    found = Contest("x", "", 5, 1.0, 0.0, [Point("exact, lines", "", 0, nan, nan, None, 0, False)])
+    found = Contest("x", "", 5, 1.0, 0.0, [Point("exact, lines", "", 0, nan, nan, None, 0, False, 0)])
     assert "nan" not in work_precision_svg([found])
 
 
@@ -138,7 +140,7 @@ def test_wrong_use_is_told(arguments, words):
 
 
 def test_known_answers_are_shown_and_counted(monkeypatch):
-    outcomes = [Outcome("1", "1", 0.0, 0.0, ""), Outcome("1", "2", 1.0, 0.5, "")]
+    outcomes = [Outcome("1", "1", 0.0, 0.0, ""), Outcome("1", "2", np.float64(1.0), np.float64(0.5), "")]
     cases = [Case(f"case {k}", "group", "", False, lambda o=o: o) for k, o in enumerate(outcomes)]
     monkeypatch.setattr("wallkit.accuracy.cases.all_cases", lambda: cases)
     result = CliRunner().invoke(app, ["report", "--hard"])

@@ -45,7 +45,7 @@ class Outcome:
     @property
     def holds(self) -> bool:
         """The answer is within the tolerance (NaN is not)."""
-        return self.error <= self.tolerance
+        return bool(self.error <= self.tolerance)
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,6 +64,7 @@ class Point:
         wrong: the first bounce after which the ball is somewhere else, or None.
         drift: of the energy over the whole run, relative.
         escaped: the ball was outside of its room at some time.
+        reached: so many bounces were looked at; fewer than the reference has where that took too many steps.
     """
 
     series: str
@@ -74,6 +75,7 @@ class Point:
     wrong: int | None
     drift: float
     escaped: bool
+    reached: int
 
 
 @dataclass(slots=True)
@@ -230,6 +232,7 @@ def _judged(
         int(wrong[0]) + 1 if len(wrong) else None,
         drift,
         escaped,
+        len(got),
     )
 
 

@@ -21,9 +21,9 @@ def title(contest: Contest) -> str:
     return f"{contest.name}: {contest.story} (r = {contest.radius:g}, size {contest.size:.4g})"
 
 
-def point_row(point: Point, bounces: int) -> Row:
+def point_row(point: Point) -> Row:
     """Give one contestant's figures, under :data:`POINT_HEAD`."""
-    wrong = f"bounce {point.wrong}" if point.wrong is not None else f"none in {bounces}"
+    wrong = f"bounce {point.wrong}" if point.wrong is not None else f"none in {point.reached}"
     escaped = "left the room" if point.escaped else ""
     figures = (number(point.error), number(point.seconds), wrong, number(point.drift), escaped)
     return (point.series, point.setting, *figures)

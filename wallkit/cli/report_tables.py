@@ -46,7 +46,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], right: Sequence[in
 
 
 def _contest_lines(contest: Contest) -> list[str]:
-    rows = [tables.point_row(tables.best(points), contest.bounces) for points in contest.series().values()]
+    rows = [tables.point_row(tables.best(points)) for points in contest.series().values()]
     return [tables.title(contest), *table(tables.POINT_HEAD, rows, right=(2, 3, 5))]
 
 
@@ -65,8 +65,8 @@ def case_row(case: Case, outcome: Outcome, seconds: float) -> dict[str, Any]:
         "story": case.story,
         "expected": outcome.expected,
         "got": outcome.got,
-        "error": outcome.error if math.isfinite(outcome.error) else None,
-        "tolerance": outcome.tolerance,
+        "error": float(outcome.error) if math.isfinite(outcome.error) else None,
+        "tolerance": float(outcome.tolerance),
         "why": outcome.why,
         "holds": outcome.holds,
         "seconds": seconds,

@@ -34,7 +34,7 @@ def report_html(report: Report) -> str:
 
 
 def _contest(found: Contest, *, shown: bool) -> str:
-    rows = [tables.point_row(point, found.bounces) for points in found.series().values() for point in points]
+    rows = [tables.point_row(point) for points in found.series().values() for point in points]
     opened = " open" if shown else ""
     table = _table(tables.POINT_HEAD, rows)
     return f"<details{opened}><summary>{escape(tables.title(found))}</summary>{table}</details>"

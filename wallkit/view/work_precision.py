@@ -55,7 +55,8 @@ def work_precision_svg(contests: Sequence[Contest], foot: str = "") -> str:
     parts = [_heading()]
     for index, found in enumerate(contests):
         parts.append(_panel(found, axes, *_corner(index), labelled=index % _COLUMNS == 0))
-    present = list(dict.fromkeys(point.series for found in contests for point in found.points))
+    series = dict.fromkeys(point.series for found in contests for point in found.points)
+    present = [*(name for name in LOOKS if name in series), *(name for name in series if name not in LOOKS)]
     parts.append(_legend(present, *_corner(len(contests))))
     parts += [
         f'<text class="note" x="{_LEFT - 50:g}" y="{below + 16 * k:g}" font-size="11">{escape(line)}</text>'
