@@ -9,7 +9,7 @@ import json
 import math
 import re
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, Literal
@@ -145,7 +145,8 @@ class _Reader:
             raise SceneError(shown, code="bad-scene", file=self.file, fix="docs/files.md lists the keys of a scene")
 
     def scene_file(self, table: dict[str, Any]) -> SceneFile:
-        known = {"format", "version", "walls", "drawing", "import", "gravity", "materials", "balls", "run"}
+        known = {"format", "version", "walls", "drawing", "import", "gravity", "rolling_friction", "drag", "sensors",
+                 "materials", "balls", "run"}  # fmt: skip
         self.known_keys(table, known, "")
         if table.get("format", "wallkit-scene") != "wallkit-scene":
             self.wrong.append(f"format: {table['format']!r} is not 'wallkit-scene'")
@@ -156,12 +157,15 @@ class _Reader:
             walls = Walls.from_polylines([])
         self.materials(walls, table.get("materials", []))
         gravity = self.pair(table["gravity"], "gravity") if "gravity" in table else None
+        slowing = {key: self.number(table[key], key, least=0.0) for key in ("rolling_friction", "drag") if key in table}
+        walls, sensors = self.sensors(walls, table["sensors"]) if "sensors" in table else (walls, None)
         balls = drawn if drawn is not None and "balls" not in table else self.balls(table.get("balls", []))
         run = self.table(table.get("run", {}), "run")
         self.known_keys(run, {"until", "bounces"}, "run.")
         until = self.number(run["until"], "run.until", least=0.0) if "until" in run else None
         bounces = self.number(run["bounces"], "run.bounces", least=0.0) if "bounces" in run else None
-        return SceneFile(Scene(walls, balls, gravity), until, None if bounces is None else int(bounces))
+        scene = Scene(walls, balls, gravity, sensors=sensors, **slowing)
+        return SceneFile(scene, until, None if bounces is None else int(bounces))
 
     # -- values
 
@@ -253,9 +257,9 @@ class _Reader:
             return None
         return self.folder / name
 
-    def polylines(self, value: Any) -> Walls | None:
+    def polylines(self, value: Any, name: str = "walls") -> Walls | None:
         before = len(self.wrong)
-        rows = self.rows(value, "walls")
+        rows = self.rows(value, name)
         keys = {"vertices", "bulges", "closed", "name", "layer", "sides", "material"}
         for key, row in rows:
             self.known_keys(row, keys, f"{key}.")
@@ -272,8 +276,20 @@ class _Reader:
                 layers=[str(row.get("layer", "")) for _, row in rows],
             )
         except (ValueError, TypeError):
-            self.wrong.append("walls: vertices are lists of [x, y]")
+            self.wrong.append(f"{name}: vertices are lists of [x, y]")
             return None
+
+    def sensors(self, walls: Walls, value: Any) -> tuple[Walls, Walls | None]:
+        """Give the walls left, and the sensors: polylines of their own, or the walls that globs name."""
+        if isinstance(value, dict):
+            return walls, from_json(value, self.file)
+        if not isinstance(value, list) or not all(isinstance(glob, str) for glob in value):
+            return walls, self.polylines(value, "sensors")
+        fits = [any(fnmatchcase(word, glob) for word in (walls.layers[index], walls.names[index]) for glob in value)
+                for index in range(len(walls))]  # fmt: skip
+        if len(walls) and not any(fits):
+            self.wrong.append(f"sensors: no wall has a name or layer like {', '.join(map(repr, value))}")
+        return _chosen(walls, [not fit for fit in fits]), _chosen(walls, fits)
 
     def material(self, value: Any, key: str, base: Material | None = None) -> Material:
         base = base or Material()
@@ -319,6 +335,23 @@ class _Reader:
         return Balls(position, velocity, radius)
 
 
+def _chosen(walls: Walls, keep: list[bool]) -> Walls:
+    """Give some of the walls, everything else about them as it was."""
+    which = [index for index, kept in enumerate(keep) if kept]
+    spans = [slice(walls.offsets[index], walls.offsets[index + 1]) for index in which]
+    part = Walls.from_polylines(
+        [walls.vertices[span] for span in spans],
+        [bool(walls.closed[index]) for index in which],
+        bulges=[walls.bulges[span] for span in spans],
+        sides=[walls.sides[index] for index in which],
+        material=[walls.materials[index] for index in which],
+        names=[walls.names[index] for index in which],
+        layers=[walls.layers[index] for index in which],
+    )
+    taken = ("vertices", "offsets", "closed", "bulges", "sides", "materials", "names", "layers")
+    return replace(walls, depth=walls.depth[which], **{name: getattr(part, name) for name in taken})
+
+
 def scene_to_json(scene: Scene, until: float | None = None, bounces: int | None = None) -> dict[str, Any]:
     """Give a scene as the ``wallkit-scene`` format, version 1, has it, walls and materials included."""
     position = np.asarray(scene.balls.position, dtype=np.float64).reshape(-1, 2)
@@ -330,6 +363,9 @@ def scene_to_json(scene: Scene, until: float | None = None, bounces: int | None 
         "format": "wallkit-scene",
         "version": 1,
         **({"gravity": list(scene.gravity)} if scene.gravity is not None else {}),
+        **({"rolling_friction": scene.rolling_friction} if scene.rolling_friction is not None else {}),
+        **({"drag": scene.drag} if scene.drag is not None else {}),
+        **({"sensors": to_json(scene.sensors)} if scene.sensors is not None else {}),
         **({"run": run} if run else {}),
         "balls": [{"position": p, "velocity": v, "radius": r} for p, v, r in balls],
         "walls": to_json(scene.walls),

@@ -6,6 +6,7 @@ import jsonschema
 import numpy as np
 import pytest
 
+import wallkit
 from importers.errors import LimitError
 from wallkit import Balls, Material, Scene, SceneError, Walls
 from wallkit.scene_files import kind_of, load_scene, read_scene, scene_to_json
@@ -183,3 +184,37 @@ def test_a_huge_file_hits_the_limit():
 )
 def test_what_a_file_is_is_told_by_its_content(text, kind):
     assert kind_of(text.encode()) == kind
+
+
+def test_what_acts_beside_gravity_reads_back(schema):
+    walls = Walls.from_polylines([[(0, 0), (9, 0), (9, 9)]])
+    goal = Walls.from_polylines([[(1, 1), (2, 1)]], closed=False, names=["goal"])
+    for acts in ({"rolling_friction": 0.5}, {"drag": 0.25}, {"sensors": goal}):
+        written = scene_to_json(Scene(walls, **acts))
+        jsonschema.validate(written, schema)
+        again = read_scene(json.dumps(written).encode()).scene
+        assert (again.rolling_friction, again.drag) == (acts.get("rolling_friction"), acts.get("drag"))
+        assert (again.sensors is None) == ("sensors" not in acts)
+
+
+def test_walls_become_sensors_by_their_names_and_then_bounce_nothing(schema):
+    text = """
+    sensors = ["goal*"]
+    [[balls]]
+    position = [5, 5]
+    velocity = [0, -1]
+    [[walls]]
+    vertices = [[0, 0], [10, 0], [10, 10], [0, 10]]
+    [[walls]]
+    vertices = [[2, 3], [8, 3]]
+    closed = false
+    name = "goal-left"
+    """
+    jsonschema.validate(tomllib.loads(text), schema)
+    scene = read_scene(text.encode()).scene
+    assert (len(scene.walls), scene.sensors.names) == (1, ("goal-left",))
+    run = wallkit.simulate(scene, until=6.0)
+    assert run.contacts["time"].tolist() == [2.0, 5.0]
+    assert [wallkit.Kind(kind).label for kind in run.contacts["kind"]] in (["enter", "edge"], ["exit", "edge"])
+    with pytest.raises(SceneError, match="no wall has a name or layer like 'gaol'"):
+        read_scene(text.replace("goal*", "gaol").encode())

@@ -73,3 +73,27 @@ def test_under_gravity_a_track_falls_slides_and_rests_as_the_run_says():
     s = flight.until - flight.time
     reached = flight.position + flight.velocity * s[:, None] + flight.pull * (s * s / 2)[:, None]
     assert np.allclose(reached, flight.target, rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("acts", [{"rolling_friction": 0.4}, {"drag": 0.3}], ids=str)
+def test_slowed_balls_are_where_the_run_says_and_their_paths_are_straight(acts):
+    walls = wallkit.Walls.from_polylines([[(0, 0), (10, 0), (10, 7), (0, 7)]])
+    scene = wallkit.Scene(walls, wallkit.Balls([[3, 3]], [[3.0, 1]], 0.25), **acts)
+    run = wallkit.simulate(scene, until=20.0)
+    flight = tracks(run)
+    for t in np.linspace(0, 20, 61):
+        at = np.flatnonzero(flight.time <= t)[-1]
+        s = min(t, flight.until[at]) - flight.time[at]
+        felt = -np.expm1(-flight.drag * s) / flight.drag if flight.drag else s
+        mine = flight.position[at] + flight.velocity[at] * felt + flight.pull[at] * s * s / 2
+        assert np.allclose(mine, run.position(t)[0], rtol=0, atol=1e-9)
+
+
+def test_a_sensor_parts_no_stretch():
+    walls = wallkit.Walls.from_polylines([[(0, 0), (10, 0), (10, 7), (0, 7)]])
+    goal = wallkit.Walls.from_polylines([[(0, 3), (10, 3)]], closed=False)
+    balls = wallkit.Balls([[5, 5]], [[0.3, -2.0]], 0.25)
+    plain = tracks(wallkit.simulate(wallkit.Scene(walls, balls), until=20.0))
+    sensed = wallkit.simulate(wallkit.Scene(walls, balls, sensors=goal), until=20.0)
+    assert Kind.ENTER in sensed.contacts["kind"]
+    assert np.array_equal(tracks(sensed).time, plain.time)

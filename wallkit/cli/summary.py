@@ -45,9 +45,13 @@ def _range(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> str:
 
 def bounce_words(run: Run) -> str:
     """Say how many bounces there were, in what time, and how many of them at corners."""
-    corners = int(np.count_nonzero(run.contacts["kind"]))
+    from wallkit.run import Kind
+
+    kinds = run.contacts["kind"]
+    corners, crossings = int(np.count_nonzero(kinds == Kind.VERTEX)), int(np.count_nonzero(kinds >= Kind.ENTER))
     last = float(run.final["time"].max(initial=0.0))
-    return f"{len(run.contacts):,} in {last:.6g} s" + (f", {corners:,} of them at corners" if corners else "")
+    words = f"{int(run.bounces.sum()):,} in {last:.6g} s" + (f", {corners:,} of them at corners" if corners else "")
+    return words + (f"; {counted(crossings, 'crossing')} of sensors" if crossings else "")
 
 
 def ending_words(run: Run) -> str:

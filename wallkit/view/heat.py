@@ -42,7 +42,12 @@ def spent(flight: Tracks, frame: Frame, size: float, shape: tuple[int, int]) -> 
     place = np.arange(len(stretch)) - np.repeat(np.cumsum(count) - count, count)
     share = (place + 0.5) / count[stretch]
     s = share * duration[stretch]
-    at = flight.position[stretch] + flight.velocity[stretch] * s[:, None] + flight.pull[stretch] * (s * s / 2)[:, None]
+    felt = s if flight.drag == 0.0 else -np.expm1(-flight.drag * s) / flight.drag  # the time that the way is worth
+    at = (
+        flight.position[stretch]
+        + flight.velocity[stretch] * felt[:, None]
+        + flight.pull[stretch] * (s * s / 2)[:, None]
+    )
     pixels = (frame.points(at) - (frame.left, frame.top)) / size
     good = np.isfinite(pixels).all(axis=1)
     column, line = np.floor(pixels[good]).astype(np.int64).T

@@ -13,6 +13,7 @@ from wallkit.scene import Scene
 from wallkit.view.canvas import Bitmap, Canvas, Command, Disc, Label, Shape
 from wallkit.view.frame import Box, Frame, united, walls_box
 from wallkit.view.heat import heat_rows
+from wallkit.view.outline import wall_path
 from wallkit.view.picture import (
     MARGIN,
     WIDTH,
@@ -113,6 +114,10 @@ def _scene_base(scene: Scene, title: str, width: float) -> tuple[Canvas, Frame]:
     position, _, _ = arrays_of(scene.balls)
     canvas, frame = started(scene_box(scene), scene.walls.y_axis == "up", title=title, width=width)
     draw_walls(canvas, scene.walls, frame, free=position)
+    for index in range(len(scene.sensors) if scene.sensors is not None else 0):
+        assert scene.sensors is not None
+        told = "sensor " + (scene.sensors.names[index] or str(index))
+        canvas.add(Shape("hidden", wall_path(scene.sensors, index, frame), title=told))
     return canvas, frame
 
 
@@ -147,7 +152,8 @@ def draw_paths(canvas: Canvas, flight: Tracks, steps: NDArray[np.int64], frame: 
     end = frame.points(end)
     # The control point of p + v s + a s^2 / 2 over s in [0, T] is p + v T / 2, where its end tangents meet.
     middle = frame.points(flight.position + flight.velocity * (duration / 2)[:, None])
-    bent: list[bool] = (flight.pull != 0.0).any(axis=1).tolist()
+    across = flight.velocity[:, 0] * flight.pull[:, 1] - flight.velocity[:, 1] * flight.pull[:, 0]
+    bent: list[bool] = (across != 0.0).tolist()
     by_step: dict[int, list[Command]] = {}
     joined = np.concatenate([[False], (flight.contact[1:] >= 0) & (steps[1:] == steps[:-1]) & ~out[:-1]])
     for index, step in enumerate(steps.tolist()):

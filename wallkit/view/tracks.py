@@ -20,7 +20,9 @@ IntArray = NDArray[np.int64]
 
 @dataclass(slots=True)
 class Tracks:
-    """Stretches between contacts: position p + v s + a s^2 / 2 for the time s since the stretch began.
+    """Stretches between contacts: p + v s + a s^2 / 2 for the time s since the stretch began.
+
+    With drag k it is p + v (1 - exp(-k s)) / k. Crossings of sensors are no contacts here.
 
     Attributes:
         offsets: (n + 1,) the stretches of ball b are ``offsets[b]`` to ``offsets[b + 1]``; the first begins at the
@@ -30,7 +32,9 @@ class Tracks:
         position: (m, 2) of the centre where it begins.
         target: (m, 2) where it ends: the next contact's centre, or the ball's last place.
         velocity: (m, 2) with which it begins.
-        pull: (m, 2) acceleration: gravity, or the part of it along the wall on which the ball slides.
+        pull: (m, 2) acceleration: gravity, or the part of it along the wall on which the ball slides, or rolling
+            friction, against the velocity.
+        drag: the rate k, or 0.
         contact: (m,) index into ``run.contacts`` of the contact it begins with, -1 for the start.
         radius: (n,) of the balls.
         whole: the number of stretches before thinning.
@@ -43,6 +47,7 @@ class Tracks:
     target: FloatArray
     velocity: FloatArray
     pull: FloatArray
+    drag: float
     contact: IntArray
     radius: FloatArray
     whole: int
@@ -69,8 +74,10 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
     start, velocity, radius = arrays_of(run.scene.balls)
     count = len(start)
     contacts = run.contacts
-    order = np.argsort(contacts["ball"], kind="stable")  # contacts come in time order, at least ball by ball
-    per_ball = np.bincount(contacts["ball"], minlength=count).astype(np.int64) + 1
+    turns = np.flatnonzero(contacts["kind"] < Kind.ENTER)  # a sensor changes no flight
+    # Contacts come in order of time; a stable sort by ball keeps that for each.
+    order = turns[np.argsort(contacts["ball"][turns], kind="stable")]
+    per_ball = np.bincount(contacts["ball"][turns], minlength=count).astype(np.int64) + 1
     whole = int(per_ball.sum())
     keep = per_ball if limit is None or whole <= limit else _fair(per_ball, limit)
     first = np.concatenate([[0], np.cumsum(per_ball - 1)])[:-1]
@@ -94,14 +101,19 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
         position=column(("x", "y"), contact, start[ball]),
         target=column(("x", "y"), following, final[ball]),
         velocity=column(("vx", "vy"), contact, velocity[ball]),
-        pull=_pulls(run, contact),
+        pull=_pulls(run, contact, column(("vx", "vy"), contact, velocity[ball])),
+        drag=run.scene.drag or 0.0,
         contact=contact.astype(np.int64),
         radius=radius,
         whole=whole,
     )
 
 
-def _pulls(run: Run, contact: IntArray) -> FloatArray:
+def _pulls(run: Run, contact: IntArray, velocity: FloatArray) -> FloatArray:
+    if run.scene.rolling_friction is not None:
+        speed = np.hypot(*velocity.T)[:, None]
+        direction: FloatArray = np.divide(velocity, speed, out=np.zeros_like(velocity), where=speed > 0)
+        return -run.scene.rolling_friction * direction
     pull = np.tile(np.array(run.scene.gravity or (0.0, 0.0), dtype=np.float64), (len(contact), 1))
     if run.scene.gravity is not None and len(run.contacts):
         begun = run.contacts[contact]
