@@ -88,7 +88,7 @@ def fan(page: Any) -> None:
 def stepping(page: Any) -> None:
     """Stand exactly at a bounce, the normal drawn."""
     opened(page, "Stadium")
-    flying(page, "#shoot", 0.24)
+    flying(page, "#shoot", 0.115)
     page.keyboard.press(".")
     wait(page, "!Wallkit.page.player.asked")
 

@@ -8,6 +8,8 @@ import threading
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from wallkit.cli.play import reader
 from wallkit.samples import samples
@@ -285,3 +287,38 @@ def test_the_last_documents_are_kept_and_no_more(post, room):
     status, answer = post("/api/simulate", {"document": room["id"], "balls": [ball()], "bounces": 1})
     assert status == 422
     assert "open the file again" in answer["error"]
+
+
+ANYTHING = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers(-(10**20), 10**20)
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | st.text(max_size=8),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=6), inner, max_size=3),
+    max_leaves=6,
+)
+KEYS = [
+    "balls",
+    "gravity",
+    "restitution",
+    "tangential_restitution",
+    "until",
+    "bounces",
+    "curves",
+    "tolerance",
+    "what",
+    "name",
+]
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    name=st.sampled_from(["simulate", "walls", "save", "sample"]),
+    change=st.dictionaries(st.sampled_from(KEYS), ANYTHING, max_size=3),
+)
+def test_no_question_breaks_the_server(server, post, name, change):
+    document = post("/api/open?name=room.svg", ROOM)[1]["id"]
+    question = {"document": document, "balls": [ball()], "bounces": 3, "what": "walls"} | change
+    status, answer = post(f"/api/{name}", question)
+    assert status in (200, 422), answer
