@@ -255,3 +255,12 @@ def test_a_dropped_ball_rests_in_the_closed_form_time(wallkit, tmp_path):
     assert json.loads(out)["ending"] == ["at rest"]
     assert json.loads(out)["final"][0]["time"] == pytest.approx(1.35457092, abs=1e-8)
     assert "at rest" in wallkit("simulate", file)[1]
+
+
+def test_a_ball_that_overlaps_a_wall_is_an_error_unless_it_may_settle(wallkit, scene):
+    code, _, err = wallkit("simulate", scene, "--ball", "5,100", "--radius", 10)
+    assert code == 2
+    assert "overlap" in err
+    code, out, _ = wallkit("simulate", scene, "--ball", "5,100", "--radius", 10, "--settle", "--format", "json")
+    assert code == 0
+    assert json.loads(out)["scene"]["balls"][0]["position"] == pytest.approx([10, 100], abs=1e-6)

@@ -67,6 +67,9 @@ def simulate_file(
     radius: Radius = None,
     balls: Count = None,
     seed: Seed = 0,
+    settle: Annotated[
+        bool, typer.Option("--settle", help="Move balls that overlap a wall at the start to the nearest free spot.")
+    ] = False,
     until: Until = None,
     bounces: Bounces = None,
     gravity: Gravity = None,
@@ -105,7 +108,7 @@ def simulate_file(
     )  # fmt: skip
     targets = _targets(out or [], form)
     prepared = prepare(file, wishes)
-    run = _flown(prepared)
+    run = _flown(prepared, settle)
     look = {"colour": colour, "heat": heat, "theme": theme, "seconds": seconds}
     trust = _trust(run)
     for target, kind in targets:
@@ -134,11 +137,11 @@ def _targets(out: list[str], form: Format | None) -> list[tuple[str, Format]]:
     return targets
 
 
-def _flown(prepared: Prepared) -> Run:
+def _flown(prepared: Prepared, settle: bool) -> Run:
     from wallkit.simulation import simulate
 
     with progress_bar("simulating") as report:
-        return simulate(prepared.scene, prepared.until, prepared.bounces, progress=report)
+        return simulate(prepared.scene, prepared.until, prepared.bounces, settle=settle, progress=report)
 
 
 @contextmanager
