@@ -122,6 +122,29 @@ class Layer:
         }
 
 
+@dataclass(frozen=True, slots=True)
+class Artboard:
+    """A page of the drawing program, in the drawing's units and axes; art may lie outside of it.
+
+    Attributes:
+        name: as people see it in their program.
+        x_min: its left edge.
+        y_min: its edge of smallest y.
+        x_max: its right edge.
+        y_max: its edge of largest y.
+    """
+
+    name: str
+    x_min: float
+    y_min: float
+    x_max: float
+    y_max: float
+
+    def to_json(self) -> dict[str, Any]:
+        """Give the artboard as the ``wallkit-drawing`` format has it."""
+        return {"name": self.name, "box": [self.x_min, self.y_min, self.x_max, self.y_max]}
+
+
 @dataclass(slots=True)
 class Drawing(Pictured):
     """A vector file, read: layers, paths with exact segments, and what was left out and why.
@@ -138,6 +161,7 @@ class Drawing(Pictured):
         kind: what the file turned out to be, for people, such as ``"Illustrator 8"`` or ``"SVG"``.
         file: its name as given; ``"-"`` for standard input, ``""`` for text.
         sha256: hex digest of the bytes that were read.
+        artboards: where the file names them (Illustrator CS4 and later).
     """
 
     units: str
@@ -148,6 +172,7 @@ class Drawing(Pictured):
     kind: str = ""
     file: str = ""
     sha256: str = ""
+    artboards: list[Artboard] = field(default_factory=list)
 
     def to_json(self) -> dict[str, Any]:
         """Give the whole as the stable ``wallkit-drawing`` format, version 1."""
@@ -157,6 +182,7 @@ class Drawing(Pictured):
             "kind": self.kind,
             "units": self.units,
             "y_axis": self.y_axis,
+            "artboards": [artboard.to_json() for artboard in self.artboards],
             "layers": [layer.to_json() for layer in self.layers],
             "paths": [path.to_json() for path in self.paths],
             "problems": [problem.to_json() for problem in self.problems],

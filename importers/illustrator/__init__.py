@@ -9,6 +9,7 @@ from importers.drawing import Drawing
 from importers.errors import DrawingError
 from importers.findings import Findings
 from importers.illustrator import findings, scanner
+from importers.illustrator.artboards import find_artboards
 from importers.illustrator.private import PrivatePart, find_private
 from importers.illustrator.reader import ArtReader
 from importers.illustrator.text import alphabet, decode
@@ -88,7 +89,9 @@ def read_operators(source: Source, start: int, stop: int, file: str) -> Drawing:
             fix="save it with Illustrator's editing capabilities, or convert it: pstoedit -f plot-svg in.eps out.svg",
             file=file,
         )
-    return Drawing("pt", "up", art.layers, art.paths, art.findings.problems(source), file=file)
+    artboards = find_artboards(source.data, start)
+    problems = art.findings.problems(source)
+    return Drawing("pt", "up", art.layers, art.paths, problems, file=file, artboards=artboards)
 
 
 def kind_of(data: bytes, start: int = 0) -> str:

@@ -212,3 +212,20 @@ def test_files_of_other_programs():
     )
     assert read_illustrator(corel).kind == "Illustrator operators by CorelDRAW"
     assert read_illustrator(corel).problems == []
+
+
+def test_artboards_are_listed_with_their_names():
+    entry = (
+        "%_/Dictionary :\r%_({name}) /UnicodeString (Name) ,\r%_7991 8041 /RealPoint\r%_ (RulerOrigin) ,\r"
+        "%_{right} {bottom} /RealPointRelToROrigin\r%_ (PositionPoint2) ,\r"
+        "%_{left} {top} /RealPointRelToROrigin\r%_ (PositionPoint1) ,\r%_; ,\r"
+    )
+    boards = entry.format(name="Main \\(1\\)", left=0, top=300, right=400.5, bottom=-20)
+    boards += entry.format(name="Square", left=450, top=300, right=650, bottom=100)
+    setup = f"%AI9_BeginDocumentData\r%_/Array :\r{boards}%_; (ArtboardArray) ,\r%AI9_EndDocumentData\r%%EndSetup\r"
+    drawing = read_illustrator(b"%!PS-Adobe-3.0\r" + setup.encode() + layer(SQUARE))
+    assert [(board.name, board.x_min, board.y_min, board.x_max, board.y_max) for board in drawing.artboards] == [
+        ("Main (1)", 0, -20, 400.5, 300),
+        ("Square", 450, 100, 650, 300),
+    ]
+    assert drawing.to_json()["artboards"][1] == {"name": "Square", "box": [450, 100, 650, 300]}
