@@ -70,21 +70,21 @@ add(
     "Lyapunov exponent, stadium 2",
     "statistics",
     "R = 1, straight 2: 0.4304(3) per time",
-    partial(_lyapunov, scenes.stadium(2.0, 1.0), 0.4304, 0.0006, (0.31, 0.17), 60_000),
+    partial(_lyapunov, scenes.stadium(2.0, 1.0), 0.4304, 0.0006, (0.31, 0.17), 600_000),
     slow=True,
 )
 add(
     "Lyapunov exponent, stadium 1",
     "statistics",
     "R = 1, straight 1: 0.4603(3) per time",
-    partial(_lyapunov, scenes.stadium(1.0, 1.0), 0.4603, 0.0006, (0.31, 0.17), 60_000),
+    partial(_lyapunov, scenes.stadium(1.0, 1.0), 0.4603, 0.0006, (0.31, 0.17), 600_000),
     slow=True,
 )
 add(
     "Lyapunov exponent, Sinai",
     "statistics",
     "square of side 1, pillar of radius 1/4: 1.715(6) per time",
-    partial(_lyapunov, scenes.sinai(1.0, 0.25), 1.715, 0.012, (0.4, 0.35), 60_000),
+    partial(_lyapunov, scenes.sinai(1.0, 0.25), 1.715, 0.012, (0.4, 0.35), 600_000),
     slow=True,
 )
 
