@@ -151,8 +151,8 @@ def test_an_eroded_square_is_the_smaller_square():
     assert [part.area for part in inside] == pytest.approx([64], rel=1e-4)
 
 
-def test_no_walls_and_a_single_line_have_no_rooms():
-    for walls in (as_walls(), as_walls([(0, 0), (1, 1)])):
+def test_no_walls_a_point_and_a_single_line_have_no_rooms():
+    for walls in (as_walls(), as_walls([(3, 4), (3, 4)], closed=True), as_walls([(0, 0), (1, 1)])):
         found = free_space(walls)
         assert found.gaps == []
         assert not len(found.closed_rooms)

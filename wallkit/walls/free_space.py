@@ -33,7 +33,7 @@ from wallkit.walls.walls import Walls
 MOST_EDGES = 200_000
 MOST_ROOMS = 100  # of more the circles are left as found, good to a third
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
-_STEPS, _DIRECTIONS = 48, 12
+_STEPS, _DIRECTIONS, _FINE = 60, 12, 1e-5
 _POINTS = 2_000
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
@@ -103,8 +103,9 @@ def free_space(walls: Walls, narrow: float = _NARROW, free: FloatArray | None = 
     """
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
     edges = Edges(vertices, offsets, walls.closed)
-    if not len(edges) or len(edges) > MOST_EDGES:
-        return FreeSpace([], np.empty((0, 3)), not len(edges))
+    nothing = not len(edges) or diagonal(vertices) == 0
+    if nothing or len(edges) > MOST_EDGES:
+        return FreeSpace([], np.empty((0, 3)), nothing)
     a, b = _noded(edges)
     mesh = triangulate(a, b)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
@@ -135,15 +136,18 @@ def _roomier(found: FreeSpace, edges: Edges, narrow: float) -> FreeSpace:
     radius = _clearance(tree, places)
     step = radius * min(0.5, 1 - narrow)
     for round_ in range(_STEPS):
+        on = np.flatnonzero(step > _FINE * radius)
+        if not len(on):
+            break
         angle = 2.4 * round_ + np.arange(_DIRECTIONS) * (2 * np.pi / _DIRECTIONS)  # turned on every time
         around = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        trial = places[:, None] + step[:, None, None] * around
+        trial = places[on, None] + step[on, None, None] * around
         size = _clearance(tree, trial.reshape(-1, 2)).reshape(-1, _DIRECTIONS)
-        best, rows = size.argmax(axis=1), np.arange(len(places))
-        up = size[rows, best] > radius
-        places = np.where(up[:, None], trial[rows, best], places)
-        radius = np.maximum(radius, size[rows, best])
-        step = np.where(up, step, step * 0.7)
+        best, rows = size.argmax(axis=1), np.arange(len(on))
+        up = size[rows, best] > radius[on]
+        places[on] = np.where(up[:, None], trial[rows, best], places[on])
+        radius[on] = np.maximum(radius[on], size[rows, best])
+        step[on] = np.where(up, step[on], step[on] * 0.6)
     gaps = [
         replace(gap, room=(float(x), float(y)), room_radius=float(r))
         for gap, (x, y), r in zip(found.gaps, places, radius, strict=False)
