@@ -14,13 +14,14 @@ from wallkit.clearance import check_starts
 from wallkit.damping import refuse_damping
 from wallkit.kernels.flight import fly_all
 from wallkit.kernels.jit import compiled
-from wallkit.kernels.model import STATE_SIZE
+from wallkit.kernels.lockstep import LANES, MOST_EDGES, SCRATCH, fly_in_step
+from wallkit.kernels.model import STATE_SIZE, Model
 from wallkit.modelling import Modelled
 from wallkit.run import Ending
 from wallkit.scene import FloatArray, Scene
 from wallkit.simulation import START, initial_states, is_gone, limits
 
-CHUNK = 512
+CHUNK = 2048
 """Balls a task: enough to forget the cost of a task, few enough to share the work out evenly."""
 
 
@@ -79,17 +80,29 @@ def survey(
     states = initial_states(modelled, position, velocity)
     counts = np.tile(np.array(START, dtype=np.int64), (len(states), 1))
     work, model, no_log = compiled(fly_all), modelled.model, np.empty(0)
+    in_step = compiled(fly_in_step) if suits_lockstep(model, modelled.radii) else None
 
     def fly_chunk(first: int) -> NDArray[np.int64]:
         part = slice(first, first + CHUNK)
         hits = np.zeros(len(scene.walls), dtype=np.int64)
         radii, chunk_states, chunk_counts = modelled.radii[part], states[part], counts[part]
+        if in_step is not None:
+            scratch, balls = np.empty(SCRATCH), np.empty(LANES, dtype=np.int64)
+            in_step(model, radii[0], chunk_states, chunk_counts, limit_time, limit_bounces, hits, scratch, balls)
+            return hits
         work(model, model.gravity, radii, chunk_states, chunk_counts, limit_time, limit_bounces, hits, no_log, 1)
         return hits
 
     starts = range(0, len(states), CHUNK)
     hits = sum(_map(fly_chunk, starts, threads, executor), np.zeros(len(scene.walls), dtype=np.int64))
     return _totals(scene, modelled, states, counts, hits)
+
+
+def suits_lockstep(model: Model, radii: FloatArray) -> bool:
+    """Few lines, one radius, and nothing else that acts."""
+    features = (model.grid, model.arcs, model.gravity, model.restitution, model.one_sided)
+    few = len(model.line_ids) <= MOST_EDGES
+    return few and all(feature is None for feature in features) and len(radii) > 0 and bool((radii == radii[0]).all())
 
 
 def _map(task: Any, starts: range, threads: int | None, executor: Executor | None) -> list[NDArray[np.int64]]:
