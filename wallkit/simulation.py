@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from wallkit.clearance import check_starts, settled
 from wallkit.damping import Slowed, damping_of, refuse_damping
-from wallkit.kernels.flight import fly, fly_all
+from wallkit.kernels.flight import TOLERANCE, fly, fly_all
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.model import FREE, LOG_STRIDE, NO_HIT, RUNNING, STATE_SIZE, Counts
 from wallkit.modelling import Modelled
@@ -261,12 +261,7 @@ class Flights:
 
 
 def initial_states(modelled: Modelled, position: FloatArray, velocity: FloatArray) -> FloatArray:
-    """(n, STATE_SIZE) states of balls at rest on the clock, local coordinates.
-
-    The last column is the tolerance of positions: a contact point p + t v is off by at most some 8 roundings
-    (2^-53) of coordinates up to the scene's extent, and (p - a).n by as many. 64 of them, 2^-47, are on the safe
-    side and still far below what a drawing can mean.
-    """
+    """(n, STATE_SIZE) states of balls at rest on the clock, local coordinates."""
     states = np.zeros((len(position), STATE_SIZE))
     states[:, 0:2] = position - modelled.origin
     states[:, 2:4] = velocity
@@ -274,7 +269,7 @@ def initial_states(modelled: Modelled, position: FloatArray, velocity: FloatArra
     if (gravity := modelled.model.gravity) is not None:
         states[:, 6] -= 2.0 * (gravity[0] * states[:, 0] + gravity[1] * states[:, 1])
     states[:, 7:9], states[:, 9:11] = states[:, 0:2], velocity
-    states[:, 11] = 2.0**-47 * np.maximum(np.abs(states[:, 0:2]).max(axis=1, initial=0.0), modelled.model.extent)
+    states[:, 11] = TOLERANCE * np.maximum(np.abs(states[:, 0:2]).max(axis=1, initial=0.0), modelled.model.extent)
     return states
 
 

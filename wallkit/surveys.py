@@ -12,16 +12,15 @@ from numpy.typing import NDArray
 
 from wallkit.clearance import check_starts
 from wallkit.damping import refuse_damping
-from wallkit.kernels.flight import fly_all
+from wallkit.kernels.flight import begin_all, end_all, fly_all
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.lockstep import LANES, MOST_EDGES, SCRATCH, fly_in_step
 from wallkit.kernels.model import STATE_SIZE, Model
 from wallkit.modelling import Modelled
-from wallkit.run import Ending
 from wallkit.scene import FloatArray, Scene
-from wallkit.simulation import START, initial_states, is_gone, limits
+from wallkit.simulation import START, initial_states, limits
 
-CHUNK = 2048
+LEAST, MOST = 1024, 65_536
 """Balls a task: enough to forget the cost of a task, few enough to share the work out evenly."""
 
 
@@ -76,14 +75,16 @@ def survey(
     if check:
         check_starts(scene)
     modelled = Modelled(scene)
-    position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
-    states = initial_states(modelled, position, velocity)
-    counts = np.tile(np.array(START, dtype=np.int64), (len(states), 1))
+    states, counts = _begin(scene, modelled)
     work, model, no_log = compiled(fly_all), modelled.model, np.empty(0)
     in_step = compiled(fly_in_step) if suits_lockstep(model, modelled.radii) else None
 
+    threads = threads if threads is not None else os.cpu_count() or 1
+    shares = 1 if threads <= 1 and executor is None else 8 * max(threads, 2)
+    chunk = min(max(-(-len(states) // shares), LEAST), MOST)
+
     def fly_chunk(first: int) -> NDArray[np.int64]:
-        part = slice(first, first + CHUNK)
+        part = slice(first, first + chunk)
         hits = np.zeros(len(scene.walls), dtype=np.int64)
         radii, chunk_states, chunk_counts = modelled.radii[part], states[part], counts[part]
         if in_step is not None:
@@ -93,7 +94,7 @@ def survey(
         work(model, model.gravity, radii, chunk_states, chunk_counts, limit_time, limit_bounces, hits, no_log, 1)
         return hits
 
-    starts = range(0, len(states), CHUNK)
+    starts = range(0, len(states), chunk)
     hits = sum(_map(fly_chunk, starts, threads, executor), np.zeros(len(scene.walls), dtype=np.int64))
     return _totals(scene, modelled, states, counts, hits)
 
@@ -105,29 +106,33 @@ def suits_lockstep(model: Model, radii: FloatArray) -> bool:
     return few and all(feature is None for feature in features) and len(radii) > 0 and bool((radii == radii[0]).all())
 
 
-def _map(task: Any, starts: range, threads: int | None, executor: Executor | None) -> list[NDArray[np.int64]]:
+def _map(task: Any, starts: range, threads: int, executor: Executor | None) -> list[NDArray[np.int64]]:
     if executor is not None:
         return list(executor.map(task, starts))
-    threads = threads if threads is not None else os.cpu_count() or 1
     if threads <= 1 or len(starts) <= 1:
         return [task(first) for first in starts]
     with ThreadPoolExecutor(threads) as pool:
         return list(pool.map(task, starts))
 
 
+def _begin(scene: Scene, modelled: Modelled) -> tuple[FloatArray, NDArray[np.int64]]:
+    position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
+    if modelled.model.gravity is not None:
+        states = initial_states(modelled, position, velocity)
+        return states, np.tile(np.array(START, dtype=np.int64), (len(states), 1))
+    states, counts = np.empty((len(position), STATE_SIZE)), np.empty((len(position), len(START)), dtype=np.int64)
+    x0, y0 = modelled.origin.tolist()
+    compiled(begin_all)(position, velocity, x0, y0, modelled.model.extent, states, counts, np.array(START))
+    return states, counts
+
+
 def _totals(
     scene: Scene, modelled: Modelled, states: FloatArray, counts: NDArray[np.int64], hits: NDArray[np.int64]
 ) -> Totals:
-    states = states.reshape(-1, STATE_SIZE)
-    position = states[:, 0:2] + modelled.origin
-    ending = counts[:, 2].astype(np.uint8)
-    gone = is_gone(scene.walls.box(), position, states[:, 2:4], modelled.radii)
-    ending[(ending == Ending.TIME_REACHED) & gone] = Ending.LEFT_SCENE
-    return Totals(
-        bounces=counts[:, 1].copy(),
-        position=position,
-        velocity=states[:, 2:4].copy(),
-        time=states[:, 4] + states[:, 5],
-        hits=hits,
-        ending=ending,
-    )
+    count = len(states)
+    position, velocity, time = np.empty((count, 2)), np.empty((count, 2)), np.empty(count)
+    bounces, ending = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.uint8)
+    x0, y0 = modelled.origin.tolist()
+    box = np.array(scene.walls.box())
+    compiled(end_all)(states, counts, modelled.radii, x0, y0, box, position, velocity, time, bounces, ending)
+    return Totals(bounces, position, velocity, time, hits, ending)

@@ -149,3 +149,22 @@ def test_a_duplicate_wall_changes_nothing():
     twice = wallkit.simulate(wallkit.Scene(wallkit.Walls.from_polylines([box, box[::-1]]), balls), bounces=300).contacts
     np.testing.assert_array_equal(once["x"], twice["x"])
     np.testing.assert_array_equal(once["vx"], twice["vx"])
+
+
+@pytest.mark.parametrize("radius", [0.0, 4.0])
+@pytest.mark.parametrize("limits", [{"until": 9.0}, {"bounces": 60}, {"until": 30.0, "bounces": 40}])
+def test_balls_in_step_have_the_bits_of_balls_alone(radius, limits):
+    rng = np.random.default_rng(31)
+    polygon = random_polygon(rng, 11, ragged=0.4)
+    position, velocity = inside_balls(rng, polygon, 700, radius)
+    corner = polygon[rng.integers(0, 11, 300)]
+    velocity[:300] = corner - position[:300]  # exact corners too
+    scene = wallkit.Scene(wallkit.Walls.from_polylines([polygon]), wallkit.Balls(position, velocity, radius))
+    many = wallkit.survey(scene, **limits)
+    run = wallkit.simulate(scene, **limits)
+    np.testing.assert_array_equal(many.bounces, run.bounces)
+    np.testing.assert_array_equal(many.position[:, 0], run.final["x"])
+    np.testing.assert_array_equal(many.velocity[:, 1], run.final["vy"])
+    np.testing.assert_array_equal(many.time, run.final["time"])
+    assert many.ending.tolist() == list(run.ending)
+    assert many.hits.sum() == len(run.contacts)
