@@ -285,6 +285,16 @@ def test_the_ball_is_placed_by_a_click(room, until):
     assert room.evaluate("Wallkit.page.aim.placing") is False
 
 
+def test_a_ball_in_a_wall_is_told_quietly(opened, server, drop, until):
+    page = opened(server.url, expected=["422"])
+    drop(page, "room.svg", ROOM)
+    page.keyboard.press("p")
+    page.mouse.click(*on_screen(page, 250, 108))
+    until(page, "!Wallkit.page.foretelling.busy && !document.getElementById('toast').hidden")
+    assert "overlaps" in page.locator("#toast").inner_text()
+    assert page.evaluate("Wallkit.page.aim.foretold") is None
+
+
 def test_walls_are_made_again_by_tolerance_and_curves(room, until):
     edges = room.evaluate("Wallkit.page.document.walls.edges")
     room.get_by_label("Lines").check()

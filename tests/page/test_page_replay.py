@@ -1,5 +1,6 @@
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -77,6 +78,27 @@ def test_falling_sliding_and_resting_balls_are_drawn_where_the_library_says(show
     for time in [*np.linspace(0.0, 40.0, 60), *run.contacts["time"][::7]]:
         for ball, place in enumerate(run.position(time)):
             assert drawn_at(page, ball, float(time)) == pytest.approx(expected_at(page, place), abs=1e-6)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("slows", [{"rolling_friction": 9.0}, {"drag": 0.2}])
+def test_slowed_balls_are_drawn_where_the_library_says(shown, slows):
+    run = simulate(replace(scene(balls=3), **slows), until=40.0)
+    page = shown(run)
+    for time in [*np.linspace(0.0, 40.0, 40), *run.contacts["time"][::5]]:
+        for ball, place in enumerate(run.position(time)):
+            assert drawn_at(page, ball, float(time)) == pytest.approx(expected_at(page, place), abs=1e-6)
+
+
+@pytest.mark.browser
+def test_sensors_are_drawn_and_change_no_flight(shown):
+    gate = Walls.from_polylines([[(100, 0), (100, 300)]], closed=False, names=["gate"])
+    run = simulate(replace(scene(), sensors=gate), until=20.0)
+    assert Kind.EXIT in run.contacts["kind"]
+    page = shown(run)
+    assert page.evaluate("Wallkit.replay.player.picture.sensors.count") == 1
+    for time in np.linspace(0.0, 20.0, 21):
+        assert drawn_at(page, 0, time) == pytest.approx(expected_at(page, run.position(time)[0]), abs=1e-6)
 
 
 @pytest.mark.browser

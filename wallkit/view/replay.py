@@ -38,7 +38,7 @@ def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS) 
     data = {
         "title": name,
         "colours": look.colours(),
-        "walls": walls_table(run.scene.walls, starts(run)[:, :2]),
+        "walls": walls_table(run.scene.walls, starts(run)[:, :2], run.scene.sensors),
         "run": run_table(shown, left_out=left_out),
         "box": whole_box(run),
     }

@@ -159,7 +159,7 @@ class Answers:
             "drawn": opened.drawing is not None,
             "curves": document.options.get("curves", "arcs"),
             "tolerance": walls.tolerance,
-            "walls": walls_table(walls, begin[:, :2]),
+            "walls": walls_table(walls, begin[:, :2], opened.scene.sensors),
             "problems": self.problems_table(document),
             "balls": balls_table(opened.scene.balls),
             "gravity": opened.scene.gravity,

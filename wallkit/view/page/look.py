@@ -10,7 +10,7 @@ from wallkit.view.theme import MATERIALS, RAMP_STEPS, Theme, colour, ramp
 # Scripts in the order in which they build on one another.
 SHARED_SCRIPTS = ("motion.js", "stage.js", "walls.js", "player.js", "readout.js", "controls.js")
 
-_NAMES = ("paper", "ink", "muted", "outline", "normal", "error", "warning", "info",
+_NAMES = ("paper", "ink", "muted", "outline", "hidden", "normal", "error", "warning", "info",
           *(f"material{index}" for index in range(MATERIALS)))  # fmt: skip
 _THEMES: tuple[Theme, Theme] = ("light", "dark")
 

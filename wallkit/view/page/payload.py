@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wallkit.run import Ending, Run
+from wallkit.run import Ending, Kind, Run
 from wallkit.view.frame import walls_box
 from wallkit.view.outline import solid_areas
 from wallkit.view.picture import shades
@@ -36,12 +36,13 @@ def column(values: ArrayLike, kind: str) -> dict[str, str]:
     return {"type": kind, "data": base64.b64encode(packed.tobytes()).decode("ascii")}
 
 
-def walls_table(walls: Walls, free: FloatArray | None = None) -> Table:
+def walls_table(walls: Walls, free: FloatArray | None = None, sensors: Walls | None = None) -> Table:
     """Give walls as static/walls.js reads them.
 
     Args:
         walls: any walls.
         free: (n, 2) places that are not material, such as the balls'; they decide which side of a room is filled.
+        sensors: drawn dashed; crossings of them change no flight, and are not in :func:`run_table`.
     """
     shade = shades(walls)
     areas = solid_areas(walls, np.empty((0, 2)) if free is None else free)
@@ -60,6 +61,7 @@ def walls_table(walls: Walls, free: FloatArray | None = None) -> Table:
         "edges": len(walls.edge_starts),
         "y_axis": walls.y_axis,
         "units": walls.units,
+        "sensors": walls_table(sensors) if sensors is not None and len(sensors) else None,
     }
 
 
@@ -71,7 +73,7 @@ def run_table(run: Run, *, left_out: str = "", horizon: bool = True) -> Table:
         left_out: a sentence on what of the run is not in it, for people.
         horizon: say how far a single ball's run can be trusted.
     """
-    contacts, final = run.contacts, run.final
+    contacts, final = run.contacts[run.contacts["kind"] < Kind.ENTER], run.final  # a sensor changes no flight
     start = starts(run)
     full = len(contacts) <= FULL_PRECISION_CONTACTS
     real = "f8" if full else "f4"
@@ -79,6 +81,8 @@ def run_table(run: Run, *, left_out: str = "", horizon: bool = True) -> Table:
     return {
         "balls": len(final),
         "gravity": list(run.scene.gravity) if run.scene.gravity is not None else None,
+        "rolling_friction": run.scene.rolling_friction,
+        "drag": run.scene.drag,
         "radius": column(run.scene.balls.radius, "f8"),
         "start": {name: column(start[:, index], "f8") for index, name in enumerate(("x", "y", "vx", "vy"))},
         "end": {name: column(final[name], "f8") for name in ("time", "x", "y", "vx", "vy")},

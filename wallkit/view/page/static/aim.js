@@ -157,7 +157,7 @@
         ctx.globalAlpha = 0.95 - (0.75 * k) / (last + 1);
         const f = motion.flight(0, k, FLIGHT);
         ctx.beginPath();
-        W.traceFlight(ctx, this.stage, f, f.until - f.time);
+        W.traceFlight(ctx, this.stage, motion, f, f.until - f.time);
         ctx.stroke();
       }
       ctx.setLineDash([]);

@@ -33,6 +33,8 @@
     constructor(run) {
       this.balls = run.balls;
       this.gravity = run.gravity;
+      this.friction = run.rolling_friction;
+      this.drag = run.drag;
       this.start = columns(run.start);
       this.end = columns(run.end);
       this.ending = run.ending;
@@ -114,16 +116,31 @@
       return this.ending[ball] === "left the scene" ? Infinity : this.end.time[ball];
     }
 
-    // Position and velocity at t: p + v dt + a dt^2 / 2 and v + a dt, from the contact before t.
+    // Position and velocity at t, from the contact before t.
     state(ball, t, into = {}) {
       this.flight(ball, this.bouncesOf(ball, t), into);
       into.over = t > into.until;
-      const dt = Math.max(0, Math.min(t, into.until) - into.time);
-      into.x += dt * (into.vx + 0.5 * into.ax * dt);
-      into.y += dt * (into.vy + 0.5 * into.ay * dt);
-      into.vx += into.ax * dt;
-      into.vy += into.ay * dt;
-      return into;
+      return this.carry(into, Math.max(0, Math.min(t, into.until) - into.time));
+    }
+
+    // Carries a state on: p + v dt + a dt^2 / 2 and v + a dt. Rolling friction f slows down by f until the ball
+    // stands, drag k gives p + v (1 - exp(-k dt)) / k; both leave the path straight.
+    carry(state, dt) {
+      const speed = Math.hypot(state.vx, state.vy);
+      let [way, kept] = [dt, 1]; // how much of v is gone through, and what is left of it
+      if (this.friction && speed > 0) {
+        const rolling = Math.min(dt, speed / this.friction);
+        way = rolling * (1 - (0.5 * this.friction * rolling) / speed);
+        kept = 1 - (this.friction * rolling) / speed;
+      } else if (this.drag) {
+        way = -Math.expm1(-this.drag * dt) / this.drag;
+        kept = Math.exp(-this.drag * dt);
+      }
+      state.x += way * state.vx + 0.5 * state.ax * dt * dt;
+      state.y += way * state.vy + 0.5 * state.ay * dt * dt;
+      state.vx = kept * state.vx + state.ax * dt;
+      state.vy = kept * state.vy + state.ay * dt;
+      return state;
     }
 
     // Energy per mass in (units/s)^2: v^2 / 2 - g . x, the height counted from the lowest corner of a box.

@@ -236,7 +236,7 @@
     traceFlight(ctx, ball, k) {
       const { motion, stage } = this;
       const f = motion.flight(ball, k, FLIGHT);
-      W.traceFlight(ctx, stage, f, Math.min(f.until, this.time) - f.time);
+      W.traceFlight(ctx, stage, motion, f, Math.min(f.until, this.time) - f.time);
     }
 
     drawGhosts(ctx, ball, ghosts) {
@@ -309,12 +309,12 @@
   const FLIGHT = {};
 
   // Adds a flight's path: from p with v for `span` seconds. The control point of the parabola is p + v span / 2.
-  W.traceFlight = (ctx, stage, f, span) => {
+  W.traceFlight = (ctx, stage, motion, f, span) => {
     if (!(span > 0)) return;
     const far = Number.isFinite(span) ? span : (4 * (stage.width + stage.height)) / stage.scale / Math.max(Math.hypot(f.vx, f.vy), 1e-300);
     const [ax, ay] = [stage.screenX(f.x), stage.screenY(f.y)];
-    const bx = stage.screenX(f.x + far * (f.vx + 0.5 * f.ax * far));
-    const by = stage.screenY(f.y + far * (f.vy + 0.5 * f.ay * far));
+    const end = motion.carry({ ...f }, far);
+    const [bx, by] = [stage.screenX(end.x), stage.screenY(end.y)];
     if (f.ax !== 0 || f.ay !== 0) {
       ctx.moveTo(ax, ay);
       ctx.quadraticCurveTo(stage.screenX(f.x + 0.5 * far * f.vx), stage.screenY(f.y + 0.5 * far * f.vy), bx, by);

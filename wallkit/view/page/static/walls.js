@@ -23,6 +23,7 @@
       this.box = walls.box;
       this.up = walls.y_axis === "up";
       this.units = walls.units;
+      this.sensors = walls.sensors ? new WallPicture(walls.sensors) : null;
       this.count = this.closed.length;
       this.edges = walls.edges;
       this.boxes = Array.from({ length: this.count }, (_, w) => this.boxOf(w));
@@ -104,6 +105,20 @@
         ctx.stroke();
       }
       if (normals) this.ticks(ctx, stage, colours, seen);
+      this.sensors?.dash(ctx, stage, colours);
+    }
+
+    // Sensors are seen through: dashed outlines without a body.
+    dash(ctx, stage, colours) {
+      ctx.beginPath();
+      for (let w = 0; w < this.count; w++) {
+        if (this.onScreen(stage, this.boxes[w])) line(ctx, this.points(w, stage), stage);
+      }
+      ctx.setLineDash([5, 4]);
+      ctx.lineWidth = 1.2;
+      ctx.strokeStyle = colours.hidden;
+      ctx.stroke();
+      ctx.setLineDash([]);
     }
 
     fill(ctx, stage, colours, points) {
