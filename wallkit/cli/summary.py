@@ -63,25 +63,28 @@ def ending_words(run: Run) -> str:
 
 
 def energy_words(run: Run) -> str:
-    """Say what became of the energy per mass, kinetic and in the field of gravity, of all balls together."""
+    """Say what became of the energy of all balls together, per mass.
+
+    Under gravity it is kinetic and potential energy, the potential one above the lowest point of the walls' box, so
+    that a ball at rest there has none left.
+    """
     position = np.asarray(run.scene.balls.position, dtype=np.float64).reshape(-1, 2)
     velocity = np.asarray(run.scene.balls.velocity, dtype=np.float64).reshape(-1, 2)
     gravity = np.array(run.scene.gravity or (0.0, 0.0))
     final = run.final
     at, moving = np.stack([final["x"], final["y"]], 1), np.stack([final["vx"], final["vy"]], 1)
-    before = (velocity**2).sum(axis=1) / 2
-    after = (moving**2).sum(axis=1) / 2 - (at - position) @ gravity
-    total = float(before.sum())
-    change = float((after - before).sum())
-    # What gravity could give on the way across the scene is the scale where all balls start at rest.
-    scale = total or float(np.abs((at - position) @ gravity).sum())
-    if scale == 0:
-        return "none, the balls do not move"
-    part = change / scale
+    x0, y0, x1, y1 = run.scene.walls.box()
+    lowest = max(float(gravity @ (x, y)) for x in (x0, x1) for y in (y0, y1))
+    before = float(((velocity**2).sum(axis=1) / 2 + lowest - position @ gravity).sum())
+    # The difference is summed ball by ball, so that what cancels does so before it is rounded.
+    change = float(((moving**2).sum(axis=1) / 2 - (velocity**2).sum(axis=1) / 2 - (at - position) @ gravity).sum())
+    if before <= 0:
+        return "none, the balls do not move" if change == 0 else f"{change:+.6g} per mass"
+    part = change / before
+    measured = " (kinetic and potential)" if gravity.any() else ""
     if abs(part) < 1e-9:
-        return f"kept (to {abs(part):.1e})"
-    first = " of the kinetic energy at the start" if gravity.any() and total else ""
-    return f"{'lost' if part < 0 else 'gained'} {abs(part):.2%}{first}"
+        return f"kept{measured}, to {abs(part):.1e}"
+    return f"{1 + part:.2%} left{measured}" if part < 0 else f"gained {part:.2%}{measured}"
 
 
 def drawing_words(run: Run) -> list[str]:
