@@ -172,3 +172,11 @@ def test_the_figure_that_closes_a_gap_is_named():
     ring = [("M", 0, 0), ("L", 50, 0), ("L", 50, 50), ("L", 0, 50), ("L", 0.3, 0.4)], False
     gap = next(p for p in import_walls(drawing(path(ring))).problems if p.code == "gap")
     assert "--snap 0.5" in gap.fix
+
+
+def test_a_thousand_places_are_listed_and_the_rest_is_counted():
+    across = [path(([("M", 0, y), ("L", 50, y)], False)) for y in range(1, 40)]
+    down = [path(([("M", x + 0.5, 0), ("L", x + 0.5, 50)], False)) for x in range(40)]
+    crossings = [p for p in import_walls(drawing(*across, *down)).problems if p.code == "crossing"]
+    assert len(crossings) == 1001
+    assert crossings[-1].message.startswith("560 more")  # 39 * 40 - 1000

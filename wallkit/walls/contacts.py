@@ -37,20 +37,24 @@ class Contacts:
     complete: bool
 
 
-MOST_PAIRS = 20_000_000  # of near edges that are looked at; a tangle beyond that is reported as one
+# Of near edges that are looked at, and of those that cross; a tangle beyond that is reported as one.
+MOST_PAIRS = 20_000_000
+MOST_CROSSINGS = 2_000_000
 
 
 def find_contacts(edges: Edges) -> Contacts:
     """Find all contacts of edges that are not neighbours, and neighbours that fold back onto each other."""
     kinds: list[list[IntArray]] = [[], [], []]
-    looked_at, complete = 0, True
+    looked_at = crossings = 0
+    complete = True
     for first, second in edges.near_pairs():
         looked_at += len(first)
-        if looked_at > MOST_PAIRS:
+        if looked_at > MOST_PAIRS or crossings > MOST_CROSSINGS:
             complete = False
             break
         for kind, rows in zip(kinds, _classify(edges, first, second), strict=True):
             kind.append(np.stack([first[rows], second[rows]], axis=1))
+        crossings += len(kinds[0][-1])
     none = np.empty((0, 2), dtype=np.int64)
     proper, flat, touch = (np.concatenate([none, *kind]) for kind in kinds)
     at = _meeting(edges.a[proper[:, 0]], edges.b[proper[:, 0]], edges.a[proper[:, 1]], edges.b[proper[:, 1]])

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from wallkit.walls.strokes import FloatArray, IntArray
 
-_PORTION = 50_000  # edges; bounds the memory for pairs
+_FIRST_PORTION = 16  # edges; the next portions are as large as the pairs found let expect
+_PAIRS_AT_ONCE = 400_000  # about so many a portion: bounds the memory
 
 
 @dataclass(eq=False)
@@ -93,9 +94,13 @@ class Edges:
 
     def near_pairs(self) -> Iterator[tuple[IntArray, IntArray]]:
         """All pairs of edges (first < second) whose boxes meet, neighbours along a polyline left out; in portions."""
-        for begin in range(0, len(self), _PORTION):
-            first, second = self.tree.query(self.boxes[begin : begin + _PORTION])
+        begin, portion = 0, _FIRST_PORTION
+        while begin < len(self):
+            first, second = self.tree.query(self.boxes[begin : begin + portion])
+            found = len(first)
             first += begin
+            begin += portion
+            portion = int(min(8 * portion, max(portion * _PAIRS_AT_ONCE // max(found, 1), 1)))
             keep = first < second
             first, second = first[keep], second[keep]
             joined = (self.stop[first] == self.start[second]) | (self.stop[second] == self.start[first])

@@ -30,23 +30,31 @@ class Findings:
     walls: Walls
     lines: Sequence[int | None]
     problems: list[Problem] = field(default_factory=list)
-    counts: Counter[str] = field(default_factory=Counter)
+    listed: Counter[str] = field(default_factory=Counter)
+    hidden: Counter[str] = field(default_factory=Counter)
 
     def add(self, wall: int, code: str, severity: Severity, message: str, fix: str, at: FloatArray) -> None:
         """Note one finding about a wall at a place."""
-        self.counts[code] += 1
-        if self.counts[code] <= MOST_PLACES:
+        self.listed[code] += 1
+        self.hidden[code] += self.listed[code] > MOST_PLACES
+        if self.listed[code] <= MOST_PLACES:
             name, layer = self.walls.names[wall], self.walls.layers[wall]
             line = self.lines[wall] if self.lines else None
             x, y = float(at[0]), float(at[1])
             self.problems.append(Problem(code, severity, message, fix, layer, name, line, None, x, y))
 
+    def first(self, rows: IntArray, code: str) -> list[int]:
+        """The rows that are listed under a code; the others are only counted."""
+        self.hidden[code] += max(len(rows) - MOST_PLACES, 0)
+        listed: list[int] = rows[:MOST_PLACES].tolist()
+        return listed
+
     def closed(self) -> list[Problem]:
         """Give all, with a count of those that are not told one by one."""
         more = [
-            Problem(code, "warning", f"{count - MOST_PLACES} more of these are not listed", "solve the first ones")
-            for code, count in self.counts.items()
-            if count > MOST_PLACES
+            Problem(code, "warning", f"{count} more of these are not listed one by one", "solve the first ones")
+            for code, count in self.hidden.items()
+            if count
         ]
         return self.problems + more
 
@@ -96,14 +104,16 @@ def diagonal(vertices: FloatArray) -> float:
 
 
 def _crossings(findings: Findings, contacts: Contacts) -> None:
-    for (one, two), at in zip(contacts.crossing_walls.tolist(), contacts.crossing_at, strict=True):
-        if one == two:
-            fix = "redraw the path, or resolve its crossings (--resolve)"
-            findings.add(one, "self-crossing", "warning", f"{findings.called(one)} crosses itself", fix, at)
-        else:
-            message = f"{findings.called(one)} and {findings.called(two)} cross"
-            fix = "draw them apart, or unite overlapping solids (--union)"
-            findings.add(one, "crossing", "warning", message, fix, at)
+    own = contacts.crossing_walls[:, 0] == contacts.crossing_walls[:, 1]
+    for row in findings.first(np.flatnonzero(own), "self-crossing"):
+        wall, at = int(contacts.crossing_walls[row, 0]), contacts.crossing_at[row]
+        fix = "redraw the path, or resolve its crossings (--resolve)"
+        findings.add(wall, "self-crossing", "warning", f"{findings.called(wall)} crosses itself", fix, at)
+    for row in findings.first(np.flatnonzero(~own), "crossing"):
+        one, two = contacts.crossing_walls[row].tolist()
+        message = f"{findings.called(one)} and {findings.called(two)} cross"
+        fix = "draw them apart, or unite overlapping solids (--union)"
+        findings.add(one, "crossing", "warning", message, fix, contacts.crossing_at[row])
     if not contacts.complete:
         message = "more edges lie close together than are looked at: not all crossings are known"
         findings.problems.append(Problem("tangled", "warning", message, "take fewer layers, or a larger tolerance"))
@@ -167,9 +177,12 @@ def _gaps(findings: Findings, edges: Edges) -> None:
     spot = spot.reshape(-1)
     several = np.bincount(spot) > 1
     reach = _NEAR * diagonal(edges.vertices)
-    for index in np.flatnonzero(several).tolist():
-        wall = int(edges.wall_of[ends[np.argmax(spot == index)]])
-        message = f"{int((spot == index).sum())} ends of open walls meet"
+    ends_at = np.bincount(spot)
+    some_end = np.zeros(len(spots), dtype=np.int64)
+    some_end[spot] = ends
+    for index in findings.first(np.flatnonzero(several), "ends-meet"):
+        message = f"{ends_at[index]} ends of open walls meet"
+        wall = int(edges.wall_of[some_end[index]])
         findings.add(wall, "ends-meet", "info", message, "join them to one wall (--join)", spots[index])
     lonely = np.flatnonzero(~several[spot])
     mate, distance = _nearest_end(spots, spot[lonely], reach)
