@@ -25,7 +25,7 @@ _ILLUSTRATOR = re.compile(r"Adobe Illustrator\D*(\d+(?:\.\d+)?)?")
 
 def looks_like_illustrator(data: bytes) -> bool:
     """Tell by the content whether bytes are Illustrator's operators, with a PostScript header or without one."""
-    return scanner.is_operator_text(data)
+    return scanner.is_operator_text(scanner.plain_bytes(data))
 
 
 def read_illustrator(data: bytes, file: str = "") -> Drawing:
@@ -43,6 +43,8 @@ def read_illustrator(data: bytes, file: str = "") -> Drawing:
         LimitError: it is larger or deeper than `importers.limits` allows.
     """
     check_input_size(len(data), file)
+    sha256 = hashlib.sha256(data).hexdigest()
+    data = scanner.plain_bytes(data)
     if not looks_like_illustrator(data):
         raise DrawingError(
             "this is no drawing that Illustrator or a program like it has written",
@@ -58,7 +60,7 @@ def read_illustrator(data: bytes, file: str = "") -> Drawing:
     else:
         drawing = _read_private(private, file)
         drawing.kind = f"{kind_of(data, start)} (EPS with Illustrator's own data)"
-    drawing.sha256 = hashlib.sha256(data).hexdigest()
+    drawing.sha256 = sha256
     return drawing
 
 

@@ -38,6 +38,8 @@ _ILLUSTRATOR_NOTE = re.compile(rb"(?:\A|[\r\n])%AI\d+_|Adobe_Illustrator|Adobe I
 _MARK_START = re.compile(rb"(?:\A|[\r\n])%(?:_%)?(?:AI\d+_|%)\Z")
 _LOOK = 1 << 20  # bytes that are looked at to tell what a file is
 
+_UTF8 = b"\xef\xbb\xbf"
+_UTF16 = (b"\xff\xfe", b"\xfe\xff")
 _DOS_EPS = b"\xc5\xd0\xd3\xc6"
 _MARKERS = (b"%%EndSetup", b"%%EndProlog")
 _PLACED_FILE = b"%%BeginDocument"  # has markers of its own
@@ -59,11 +61,16 @@ def is_operator_text(data: bytes) -> bool:
     if _ILLUSTRATOR_NOTE.search(data, start, min(stop, start + (_LOOK >> 4))):
         return True
     begin = art_start(data, start, stop)
-    return _OPERATORS.search(data, begin, min(stop, begin + _LOOK)) is not None
+    return _OPERATORS.search(data[begin : min(stop, begin + _LOOK)]) is not None
+
+
+def plain_bytes(data: bytes) -> bytes:
+    """Give text that an editor has saved as UTF-16 as UTF-8; anything else as it is."""
+    return data.decode("utf-16", "replace").encode() if data.startswith(_UTF16) else data
 
 
 def postscript_part(data: bytes) -> tuple[int, int]:
-    """Find the PostScript in a file: all of it, or what the header of a DOS EPS says (a preview picture follows).
+    """Find the PostScript in a file: what the header of a DOS EPS says (it also holds a preview), else all of it.
 
     Returns:
         Start and stop, as positions in `data`.
@@ -73,7 +80,7 @@ def postscript_part(data: bytes) -> tuple[int, int]:
         if start < len(data):
             return start, min(start + length, len(data))
         return 12, len(data)
-    return 0, len(data)
+    return (len(_UTF8) if data.startswith(_UTF8) else 0), len(data)
 
 
 def art_start(data: bytes, start: int, stop: int) -> int:

@@ -26,6 +26,18 @@ def test_pasted_text_is_one_path_with_its_very_numbers(line_end, layer):
     assert path.groups == ()
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize("text", ["24 803 m 69 828 l", "(Öffnung) Ln\r\n24 803 m\r\n69 828 l\r\n"])
+def test_pasted_text_comes_as_editors_save_it(encoding, text):
+    if encoding in ("utf-16-le", "utf-16-be"):
+        text = "\ufeff" + text
+    data = text.encode(encoding)
+    assert looks_like_illustrator(data)
+    path = read_one(data)
+    assert path.subpaths[0].segments == [("M", 24, 803), ("L", 69, 828)]
+    assert path.layer == ("Öffnung" if "Ö" in text else "")
+
+
 def test_every_spelling_of_a_segment():
     path = read_one(
         b"0 0 m 1 0 l 2 0 L 3 1 4 2 5 3 c 6 1 7 2 8 3 C 9 9 10 10 v 11 11 12 12 V 13 13 14 14 y 15 15 16 16 Y S"
