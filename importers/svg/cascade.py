@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 from importers.limits import limit_error
+from importers.problems import Severity
 from importers.svg.notes import Notes
 from importers.svg.sheet import Sheet, matches_media
 from importers.svg.style import (
@@ -69,8 +70,9 @@ class Cascade:
             kept = self._inlines[text] = _by_importance(found)
         return kept
 
-    def _report(self, code: str, message: str) -> None:
-        self._notes.count(code, "warning", message, self._element, fix="write the style on the elements")
+    def _report(self, code: str, severity: Severity, message: str) -> None:
+        fix = "write the style on the elements" if severity == "warning" else ""
+        self._notes.count(code, severity, message, self._element, fix=fix)
 
     def declared(self, element: Any, attributes: dict[str, str], chain: tuple[Any, ...] = ()) -> Declared:
         """Give the winning declarations of an element: property to parsed value, invalid ones left out.

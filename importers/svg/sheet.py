@@ -10,11 +10,12 @@ import cssselect2
 import tinycss2
 
 from importers.limits import limit_error
+from importers.problems import Severity
 from importers.svg.style import known_declarations
 from importers.svg.units import ROOT_FONT, WINDOW, parse_length, to_px, too_nested
 
-# code, what is left out; called once for each thing in a sheet that is not followed
-Report = Callable[[str, str], None]
+# code, severity, what is left out; called once for each thing in a sheet that is not followed
+Report = Callable[[str, Severity, str], None]
 
 MAX_STEPS = 5_000_000
 
@@ -123,7 +124,7 @@ class Sheet:
 
     def _add(self, text: str, report: Report) -> None:
         if too_nested(text):
-            report("bad-css", "a style sheet with too many brackets in brackets is left out")
+            report("bad-css", "warning", "a style sheet with too many brackets in brackets is left out")
             return
         rules = tinycss2.parse_stylesheet(text, skip_comments=True, skip_whitespace=True)
         pending = list(reversed(rules))
@@ -134,7 +135,7 @@ class Sheet:
             elif rule.type == "at-rule":
                 pending.extend(reversed(self._at_rule(rule, report)))
             elif rule.type == "error":
-                report("bad-css", f"a part of a style sheet cannot be read: {rule.message}")
+                report("bad-css", "warning", f"a part of a style sheet cannot be read: {rule.message}")
 
     def _at_rule(self, rule: Any, report: Report) -> list[Any]:
         keyword = rule.lower_at_keyword
@@ -142,13 +143,13 @@ class Sheet:
             query = " ".join(tinycss2.serialize(rule.prelude).split()).lower()
             if matches_media(query):
                 return list(tinycss2.parse_rule_list(rule.content, skip_comments=True, skip_whitespace=True))
-            report("css-skipped", f"the rules of @media {query} are left out")
+            report("css-skipped", "info", f"the rules of @media {query} are for another medium")
         elif keyword == "namespace":
             self._add_namespace(rule)
         elif keyword == "import":
-            report("css-skipped", "@import is not followed: no other file is read")
+            report("css-skipped", "warning", "@import is not followed: no other file is read")
         elif keyword not in ("font-face", "charset", "keyframes", "-webkit-keyframes", "page"):
-            report("css-skipped", f"@{keyword} is left out")
+            report("css-skipped", "warning", f"@{keyword} is left out")
         return []
 
     def _add_namespace(self, rule: Any) -> None:
@@ -167,7 +168,9 @@ class Sheet:
             selectors = cssselect2.compile_selector_list(rule.prelude, namespaces=self._namespaces)
         except (cssselect2.SelectorError, NotImplementedError, SyntaxError, RecursionError, MemoryError, ValueError):
             # cssselect2 writes a Python expression for each selector; a long one is too much for the compiler
-            report("css-skipped", f"the selector {tinycss2.serialize(rule.prelude).strip()!r} is not understood")
+            report(
+                "css-skipped", "warning", f"the selector {tinycss2.serialize(rule.prelude).strip()!r} is not understood"
+            )
             return
         for selector in selectors:
             if selector.pseudo_element is None:
