@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 from importers.drawing import Drawing
 from importers.errors import DrawingError, WallkitError
+from importers.problems import Problem
 
 _SVG_TAG = re.compile(rb"<(?:[A-Za-z_][\w.-]*:)?svg[\s>/]")
 
@@ -63,10 +64,15 @@ def _read(data: bytes, file: str) -> Drawing:
     from importers.svg.reader import Reader
     from importers.svg.source import decode, parse
 
-    source = parse(decode(data, file), file)
+    text, damage = decode(data, file)
+    source = parse(text, file)
     if source.root.tag.rpartition("}")[2] != "svg":
         tag = source.root.tag.rpartition("}")[2]
         fix = "give a file whose outermost element is svg"
         raise DrawingError(f"an XML file of <{tag}>, not SVG", code="not-a-drawing", fix=fix, file=file)
     with _collector_paused():
-        return Reader(source).read()
+        drawing = Reader(source).read()
+    if damage:
+        fix = "save the file as UTF-8; names may be wrong, outlines are not"
+        drawing.problems.insert(0, Problem("bad-encoding", "warning", damage, fix))
+    return drawing

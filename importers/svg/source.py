@@ -26,12 +26,21 @@ _ATTRIBUTE = re.compile(r"""([^\s=<>/"']+)\s*=\s*("([^"]*)"|'([^']*)')""")
 _REFERENCE = re.compile(r"&(#x[0-9a-fA-F]+|#[0-9]+|[^\s;&]+);")
 _LONGER = re.compile(_REFERENCE.pattern + r"|\r\n")  # what is one character once it is read
 _PREDEFINED = frozenset(("amp", "lt", "gt", "quot", "apos"))
+# Python's codecs that no file is written in; some cost the square of the size, some fail whatever is asked
+_NOT_OF_FILES = frozenset(
+    ("idna", "punycode", "undefined", "unicode-escape", "raw-unicode-escape", "utf-7", "mbcs", "oem")
+)
 _FEW = 64  # attributes of an element, as people and programs write them
 _HUGE = 9_000_000  # libxml2 takes a text of 10 MB only when told that the document is huge
 
 
-def decode(data: bytes, file: str) -> str:
-    """Decode a file as XML does: byte order mark, else the declaration, else UTF-8 (or UTF-16 by its zeros)."""
+def decode(data: bytes, file: str) -> tuple[str, str]:
+    """Decode a file as XML does: byte order mark, else the declaration, else UTF-8 (or UTF-16 by its zeros).
+
+    Returns:
+        The text, and what is wrong with its bytes, ``""`` when nothing is. Wrong ones become replacement
+        characters: they are mostly in names, and the outlines around them are right.
+    """
     for mark, name in (
         (codecs.BOM_UTF8, "utf-8"),
         (codecs.BOM_UTF16_LE, "utf-16-le"),
@@ -44,23 +53,24 @@ def decode(data: bytes, file: str) -> str:
     if data[:2] == b"\x00<":
         return _decode(data, "utf-16-be", file)
     declared = _DECLARED.match(data.lstrip())
-    return _decode(data, declared[1].decode("ascii") if declared else "utf-8", file)
+    name = declared[1].decode("ascii").lower() if declared else "utf-8"
+    if name.startswith(("utf-16", "utf-32", "ucs-")):  # it was read as single bytes so far, so it is not that
+        name = "utf-8"
+    return _decode(data, name, file)
 
 
-def _decode(data: bytes, name: str, file: str) -> str:
+def _decode(data: bytes, name: str, file: str) -> tuple[str, str]:
     fix = "save the file as UTF-8"
     try:
         text = codecs.lookup(name)
-        if not text._is_text_encoding:
+        if not text._is_text_encoding or text.name in _NOT_OF_FILES:
             raise LookupError(name)
-        return data.decode(name)
+        return data.decode(name), ""
     except LookupError:
         raise DrawingError(f"the encoding {name!r} is not known", code="bad-encoding", fix=fix, file=file) from None
     except UnicodeError as error:
-        start = getattr(error, "start", 0)
-        line = data[:start].count(b"\n") + 1
-        message = f"byte {start} is not {name}, which the file says it is"
-        raise DrawingError(message, code="bad-encoding", fix=fix, file=file, line=line) from None
+        line = data[: getattr(error, "start", 0)].count(b"\n") + 1
+        return data.decode(name, "replace"), f"there are bytes that are not {name}, the first in line {line}"
 
 
 def attributes_of(element: Any) -> dict[str, str]:

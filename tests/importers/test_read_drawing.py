@@ -29,6 +29,7 @@ def test_gzip_and_utf16_and_a_byte_order_mark_are_read():
         ROOM.encode("utf-16-le"),
         ROOM.encode("utf-16-be"),
         b"\xef\xbb\xbf" + ROOM.encode(),
+        b'<?xml version="1.0" encoding="UTF-16"?>' + ROOM.encode(),
         b'<?xml version="1.0" encoding="latin-1"?>' + ROOM.replace("room", "\xfcber").encode("latin-1"),
     ):
         assert len(read_drawing_text(data).paths) == 1

@@ -204,12 +204,16 @@ def test_broken_xml_is_an_error_with_its_place(text, line, column):
     assert abs(caught.value.column - column) <= 1  # libxml2 stands before or behind the sign that is wrong
 
 
-def test_an_unknown_or_wrong_encoding_is_named():
-    for data in (
-        b'<?xml version="1.0" encoding="klingon"?><svg/>',
-        b"<svg>\n\xff</svg>",
-        b'<?xml encoding="hex"?><svg/>',
-    ):
+def test_bytes_of_another_encoding_are_reported_and_the_outlines_read():
+    drawing = read_svg(f'<svg {NS}>\n<rect id="T\xfcr" width="5" height="4"/></svg>'.encode("latin-1"))
+    assert only(drawing).name == "T\N{REPLACEMENT CHARACTER}r"
+    assert codes(drawing) == ["bad-encoding"]
+    assert "line 2" in drawing.problems[0].message
+
+
+def test_an_unknown_encoding_is_named():
+    for name in ("klingon", "hex", "idna", "punycode", "undefined", "unicode_escape", "utf-7"):
+        data = f'<?xml version="1.0" encoding="{name}"?><svg>\xff</svg>'.encode("latin-1")
         with pytest.raises(DrawingError) as caught:
             read_svg(data)
         assert caught.value.code == "bad-encoding"
