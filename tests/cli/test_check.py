@@ -110,3 +110,8 @@ def test_what_is_no_drawing_is_an_error_and_not_a_finding(tmp_path):
     file = tmp_path / "words.svg"
     file.write_text("no drawing at all")
     assert wallkit("check", file).returncode == 2
+
+
+def test_the_fix_that_is_told_mends_it(leaky):
+    result = wallkit("check", leaky, "--snap", 0.5)
+    assert (result.returncode, result.stderr) == (0, "")

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from wallkit.walls import Walls
 from wallkit.walls.build import import_walls
 from wallkit.walls.free_space import eroded, free_space
-from wallkit.walls.leaks import leak_problems
+from wallkit.walls.leaks import leak_problems, reach_of
 
 ROOM_WITH_GAP = [(0, 30), (0, 0), (100, 0), (100, 60), (0, 60), (0, 30.5)]
 CUP = [
@@ -27,14 +27,19 @@ TWO_ROOMS = [
 ]  # fmt: skip
 
 
+def reach(space, walls, radius, *starts):
+    return reach_of(space, walls, radius, np.array(starts, dtype=float).reshape(-1, 2))
+
+
 def test_a_hidden_gap_of_a_half_leaks_just_below_a_quarter_and_not_just_above():
-    space = free_space(Walls.from_polylines([ROOM_WITH_GAP], closed=False))
+    walls = Walls.from_polylines([ROOM_WITH_GAP], closed=False)
+    space = free_space(walls)
     (gap,) = space.gaps
     assert gap.width == 0.5
     assert {gap.a, gap.b} == {(0, 30), (0, 30.5)}
     assert [len(space.leaks(radius)) for radius in (0, 0.1, 0.2499, 0.2501, 1)] == [1, 1, 1, 0, 0]
-    assert [problem.code for problem in leak_problems(space, 0.2499)] == ["leak"]
-    assert leak_problems(space, 0.2501) == []
+    assert [problem.code for problem in leak_problems(space, reach(space, walls, 0.2499))] == ["leak"]
+    assert leak_problems(space, reach(space, walls, 0.2501)) == []
 
 
 def test_the_way_through_the_leak_goes_from_the_room_to_the_outside():
@@ -172,3 +177,28 @@ def test_a_polygon_of_many_edges_in_another_is_one_room():
 def test_islands_whose_edges_touch_do_not_hang_the_search():
     walls = import_walls(drawing(*(path(polygon((k, 0), (k + 1, 0), (k, 1))) for k in range(30))))
     assert free_space(walls).complete
+
+
+def test_a_ball_in_the_smaller_room_is_shut_in_and_one_in_the_larger_is_shut_out():
+    """A door of 4 between rooms of 40 and 30 by 40."""
+    house = [
+        (0, 0),
+        (0, 40),
+        (40, 40),
+        (40, 22),
+        (45, 22),
+        (45, 40),
+        (75, 40),
+        (75, 0),
+        (45, 0),
+        (45, 18),
+        (40, 18),
+        (40, 0),
+    ]
+    walls = import_walls(drawing(path(polygon(*house))), arena=True)
+    space = free_space(walls)
+    codes = [
+        [problem.code for problem in leak_problems(space, reach(space, walls, radius, start))]
+        for radius, start in ((2.1, (20, 20)), (2.1, (60, 20)), (1.9, (20, 20)))
+    ]
+    assert codes == [["unreachable"], ["shut-in"], []]

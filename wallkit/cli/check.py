@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from importers.problems import Problem
     from wallkit.walls import Walls
     from wallkit.walls.free_space import FreeSpace
+    from wallkit.walls.leaks import Reach
 
 FORMAT, VERSION = "wallkit-check", 1
 
@@ -45,10 +46,12 @@ def check(
     arena: options.Arena = False,
     scale: options.Scale = 1.0,
     flip_y: options.FlipY = False,
+    snap: options.Snap = 0.0,
 ) -> None:
     """Find problems and leaks, with places and fixes; exit with 1 when there are findings."""
     from wallkit.walls.free_space import free_space
-    from wallkit.walls.leaks import leak_problems, reported_gaps
+    from wallkit.walls.leaks import leak_problems, reach_of
+    from wallkit.walls.repair import Repairs
 
     _check_radius(radius)
     importing = {
@@ -59,6 +62,7 @@ def check(
         "arena": arena,
         "scale": scale,
         "flip_y": flip_y,
+        "repairs": Repairs(snap=snap) if snap else None,
     }
     given = _read(file, importing)
     walls = given.walls
@@ -66,14 +70,15 @@ def check(
         radius = float(given.radii.min())
         given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
     space = free_space(walls, free=given.places if len(given.places) else None)
-    problems = sorted([*leak_problems(space, radius), *walls.problems, *given.problems], key=_rank)
+    reach = reach_of(space, walls, radius, given.places)
+    problems = sorted([*leak_problems(space, reach), *walls.problems, *given.problems], key=_rank)
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
-        _draw(walls, problems, [gap.path for gap in reported_gaps(space, radius)[0]], preview)
+        _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
     if as_json:
-        print(json.dumps(_report(walls, problems, space, radius, len(findings)), ensure_ascii=False))
+        print(json.dumps(_report(walls, problems, space, reach, len(findings)), ensure_ascii=False))
     else:
-        _tell(walls, problems, space, radius, given.assumed)
+        _tell(walls, problems, space, reach, given.assumed)
     raise typer.Exit(1 if findings else 0)
 
 
@@ -152,39 +157,37 @@ def _of_drawing(data: bytes, file: str, importing: dict[str, Any]) -> _Given:
     return given
 
 
-def _report(
-    walls: Walls, problems: list[Problem], space: FreeSpace, radius: float | None, findings: int
-) -> dict[str, Any]:
-    from wallkit.walls.leaks import gap_json, reported_gaps
+def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, findings: int) -> dict[str, Any]:
+    from wallkit.walls.leaks import gap_json
 
-    leaks, shut = reported_gaps(space, radius)
     return {
         "format": FORMAT,
         "version": VERSION,
         "source": {"file": walls.source_file, "sha256": walls.source_sha256},
         "walls": len(walls),
         "edges": len(walls.edge_starts),
-        "radius": radius,
+        "radius": reach.radius,
         "findings": findings,
-        "leaks": [gap_json(gap) for gap in leaks],
-        "unreachable": [gap_json(gap) for gap in shut],
+        "leaks": [gap_json(gap) for gap in reach.leaks],
+        "unreachable": [gap_json(gap) for gap in reach.shut],
+        "holding": [gap_json(gap) for gap in reach.holding],
         "gaps": [gap_json(gap) for gap in space.gaps],
         "rooms": space.closed_rooms.tolist(),
         "problems": [problem.to_json() for problem in problems],
     }
 
 
-def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, radius: float | None, assumed: list[str]) -> None:
+def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, assumed: list[str]) -> None:
     from wallkit.cli.import_ import summarise
     from wallkit.cli.messages import show_problems
-    from wallkit.walls.leaks import middle, reported_gaps
+    from wallkit.walls.leaks import middle
 
     show_problems(problems, walls.source_file, sys.stdout)
     for sentence in assumed:
         print(f"assumed: {sentence}")
     summarise(walls, sys.stdout)
-    ball = "any ball" if radius is None else f"a ball of radius {radius:g}"
-    leaks, shut = reported_gaps(space, radius)
+    ball = "any ball" if reach.radius is None else f"a ball of radius {reach.radius:g}"
+    leaks, shut = reach.leaks, reach.shut
     if leaks:
         print(f"leaks for {ball}: {len(leaks)}, the narrowest gap {leaks[0].width:.6g} wide")
     else:

@@ -38,7 +38,7 @@ _POINTS = 2_000
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Gap:
     """The narrowest place on the widest way out of a room.
 
@@ -197,6 +197,16 @@ def eroded(walls: Walls, radius: float) -> list[shapely.Polygon]:
     low, high = vertices.min(axis=0) - 4 * radius - 1e-9, vertices.max(axis=0) + 4 * radius + 1e-9
     free = shapely.difference(shapely.box(*low, *high), taken)
     return [part for part in shapely.get_parts(free) if not part.is_empty]
+
+
+def reached(walls: Walls, radius: float, starts: FloatArray, places: FloatArray) -> NDArray[np.bool_]:
+    """Tell which of ``places`` (n, 2) the centre of a disc gets to from any of ``starts`` (m, 2)."""
+    result = np.zeros(len(places), dtype=np.bool_)
+    for part in eroded(walls, radius):
+        shapely.prepare(part)
+        if shapely.intersects_xy(part, starts).any():
+            result |= shapely.intersects_xy(part, places)
+    return result
 
 
 def _noded(edges: Edges) -> tuple[FloatArray, FloatArray]:

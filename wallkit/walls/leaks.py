@@ -2,32 +2,60 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from importers.problems import Problem
-from wallkit.walls.free_space import FreeSpace, Gap
+from wallkit.walls.free_space import FreeSpace, Gap, reached
+from wallkit.walls.strokes import FloatArray
 from wallkit.walls.validate import at_least
+from wallkit.walls.walls import Walls
 
 
-def reported_gaps(space: FreeSpace, radius: float | None) -> tuple[list[Gap], list[Gap]]:
-    """Choose what to tell: leaks, and gaps too narrow for the ball.
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """What is told about gaps, for one ball or for any.
+
+    Attributes:
+        radius: of the ball; None where any is meant.
+        leaks: of all gaps on the way from a room to the outside the narrowest, where the ball passes.
+        shut: gaps that keep the ball out of a room that it would fit into; none without a radius.
+        holding: such gaps where the ball starts in the room behind, and cannot leave it.
+    """
+
+    radius: float | None
+    leaks: list[Gap]
+    shut: list[Gap]
+    holding: list[Gap]
+
+
+def reach_of(space: FreeSpace, walls: Walls, radius: float | None, starts: FloatArray) -> Reach:
+    """Choose what to tell.
 
     Args:
-        space: rooms and gaps.
+        space: rooms and gaps of the walls.
+        walls: the walls.
         radius: of the ball; None asks for every gap that leads outside, whatever passes it.
-
-    Returns:
-        Leaks: of all gaps on the way from a room to the outside the narrowest. Gaps that keep a ball out of a
-        room that it would fit into; none without a radius.
+        starts: (n, 2) where balls start; none are needed.
     """
     leaks = [gap for gap in space.leaks(radius or 0.0) if gap.width <= gap.escape]
-    return leaks, [] if radius is None else space.unreachable(radius)
+    shut = [] if radius is None else space.unreachable(radius)
+    if not shut or not len(starts) or not radius:
+        return Reach(radius, leaks, shut, [])
+    held = reached(walls, radius, starts, np.array([gap.room for gap in shut])).tolist()
+    pairs = list(zip(shut, held, strict=True))
+    return Reach(
+        radius, leaks, [gap for gap, is_held in pairs if not is_held], [gap for gap, is_held in pairs if is_held]
+    )
 
 
-def leak_problems(space: FreeSpace, radius: float | None) -> list[Problem]:
-    """Tell leaks and rooms out of reach as problems, narrowest gap first; see :func:`reported_gaps`."""
-    leaks, shut = reported_gaps(space, radius)
-    problems = [_leak(gap, radius) for gap in leaks] + [_shut(gap, radius or 0.0) for gap in shut]
+def leak_problems(space: FreeSpace, reach: Reach) -> list[Problem]:
+    """Tell leaks, rooms out of reach and balls that are shut in as problems, the narrowest gap of each first."""
+    radius = reach.radius or 0.0
+    problems = [_leak(gap, reach.radius) for gap in reach.leaks]
+    problems += [_shut(gap, radius) for gap in reach.shut] + [_holding(gap, radius) for gap in reach.holding]
     if not space.complete:
         message = "the drawing is too large or too tangled to find every gap"
         problems.append(Problem("gaps-not-all-known", "info", message, "take fewer layers, or repair it first"))
@@ -58,6 +86,19 @@ def _shut(gap: Gap, radius: float) -> Problem:
         message=f"a ball of radius {radius:g} fits around ({gap.room[0]:.6g}, {gap.room[1]:.6g}) but cannot get "
         f"there: the way in is {gap.width:.6g} wide",
         fix=f"widen it, or take a radius below {gap.width / 2:.6g}",
+        x=x,
+        y=y,
+    )
+
+
+def _holding(gap: Gap, radius: float) -> Problem:
+    x, y = middle(gap)
+    return Problem(
+        code="shut-in",
+        severity="warning",
+        message=f"a ball of radius {radius:g} that starts in the room around ({gap.room[0]:.6g}, {gap.room[1]:.6g}) "
+        f"stays there: the way into the larger room is {gap.width:.6g} wide",
+        fix=f"widen it, or take a radius below {gap.width / 2:.6g}; nothing to do if it is meant to stay",
         x=x,
         y=y,
     )
