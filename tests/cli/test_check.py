@@ -6,7 +6,9 @@ import json
 import os
 import subprocess
 import sys
+from importlib import resources
 
+import jsonschema
 import pytest
 
 LEAKY = (
@@ -58,6 +60,8 @@ def test_leaks_for_a_ball_as_json(leaky, tmp_path, radius, leaks):
     assert [problem["code"] for problem in report["problems"]].count("leak") == leaks
     assert ("wk-way" in picture.read_text().split("</style>")[1]) == bool(leaks)
     assert report["gaps"][0]["width"] == 0.5
+    schema = json.loads((resources.files("wallkit.schemas") / "check.schema.json").read_text("utf-8"))
+    jsonschema.validate(report, schema)
 
 
 def test_walls_are_checked_as_drawings_are(leaky, tmp_path):
