@@ -130,6 +130,14 @@ def test_an_end_snaps_onto_the_middle_of_a_wall():
     assert repair(done.walls, Repairs(snap=0.3)).changes == []
 
 
+def test_an_end_that_was_snapped_onto_a_slanted_wall_is_no_gap_any_more():
+    walls = Walls.from_polylines([[(0, 0), (10, 3.3)], [(5.1, 1.8), (4, 8)]], closed=False)
+    done = repair(walls, Repairs(snap=0.3))
+    assert [change.step for change in done.changes] == ["snap"]
+    assert "gap" not in [problem.code for problem in done.violations]
+    assert repair(done.walls, Repairs(snap=0.3)).changes == []
+
+
 def test_four_lines_that_meet_become_a_room():
     sides = [line((0, 0), (9, 0)), line((9, 5), (9, 0)), line((9, 5), (0, 5)), line((0, 0), (0, 5))]
     walls = import_walls(drawing(*(path(side) for side in sides)), repairs=Repairs(join=True), arena=True)

@@ -14,10 +14,10 @@ from wallkit.walls.flatten import segment_distance
 from wallkit.walls.lines import Line, edges_of
 from wallkit.walls.nesting import copies
 from wallkit.walls.strokes import FloatArray
+from wallkit.walls.validate import ROUNDING
 
 Outcome = tuple[list[Line], int, float, str, "FloatArray | None"]
 _ROUNDS = 30
-_SAME = 1e-12  # parts of the drawing's size within which two points are one, up to rounding
 
 
 def drop_zero_length(lines: list[Line]) -> Outcome:
@@ -109,7 +109,7 @@ def _snap_onto_walls(lines: list[Line], reach: float) -> int:
     edges = edges_of(lines)
     _, spot, shared = np.unique(places, axis=0, return_inverse=True, return_counts=True)
     alone = np.flatnonzero(shared[spot.reshape(-1)] == 1)
-    size = float(np.abs(edges.vertices).max(initial=0.0)) * _SAME * 1e3
+    there = float(np.abs(edges.vertices).max(initial=0.0)) * ROUNDING
     p = places[alone]
     boxes = shapely.box(p[:, 0] - reach, p[:, 1] - reach, p[:, 0] + reach, p[:, 1] + reach)
     source, edge = edges.tree.query(boxes)
@@ -121,7 +121,7 @@ def _snap_onto_walls(lines: list[Line], reach: float) -> int:
     first = order[np.unique(source[order], return_index=True)[1]] if len(order) else order
     changed = 0
     for row in first.tolist():
-        if size < distance[row] <= reach:
+        if there < distance[row] <= reach:
             index, end = ends[alone[source[row]]]
             lines[index].vertices[end] = _nearest(p[source[row]], edges.a[edge[row]], edges.b[edge[row]])
             changed += 1

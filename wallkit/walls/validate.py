@@ -20,6 +20,7 @@ from wallkit.walls.strokes import FloatArray, IntArray
 from wallkit.walls.walls import Walls
 
 MOST_PLACES = 1000  # of one code; further ones are counted
+ROUNDING = 1e-14  # of the largest coordinate: an end so near a wall was put onto it
 _NEAR = 0.02  # ends farther apart than this part of the drawing's diagonal are no gap but two ends
 
 
@@ -112,7 +113,8 @@ def _crossings(findings: Findings, contacts: Contacts) -> None:
     for row in findings.first(np.flatnonzero(~own), "crossing"):
         one, two = contacts.crossing_walls[row].tolist()
         message = f"{findings.called(one)} and {findings.called(two)} cross"
-        fix = "draw them apart, or unite overlapping solids (--union)"
+        solids = findings.walls.closed[one] and findings.walls.closed[two]
+        fix = "draw them apart, or unite the solids (--union)" if solids else "draw them apart, or end one at the other"
         findings.add(one, "crossing", "warning", message, fix, contacts.crossing_at[row])
     if not contacts.complete:
         message = "more edges lie close together than are looked at: not all crossings are known"
@@ -187,6 +189,7 @@ def _gaps(findings: Findings, edges: Edges) -> None:
     lonely = np.flatnonzero(~several[spot])
     mate, distance = _nearest_end(spots, spot[lonely], reach)
     short = _nearest_wall(edges, ends[lonely], reach)
+    touching = ROUNDING * float(np.abs(edges.vertices).max())
     told: set[tuple[int, int]] = set()
     for row, end in enumerate(ends[lonely].tolist()):
         key = (min(int(spot[lonely[row]]), int(mate[row])), max(int(spot[lonely[row]]), int(mate[row])))
@@ -197,7 +200,7 @@ def _gaps(findings: Findings, edges: Edges) -> None:
                 message = f"a gap of {distance[row]:.6g} to the nearest open end"
                 fix = f"close it in the drawing, or with --snap {at_least(float(distance[row]))}"
                 findings.add(wall, "gap", "warning", message, fix, edges.vertices[end])
-        elif 0 < short[row] <= reach:
+        elif touching < short[row] <= reach:
             message = f"an open end stops {short[row]:.6g} short of another wall"
             fix = f"draw it on, or snap it with --snap {at_least(float(short[row]))}"
             findings.add(wall, "gap", "warning", message, fix, edges.vertices[end])
