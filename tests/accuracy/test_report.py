@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from wallkit import Balls, Scene, Walls
+from wallkit import Balls, Material, Scene, SceneError, Walls
 from wallkit.accuracy import engines, scenes, tables
 from wallkit.accuracy.cases import Case, Outcome
-from wallkit.accuracy.contest import Contest, Effort, Point, Subject, contest
+from wallkit.accuracy.contest import WAYS, Contest, Effort, Point, Subject, contest
 from wallkit.accuracy.own import flattened, of_scene
 from wallkit.accuracy.report import Report, machine
 from wallkit.cli.app import _register_commands, app
@@ -107,6 +107,22 @@ def test_flattening_keeps_the_tolerance():
     subject = of_scene("mine", Scene(scenes.box(), Balls([(1.0, 1.0)], [(1.0, 0.5)])))
     assert subject.arcs is None
     assert np.array_equal(subject.lines(1.0).walls.vertices, scenes.box().vertices)
+
+
+def test_a_scene_with_gravity_and_losses_is_flown_by_those_who_know_both():
+    walls = Walls.from_polylines([scenes.stadium().vertices], bulges=[scenes.stadium().bulges], material=Material(0.9))
+    scene = Scene(walls, Balls([(0.0, 0.0), (1.0, 1.0)], [(30.0, 20.0), (0.0, 0.0)], 5.0), gravity=(0.0, -20.0))
+    found = contest(of_scene("mine", scene), SMALL)
+    assert set(found.series()) == {"exact, lines", "exact, arcs", *(f"step, {way}" for way in WAYS)}
+    # coordinates up to 200 and a few operations a bounce; the reference finds the quartic's roots in its own way
+    assert found.series()["exact, arcs"][0].error < 1e-11
+    assert found.series()["step, exact"][0].error < 1e-11
+    assert np.isnan(found.points[0].drift)
+
+
+def test_a_scene_without_a_ball_is_refused():
+    with pytest.raises(SceneError, match="no ball"):
+        of_scene("mine", Scene(scenes.box()))
 
 
 def test_an_open_wall_keeps_its_ends():

@@ -62,7 +62,7 @@ class Point:
         error: distance from the reference after :data:`BOUNCES` bounces, in the scene's units.
         seconds: of processor time per simulated second.
         wrong: the first bounce after which the ball is somewhere else, or None.
-        drift: of the energy over the whole run, relative.
+        drift: of the energy over the whole run, relative; NaN where it is not to be kept.
         escaped: the ball was outside of its room at some time.
         reached: so many bounces were looked at; fewer than the reference has where that took too many steps.
     """
@@ -222,7 +222,8 @@ def _judged(
     wrong = np.flatnonzero(~(off <= WRONG * size))
     escaped = area is not None and bool(len(got)) and not bool(contains_xy(area, got[:, 0], got[:, 1]).all())
     first = np.atleast_2d(np.asarray(truth.balls.velocity, dtype=np.float64))[0]
-    drift = float(flown.velocity @ flown.velocity / (first @ first) - 1) if truth.gravity is None else math.nan
+    kept = truth.gravity is None and engines.lossless(truth)
+    drift = float(flown.velocity @ flown.velocity / (first @ first) - 1) if kept else math.nan
     return Point(
         contestant.series,
         contestant.setting,

@@ -88,7 +88,7 @@ def stepped(scene: Scene, way: Any, dt: float) -> Contestant:
             world = World(scene, way, compile=True)
             return Stepper(lambda: world.step(dt) is None, lambda: (world.position[0], world.velocity[0]))
 
-        return _through(start, dt, times, runs)
+        return _through(start, dt, times, runs, np.asarray(scene.gravity or (0.0, 0.0)))
 
     return Contestant(f"step, {way}", f"dt {_fraction(dt)}", dt, fly)
 
@@ -101,8 +101,10 @@ class Stepper:
     state: Callable[[], tuple[Any, Any]]
 
 
-def _through(start: Callable[[], Stepper], dt: float, times: FloatArray, runs: int) -> Flown:
-    """Step through the times; within a step a ball flies straight on from the step's beginning."""
+def _through(
+    start: Callable[[], Stepper], dt: float, times: FloatArray, runs: int, pull: FloatArray | None = None
+) -> Flown:
+    """Step through the times; within a step a ball flies on freely from the step's beginning."""
     counts = np.floor(times / dt).astype(int)
     counts = counts[counts <= MOST_STEPS]
     if not len(counts):
@@ -119,7 +121,8 @@ def _through(start: Callable[[], Stepper], dt: float, times: FloatArray, runs: i
             spent += time.process_time() - begin
             done = int(count)
             position, velocity = (np.array(tuple(pair), dtype=float) for pair in engine.state())
-            places.append(position + (times[index] - count * dt) * velocity)
+            rest = times[index] - count * dt
+            places.append(position + rest * velocity + (0.0 if pull is None else 0.5 * rest * rest * pull))
         least = min(least, spent / (done * dt))
         if spent > 0.5:  # slow ones are timed well enough by one run
             break
@@ -227,7 +230,12 @@ def _endless(walls: Walls) -> list[Any] | None:
 
 
 def others(lines: Scene, best: Scene, steps: list[float]) -> Iterator[Contestant]:
-    """Give the other engines that are installed and can do this scene; a disc, since most know no points."""
+    """Give the other engines that are installed and can do this scene.
+
+    Most know no points; and what acts beside walls (gravity, losses) they model each in a way of its own.
+    """
+    if lines.gravity is not None or not lossless(lines):
+        return
     disc = _ball(lines)[2] > 0
     for name, make in (("pymunk", pymunk_engine), ("Box2D", box2d_engine)):
         if disc and importlib.util.find_spec(name) is not None:
@@ -236,6 +244,11 @@ def others(lines: Scene, best: Scene, steps: list[float]) -> Iterator[Contestant
         contestant = billiards_engine(best)
         if contestant is not None:
             yield contestant
+
+
+def lossless(scene: Scene) -> bool:
+    """No wall takes anything from the speed."""
+    return all(wall.restitution == 1 and wall.tangential_restitution == 1 for wall in scene.walls.materials)
 
 
 def _ball(scene: Scene) -> tuple[FloatArray, FloatArray, float]:

@@ -10,18 +10,30 @@ import numpy as np
 from wallkit.accuracy.contest import Subject, along
 from wallkit.accuracy.scenes import lines_for_turn
 from wallkit.near_misses import circles
-from wallkit.scene import Scene
+from wallkit.scene import Balls, Scene, SceneError
 from wallkit.walls import Walls
 
 
 def of_scene(name: str, scene: Scene) -> Subject:
-    """Take walls and balls as they are."""
+    """Take walls and the first ball as they are."""
+    scene = replace(scene, balls=first_ball(scene.balls))
     arcs = (lambda _: scene) if scene.walls.has_arcs else None
 
     def lines(tolerance: float) -> Scene:
         return replace(scene, walls=flattened(scene.walls, tolerance))
 
     return Subject(name, "a scene", lines, arcs, False)
+
+
+def first_ball(balls: Balls) -> Balls:
+    """Give the first ball alone: the contest is about one.
+
+    Raises:
+        SceneError: there is none.
+    """
+    if not len(balls):
+        raise SceneError("there is no ball to shoot", code="no-ball", fix="give the scene a ball")
+    return Balls(np.asarray(balls.position)[:1], np.asarray(balls.velocity)[:1], np.asarray(balls.radius)[:1])
 
 
 def flattened(walls: Walls, tolerance: float) -> Walls:

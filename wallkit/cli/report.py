@@ -43,7 +43,7 @@ def report(
             metavar="BITS",
             min=53,
             max=100_000,
-            help="Bits of the reference, as 106 [default: as many as it takes].",
+            help="Bits of the reference, such as 106 (default: as many as it takes).",
         ),
     ] = None,
 ) -> None:
@@ -113,8 +113,8 @@ def _built_in(names: list[str] | None, quick: bool) -> list[Subject]:
 
 def _of_file(file: str) -> Subject:
     from wallkit.accuracy.contest import Subject
-    from wallkit.accuracy.own import of_scene
-    from wallkit.cli.scene_input import Wishes, prepare, prepare_drawing, read_input
+    from wallkit.accuracy.own import first_ball, of_scene
+    from wallkit.cli.scene_input import UsageError, Wishes, prepare, prepare_drawing, read_input
     from wallkit.scene_files import kind_of
 
     name = "standard input" if file == "-" else Path(file).name
@@ -128,7 +128,11 @@ def _of_file(file: str) -> Subject:
     stream = io.BytesIO(data)
     stream.name = file
     drawing = read_drawing(stream)
-    balls = prepare_drawing(drawing, Wishes()).scene.balls
+    try:
+        balls = first_ball(prepare_drawing(drawing, Wishes()).scene.balls)
+    except UsageError as error:  # it speaks of options that simulate has
+        error.fix = "draw a ball: a circle on a layer named balls; or give a scene file that has one"
+        raise
 
     def walls(curves: str, tolerance: float) -> Any:
         from wallkit.scene import Scene
