@@ -149,6 +149,10 @@ def test_every_control_of_the_replay(shown, until):
     for label, flag in (("Normals", "normals"), ("Ghosts", "ghosts"), ("Paths", "trails")):
         page.get_by_label(label).uncheck()
         assert page.evaluate(f"Wallkit.replay.player.{flag}") is False
+    page.get_by_label("Ghosts").focus()
+    page.keyboard.press(" ")  # is the box's own there
+    assert page.get_by_label("Ghosts").is_checked()
+    assert page.evaluate("Wallkit.replay.player.playing") is False
     before = page.evaluate("Wallkit.replay.stage.scale")
     page.get_by_role("button", name="Zoom in").click()
     assert page.evaluate("Wallkit.replay.stage.scale") == pytest.approx(1.5 * before)

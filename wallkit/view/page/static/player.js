@@ -55,7 +55,7 @@
     // Keys work wherever the focus is, except where they already mean something.
     key(event) {
       if (event.ctrlKey || event.metaKey || event.altKey || W.typing(event.target)) return;
-      const onButton = event.target.closest?.("button, summary, a, select");
+      const onButton = event.target.closest?.("button, summary, a, select, [type=checkbox], [type=radio]");
       const act = {
         " ": onButton ? null : () => this.toggle(),
         k: () => this.toggle(),
