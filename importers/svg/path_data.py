@@ -1,8 +1,8 @@
 """Path data: the text of a ``d`` attribute to absolute segments, as far as it is right.
 
 Why not svgpathtools' parser: it raises on the first error where a browser draws what stands before it, it
-cannot say where the error is, it raises on arcs of no length, and it costs 6 us a segment where this costs
-about 2 (both measured; benchmarks/ compares them). The tests hold this one against svgpathtools on every
+cannot say where the error is, it raises on arcs of no length, and it takes about twice as long (measured;
+benchmarks/ compares them). The tests hold this one against svgpathtools on every
 text that both read, so a second reader agrees.
 
 The grammar is SVG 2's, as browsers apply it: a number needs a digit after its point, a comma stands only
