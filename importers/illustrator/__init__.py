@@ -20,6 +20,8 @@ __all__ = ["looks_like_illustrator", "read_illustrator"]
 
 _CREATOR = re.compile(rb"%%Creator:[ \t]*([^\r\n]{1,200})")
 _APP_VERSION = re.compile(rb"%%AI8_CreatorVersion:[ \t]*(\d+)")
+_LARGE_CANVAS = re.compile(rb"%AI24_LargeCanvasScale:[ \t]*(\d{1,9})")
+_HEADER = 1 << 16  # bytes in which a header ends
 _ILLUSTRATOR = re.compile(r"Adobe Illustrator\D*(\d+(?:\.\d+)?)?")
 
 
@@ -91,6 +93,9 @@ def read_operators(source: Source, start: int, stop: int, file: str) -> Drawing:
             fix="save it with Illustrator's editing capabilities, or convert it: pstoedit -f plot-svg in.eps out.svg",
             file=file,
         )
+    scale = _LARGE_CANVAS.search(source.data, 0, min(start, _HEADER))
+    if scale and scale.group(1) != b"1":
+        art.findings.add(findings.LARGE_CANVAS, scale.start(), what=scale.group(1).decode())
     artboards = find_artboards(source.data, start)
     problems = art.findings.problems(source)
     return Drawing("pt", "up", art.layers, art.paths, problems, file=file, artboards=artboards)

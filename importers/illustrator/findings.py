@@ -109,3 +109,10 @@ PRIVATE_DAMAGED = Kind(
     "Illustrator's own data are damaged ({what}); what stands before the damage was read",
     "save the drawing again",
 )
+LARGE_CANVAS = Kind(
+    "large-canvas",
+    "warning",
+    "the drawing is on a large canvas: its coordinates are in units of {what} pt and are given as written",
+    "the drawing is on a large canvas: its coordinates are in units of {what} pt and are given as written",
+    "scale the walls by that number to have points",
+)

@@ -229,3 +229,11 @@ def test_artboards_are_listed_with_their_names():
         ("Square", 450, 100, 650, 300),
     ]
     assert drawing.to_json()["artboards"][1] == {"name": "Square", "box": [450, 100, 650, 300]}
+
+
+@pytest.mark.parametrize(("scale", "codes"), [(b"1", []), (b"10", ["large-canvas"])])
+def test_a_large_canvas_is_said(scale, codes):
+    text = HEAD + b"%AI24_LargeCanvasScale: " + scale + b"\n%%EndSetup\n" + layer(SQUARE)
+    drawing = read_illustrator(text)
+    assert [problem.code for problem in drawing.problems] == codes
+    assert drawing.paths[0].subpaths[0].segments[1] == ("L", 10, 0)
