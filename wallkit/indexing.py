@@ -131,7 +131,8 @@ def _enter(
     count = box[2] * box[3]
     cells, which = _cells_of_lines(box, lines, reach)
     many = int(owners.max(initial=0)) + 1
-    keys = np.unique(cells * many + owners[which])
+    keys = np.sort(cells * many + owners[which])
+    keys = keys[np.diff(keys, prepend=-1) > 0]
     start = np.zeros(count + 1, dtype=np.uint64)
     np.cumsum(np.bincount(keys // many, minlength=count), out=start[1:])
     return start, keys % many

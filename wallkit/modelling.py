@@ -29,9 +29,11 @@ class Modelled:
         model: arrays for the compiled kernels.
         origin: (2,) added to local coordinates it gives the scene's.
         radii: (n,) of the balls.
+        box: (x_min, y_min, x_max, y_max) that no wall reaches beyond, in the scene's coordinates.
     """
 
     def __init__(self, scene: Scene, *, index: str = "auto") -> None:
+        self.box = _box(scene.walls)
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
         self.origin = local_origin(scene.walls.vertices)
         least = float(self.radii.min()) if len(self.radii) else 0.0
@@ -50,6 +52,15 @@ class Modelled:
         offsets = scene.walls.edge_offsets
         wall = np.repeat(np.arange(len(scene.walls)), np.diff(offsets))
         return wall, np.arange(len(wall)) - offsets[wall]
+
+
+def _box(walls: Walls) -> tuple[float, float, float, float]:
+    """Box around the vertices, widened by what the arcs bow at most: half a chord times the bulge, or the circle."""
+    x0, y0, x1, y1 = walls.box()
+    chord = np.hypot(*(walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]).T)
+    bulge = np.abs(walls.bulges[walls.edge_starts])
+    bow = float((chord * bulge * np.where(bulge > 1.0, 1.0, 0.5)).max(initial=0.0))
+    return x0 - bow, y0 - bow, x1 + bow, y1 + bow
 
 
 def local_origin(vertices: FloatArray) -> FloatArray:
@@ -182,8 +193,11 @@ def _fans(walls: Walls, vertices: FloatArray, lines: FloatArray, angles: FloatAr
 
 
 def _restitution(scene: Scene) -> FloatArray | None:
-    pairs = np.array([(m.restitution, m.tangential_restitution) for m in scene.walls.materials], dtype=np.float64)
-    return np.ascontiguousarray(pairs).reshape(-1) if np.any(pairs != 1.0) else None
+    materials = scene.walls.materials
+    if all(m.restitution == 1.0 and m.tangential_restitution == 1.0 for m in set(materials)):
+        return None
+    pairs = np.array([(m.restitution, m.tangential_restitution) for m in materials], dtype=np.float64)
+    return np.ascontiguousarray(pairs).reshape(-1)
 
 
 def _gravity(scene: Scene) -> FloatArray | None:
@@ -196,8 +210,9 @@ def _gravity(scene: Scene) -> FloatArray | None:
 
 
 def _one_sided(scene: Scene) -> IntArray | None:
-    flags = np.array([sides == "outward" for sides in scene.walls.sides], dtype=np.int64)
-    return flags if flags.any() else None
+    if "outward" not in scene.walls.sides:
+        return None
+    return np.array([sides == "outward" for sides in scene.walls.sides], dtype=np.int64)
 
 
 def _records(columns: FloatArray, dtype: np.dtype[Any]) -> NDArray[Any]:

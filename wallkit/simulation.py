@@ -220,7 +220,7 @@ class Flights:
         """How each ball ended."""
         final = self.final()
         position, velocity = np.stack([final["x"], final["y"]], 1), np.stack([final["vx"], final["vy"]], 1)
-        gone = is_gone(self.scene.walls.box(), position, velocity, self.modelled.radii)
+        gone = is_gone(self.modelled.box, position, velocity, self.modelled.radii)
         endings = [Ending(counts[2]) for counts in self._counts]
         return tuple(
             Ending.LEFT_SCENE if ending == Ending.TIME_REACHED and gone[ball] else ending

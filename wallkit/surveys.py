@@ -133,6 +133,6 @@ def _totals(
     position, velocity, time = np.empty((count, 2)), np.empty((count, 2)), np.empty(count)
     bounces, ending = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.uint8)
     x0, y0 = modelled.origin.tolist()
-    box = np.array(scene.walls.box())
+    box = np.array(modelled.box)
     compiled(end_all)(states, counts, modelled.radii, x0, y0, box, position, velocity, time, bounces, ending)
     return Totals(bounces, position, velocity, time, hits, ending)

@@ -111,3 +111,8 @@ def test_many_arcs_index_changes_no_bit():
             logs.append(np.concatenate(list(flights.fly(0, math.inf, 5000))))
         assert len(logs[0]) == 5000
         assert logs[0].tobytes() == logs[1].tobytes()
+
+
+def test_a_ball_within_the_bow_of_an_arc_has_not_left():
+    run = wallkit.simulate(scene_of(stadium(), position=[0.0, 0.0], velocity=[1.0, 0.0]), until=1.9)
+    assert run.ending == (wallkit.Ending.TIME_REACHED,)

@@ -1,0 +1,123 @@
+"""Speed of the bounce core beside a plain event loop in C (``events.c``), both on one thread, in one run.
+
+    python benchmarks/core_speed.py [scene ...]
+
+Each scene has 10,000 balls at 50 units/s for 20 s, discs of radius 5 and points. The C loop asks every edge each time:
+it is a yardstick for box, star and wedge; with many edges it only shows what an index is worth (fewer balls there).
+Compiling is not counted, nor the look whether a disc overlaps a wall at the start.
+"""
+
+from __future__ import annotations
+
+import math
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+import shapely
+
+import wallkit
+
+SPEED, SECONDS = 50.0, 20.0
+
+
+def curve(count):
+    angle = 2 * np.pi * np.arange(count) / count
+    size = 200 * (1 + 0.15 * np.cos(3 * angle) + 0.07 * np.sin(5 * angle))
+    return np.stack([size * np.cos(angle), size * np.sin(angle)], axis=1)
+
+
+def star():
+    angle = 0.1 + np.arange(10) * np.pi / 5
+    return np.where(np.arange(10) % 2, 90.0, 200.0)[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def rings(name):
+    """Outline of the room, then what stands in it."""
+    half = 1000 * math.tan(math.radians(1))
+    if name == "maze10k":
+        rng = np.random.default_rng(3)
+        middle, turn = rng.uniform([20, 20], [3980, 2980], (9996, 2)), rng.uniform(0, np.pi, 9996)
+        arm = rng.uniform(5, 15, 9996)[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        room = np.array([[0.0, 0.0], [4000.0, 0.0], [4000.0, 3000.0], [0.0, 3000.0]])
+        return [room, *np.stack([middle - arm, middle + arm], axis=1)]
+    return [
+        {
+            "box": np.array([[0.0, 0.0], [400.0, 0.0], [400.0, 300.0], [0.0, 300.0]]),
+            "star": star(),
+            "wedge": np.array([[0.0, 0.0], [1000.0, -half], [1000.0, half]]),
+            "curve1000": curve(1000),
+            "curve10000": curve(10_000),
+        }[name]
+    ]
+
+
+def starts(lines, radius, count):
+    rng = np.random.default_rng(7)
+    walls = shapely.MultiLineString([*lines[1:], np.vstack([lines[0], lines[0][:1]])])
+    shapely.prepare(walls)
+    room = shapely.Polygon(lines[0])
+    low, high = lines[0].min(axis=0), lines[0].max(axis=0)
+    found = np.empty((0, 2))
+    while len(found) < count:
+        tries = shapely.points(rng.uniform(low, high, (4000, 2)))
+        clear = shapely.contains(room, tries) & ~shapely.dwithin(walls, tries, radius + 0.05)
+        found = np.concatenate([found, shapely.get_coordinates(tries[clear])])
+    angle = rng.uniform(0, 2 * np.pi, count)
+    return found[:count], SPEED * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def in_c(program, lines, position, velocity, radius):
+    """Bounces a second of the C loop, and its bounces."""
+    edges = [np.hstack([lines[0], np.roll(lines[0], -1, axis=0)]), *(line.reshape(1, 4) for line in lines[1:])]
+    table = np.vstack([*edges, np.hstack([position, velocity])])
+    rows = "\n".join(" ".join(map(repr, row)) for row in table.tolist())
+    text = f"{sum(map(len, edges))} {len(position)} {SECONDS} {radius}\n{rows}\n"
+    best = 0.0
+    for _ in range(3):
+        bounces, seconds, _sum = subprocess.run([program], input=text, capture_output=True, text=True).stdout.split()
+        best = max(best, int(bounces) / float(seconds))
+    return best, int(bounces)
+
+
+def main():
+    names = sys.argv[1:] or ["box", "star", "wedge", "curve1000", "curve10000", "maze10k"]
+    compiler = shutil.which("cc") or shutil.which("gcc")
+    with tempfile.TemporaryDirectory() as folder:
+        program = str(Path(folder) / "events")
+        if compiler:
+            source = str(Path(__file__).with_name("events.c"))
+            flags = ["-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math"]
+            subprocess.run([compiler, *flags, source, "-o", program, "-lm"], check=True)
+        for name in names:
+            lines = rings(name)
+            closed = [True] + [False] * (len(lines) - 1)
+            walls = wallkit.Walls.from_polylines(lines, closed=closed)
+            for radius in (5.0, 0.0):
+                count = 10_000
+                position, velocity = starts(lines, radius if name != "wedge" else 5.0, count)
+                scene = wallkit.Scene(walls, wallkit.Balls(position, velocity, radius))
+                few = wallkit.Scene(walls, wallkit.Balls(position[:600], velocity[:600], radius))
+                wallkit.survey(few, until=0.1, threads=1, check=False)
+                best = 0.0
+                for _ in range(5):
+                    began = time.process_time()
+                    totals = wallkit.survey(scene, until=SECONDS, threads=1, check=False)
+                    best = max(best, totals.bounces.sum() / (time.process_time() - began))
+                beside = ""
+                if compiler:
+                    some = count if len(walls.edge_starts) < 100 else 100
+                    plain, bounces = in_c(program, lines, position[:some], velocity[:some], radius)
+                    beside = f"   C {plain / 1e6:8.3f} M/s ({bounces} bounces)   ratio {best / plain:.2f}"
+                print(
+                    f"{name:11s} r = {radius:g}  {best / 1e6:7.2f} M bounces/s ({totals.bounces.sum()}){beside}",
+                    flush=True,
+                )
+
+
+if __name__ == "__main__":
+    main()
