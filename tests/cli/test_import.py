@@ -40,7 +40,9 @@ def room(tmp_path):
 def test_pasted_text_from_standard_input():
     result = wallkit("import", "-", stdin="24 803 m\n69 828 l\n108 775 l\n31 757 l\n24 803 l\n")
     assert result.returncode == 0, result.stderr
-    walls = json.loads(result.stdout)["walls"]
+    whole = json.loads(result.stdout)
+    assert whole["source"]["file"] == "-"
+    walls = whole["walls"]
     assert len(walls) == 1
     assert walls[0]["closed"]
     assert sorted(walls[0]["vertices"]) == [[24, 803], [31, 757], [69, 828], [108, 775]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TextIO
@@ -70,8 +71,14 @@ def import_drawing(
 
 
 def source(file: str) -> Any:
-    """Give what the reader takes: the path, or standard input for ``-``."""
-    return sys.stdin.buffer if file == "-" else file
+    """Give what the reader takes: the path, or standard input for ``-``, called so in messages."""
+    if file != "-":
+        return file
+    from wallkit.cli.scene_input import read_input  # late: it brings numpy
+
+    stream = io.BytesIO(read_input(file))
+    stream.name = file
+    return stream
 
 
 def _check_ending(out: str) -> None:
