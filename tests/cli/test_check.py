@@ -119,3 +119,9 @@ def test_what_is_no_drawing_is_an_error_and_not_a_finding(tmp_path):
 def test_the_fix_that_is_told_mends_it(leaky):
     result = wallkit("check", leaky, "--snap", 0.5)
     assert (result.returncode, result.stderr) == (0, "")
+
+
+def test_a_drawing_without_walls_is_a_finding():
+    result = wallkit("check", "-", stdin='<svg xmlns="http://www.w3.org/2000/svg"/>')
+    assert result.returncode == 1
+    assert "warning[no-walls]" in result.stdout

@@ -71,7 +71,8 @@ def check(
         given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
     space = free_space(walls, free=given.places if len(given.places) else None)
     reach = reach_of(space, walls, radius, given.places)
-    problems = sorted([*leak_problems(space, reach), *walls.problems, *given.problems], key=_rank)
+    found = [*leak_problems(space, reach), *walls.problems, *given.problems, *_without_walls(walls)]
+    problems = sorted(found, key=_rank)
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
         _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
@@ -80,6 +81,15 @@ def check(
     else:
         _tell(walls, problems, space, reach, given.assumed)
     raise typer.Exit(1 if findings else 0)
+
+
+def _without_walls(walls: Walls) -> list[Problem]:
+    from importers.problems import Problem
+
+    if len(walls):
+        return []
+    fix = "see what the file holds with: wallkit inspect; take other layers (--layer) or hidden paths (--hidden)"
+    return [Problem("no-walls", "warning", "there is nothing in it that makes a wall", fix)]
 
 
 def _rank(problem: Problem) -> int:
