@@ -106,6 +106,8 @@ def test_a_dropped_drawing_shows_its_walls_and_problems(room, until):
     at = room.evaluate("Wallkit.page.document.problems.findIndex((p) => p.code === 'open-path')")
     room.locator("#problems button").nth(at).click()
     assert room.locator("#problems li").nth(at).get_attribute("aria-current") == "true"
+    room.get_by_label("Pins in the drawing").uncheck()
+    assert room.evaluate("Wallkit.page.player.pins") is False
     x, y = room.evaluate(f"(({{x, y}}) => [x, y])(Wallkit.page.document.problems[{at}])")
     until(room, "Wallkit.page.stage.dirty === false")
     middle = room.evaluate("[Wallkit.page.stage.x, Wallkit.page.stage.y, Wallkit.page.player.chosen]")

@@ -210,7 +210,7 @@
     }
 
     tapped(place) {
-      const { problems } = this.document ?? { problems: [] };
+      const problems = this.player.pins && this.document ? this.document.problems : [];
       const hit = problems.findIndex(({ x, y, severity }, index) => {
         if (x === null || y === null || (severity === "info" && index !== this.player.chosen)) return false;
         return Math.hypot(this.stage.screenX(x) - place.x, this.stage.screenY(y) - place.y) < 36;

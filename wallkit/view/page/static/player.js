@@ -23,6 +23,7 @@
       this.normals = true;
       this.ghosts = true;
       this.trails = true;
+      this.pins = true;
       this.problems = [];
       this.chosen = -1;
       this.frameTimes = []; // milliseconds that each frame took to draw, for tests and for the curious
@@ -189,7 +190,7 @@
       }
       const ctx = stage.context(stage.front);
       ctx.lineJoin = ctx.lineCap = "round";
-      W.drawMarks(ctx, stage, colours, this.problems, this.chosen);
+      if (this.pins) W.drawMarks(ctx, stage, colours, this.problems, this.chosen);
       if (this.motion) this.drawMotion(ctx, colours);
       this.decorate(ctx, colours);
     }
