@@ -57,12 +57,12 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
         setattr(config, "CACHE_DIR", theirs)  # noqa: B010
 
 
-@cache
 def _register_all(register: Callable[..., Any]) -> None:
-    for function in _marked:
-        register(forceinline=True, _nrt=False)(function)
-    for function in _rare:
-        register(_nrt=False)(function)
+    """Tell Numba of the kernels marked since the last time: some modules are imported after the first compiling."""
+    while _marked:
+        register(forceinline=True, _nrt=False)(_marked.pop())
+    while _rare:
+        register(_nrt=False)(_rare.pop())
 
 
 def _cache_folder() -> Path:
