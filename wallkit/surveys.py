@@ -20,6 +20,8 @@ from wallkit.modelling import Modelled
 from wallkit.scene import FloatArray, Scene
 from wallkit.simulation import START, initial_states, limits
 
+WORTH_LOCKSTEP = 100
+"""Balls from which on lockstep pays: a pass over all lanes takes as long as some hundred bounces one by one."""
 LEAST, MOST = 1024, 65_536
 """Balls a task: enough to forget the cost of a task, few enough to share the work out evenly."""
 
@@ -103,7 +105,9 @@ def suits_lockstep(model: Model, radii: FloatArray) -> bool:
     """Few lines, one radius, and nothing else that acts."""
     features = (model.grid, model.arcs, model.gravity, model.restitution, model.one_sided)
     few = len(model.line_ids) <= MOST_EDGES
-    return few and all(feature is None for feature in features) and len(radii) > 0 and bool((radii == radii[0]).all())
+    if len(radii) < WORTH_LOCKSTEP or not few:
+        return False
+    return all(feature is None for feature in features) and bool((radii == radii[0]).all())
 
 
 def _map(task: Any, starts: range, threads: int, executor: Executor | None) -> list[NDArray[np.int64]]:
