@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from wallkit.clearance import check_starts, settled
 from wallkit.damping import Slowed, damping_of, refuse_damping
-from wallkit.kernels.flight import TOLERANCE, fly, fly_all
+from wallkit.kernels.flight import FALLING_TOLERANCE, TOLERANCE, fly, fly_all
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.model import FREE, LOG_STRIDE, NO_HIT, RUNNING, STATE_SIZE, Counts
 from wallkit.modelling import Modelled
@@ -266,18 +266,21 @@ def initial_states(modelled: Modelled, position: FloatArray, velocity: FloatArra
     states[:, 0:2] = position - modelled.origin
     states[:, 2:4] = velocity
     states[:, 6] = velocity[:, 0] * velocity[:, 0] + velocity[:, 1] * velocity[:, 1]
+    tolerance = TOLERANCE
     if (gravity := modelled.model.gravity) is not None:
+        tolerance = FALLING_TOLERANCE
         states[:, 6] -= 2.0 * (gravity[0] * states[:, 0] + gravity[1] * states[:, 1])
     states[:, 7:9], states[:, 9:11] = states[:, 0:2], velocity
-    states[:, 11] = TOLERANCE * np.maximum(np.abs(states[:, 0:2]).max(axis=1, initial=0.0), modelled.model.extent)
+    states[:, 11] = tolerance * np.maximum(np.abs(states[:, 0:2]).max(axis=1, initial=0.0), modelled.model.extent)
     return states
 
 
 def is_gone(
     box: tuple[float, float, float, float], position: FloatArray, velocity: FloatArray, radii: FloatArray
 ) -> NDArray[np.bool_]:
-    """Tell which balls are outside the walls' box and fly away from it."""
-    low, high = np.array(box[0:2]) - radii[:, None], np.array(box[2:4]) + radii[:, None]
+    """Tell which balls are outside the walls' box, by more than rounding, and fly away from it."""
+    beyond = radii[:, None] + 2.0**-40 * np.abs(box).max()
+    low, high = np.array(box[0:2]) - beyond, np.array(box[2:4]) + beyond
     gone: NDArray[np.bool_] = np.any(
         ((position > high) & (velocity >= 0)) | ((position < low) & (velocity <= 0)), axis=1
     )

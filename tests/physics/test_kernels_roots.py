@@ -150,6 +150,13 @@ def test_quartic_two_roots_close_together(spread, at):
     assert got == pytest.approx(at, rel=8 * EPS * 20 / spread)
 
 
+@pytest.mark.parametrize("gap", [0.0, -1e-13, 1e-13])
+def test_quartic_ball_that_comes_level_into_a_hollow_is_pressed_on_it_at_once(gap):
+    # at the foot of a hollow, speed along it and none towards it: f' is 0 at first and negative ever after
+    time = first_fall_quartic(-22500.0, 0.0, -84169.0, -0.0, gap, math.inf)
+    assert time == pytest.approx(math.sqrt(max(gap, 0.0) / 84169.0), rel=1e-6)
+
+
 def test_quartic_four_roots_takes_the_first_falling_one():
     # (t - 1)(t - 2)(t - 3)(t - 4) is positive at 0 and falls at 1 and 3; its negative falls at 2 and 4
     assert first_fall_quartic(1.0, -10.0, 35.0, -50.0, 24.0, math.inf) == pytest.approx(1.0, rel=64 * EPS)

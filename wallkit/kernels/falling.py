@@ -40,7 +40,7 @@ def fall_line(
         above = d > 0.0
         if radius == 0.0 and abs(d) <= tolerance and -tolerance <= u <= line.length + tolerance:
             touched += 1 if ids[k] != last else 0
-            above = vn > 0.0 or (vn == 0.0 and gn > 0.0)
+            above = vn > 0.0 if vn * vn > 2.0 * abs(gn) * tolerance else gn < 0.0  # pressed on it, it lies on it
         for turn in range(2):
             side = 1.0 if turn == 0 else -1.0
             if side < 0.0 and one_sided is not None:
@@ -113,11 +113,30 @@ def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
     return best, feature
 
 
+@kernel
+def _polished(t, limit, ex, ey, vx, vy, gx, gy):
+    """One Newton step for |e(t)|^2 = limit^2, from places instead of coefficients.
+
+    The coefficients of the quartic carry the rounding of (|v| t + g t^2 / 2)^2, the places that of |v| t + g t^2 / 2.
+    Grazing, where the step is no longer small, the root has no better digits to give.
+    """
+    px, py = ex + t * (vx + 0.5 * t * gx), ey + t * (vy + 0.5 * t * gy)
+    slope = 2.0 * (px * (vx + t * gx) + py * (vy + t * gy))
+    gap = px * px + py * py - limit * limit
+    if abs(gap) > t * 2.0**-20 * abs(slope) or slope == 0.0:
+        return t
+    return t - gap / slope
+
+
 @rare_kernel
 def fall_arcs(
-    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, best, feature
-):
+    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference,
+    best, feature,
+):  # fmt: skip
     """Earliest contact with the arcs of entries start to stop: |e(t)|^2 - (R + r)^2 or (R - r)^2 - |e(t)|^2 falls.
+
+    ``reference`` is the normal, towards the ball, of the line on which a point slides or has just slid, or zero: a
+    point that comes smoothly onto an arc is on that side of it.
 
     Returns:
         (time, feature, number of other arcs that a point touches where it starts).
@@ -136,7 +155,10 @@ def fall_arcs(
         outside = power >= 0.0
         if radius == 0.0 and abs(power) <= (2.0 * arc.radius + tolerance) * tolerance and holds(arc, ex, ey, tolerance):
             touched += 1 if ids[k] != last else 0
-            outside = c1 > 0.0 or (c1 == 0.0 and c2 > 0.0)
+            along = ex * reference[0] + ey * reference[1]
+            outside = c1 > 0.0 if c1 * c1 > 8.0 * arc.radius * abs(c2) * tolerance else c2 < 0.0
+            if along != 0.0:
+                outside = along > 0.0
         for turn in range(2):
             side = 1.0 if turn == 0 else -1.0
             if side < 0.0 and radius >= arc.radius:
@@ -146,6 +168,8 @@ def fall_arcs(
                     continue
             c0 = side * power - radius * (2.0 * arc.radius + side * radius)
             t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, 0.0, outside != (side > 0.0))
+            if 0.0 < t < NEVER:
+                t = _polished(t, arc.radius + side * radius, ex, ey, vx, vy, gx, gy)
             for _again in range(2):
                 if not (t < best or (t == best and precedes(ids[k], feature))):
                     break
@@ -159,7 +183,7 @@ def fall_arcs(
 
 
 @kernel
-def fall_scan(model, cells, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature):
+def fall_scan(model, cells, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature):
     """Earliest contact with the entries of one cell: (time, feature, edges touched by a point where it starts)."""
     best, feature, touched = fall_line(
         model.line_entries, model.line_ids, cells.line_start[c], cells.line_start[c + 1],
@@ -167,7 +191,7 @@ def fall_scan(model, cells, c, radius, x, y, vx, vy, gx, gy, last, skipped, tole
     )  # fmt: skip
     best, feature, more = fall_arcs(
         model.arc_entries, model.arc_ids, cells.arc_start[c], cells.arc_start[c + 1],
-        model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, best, feature,
+        model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference, best, feature,
     )  # fmt: skip
     best, feature = fall_corners(
         model.corner_entries, model.corner_ids, cells.corner_start[c], cells.corner_start[c + 1],
@@ -177,21 +201,23 @@ def fall_scan(model, cells, c, radius, x, y, vx, vy, gx, gy, last, skipped, tole
 
 
 @kernel
-def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature):
+def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature):
     """Find the earliest contact before ``best``: (time, feature, edges touched by a point where it starts).
 
     The cells at the grid's border reach on without end, so a ball that leaves the grid is followed back into it. A
     coordinate of a parabola passes each border at most twice.
     """
     if grid is None:
-        return fall_scan(model, model.whole, 0, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature)
+        return fall_scan(
+            model, model.whole, 0, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature
+        )
     column, row = cell_of(grid, x, y)
     touched = 0
     now = 0.0
     for _step in range(2 * (grid.columns + grid.rows) + 8):
         best, feature, more = fall_scan(
             model, grid.cells, row * grid.columns + column, radius, x, y, vx, vy, gx, gy,
-            last, skipped, tolerance, best, feature,
+            last, skipped, tolerance, reference, best, feature,
         )  # fmt: skip
         if now == 0.0:
             touched += more

@@ -12,6 +12,7 @@ from wallkit.kernels.model import (
     AMBIGUOUS_CORNER,
     AT_REST,
     BOUNCE_LIMIT,
+    CAUGHT,
     COLLAPSE,
     COLLAPSES,
     COMING_TO_REST,
@@ -26,13 +27,29 @@ from wallkit.kernels.model import (
     SLIDING,
     TIME_REACHED,
     VERTEX,
+    WEDGED,
 )
 from wallkit.kernels.motion import advance
-from wallkit.kernels.pull import bounce, first_contact, held_after, keep_to, kept_energy, move, rests, towards
+from wallkit.kernels.pull import (
+    bounce,
+    end_of_hold,
+    facing,
+    first_contact,
+    held_after,
+    keep_to,
+    kept_energy,
+    move,
+    rests,
+    side_kept,
+    towards,
+)
 
 TOLERANCE = 2.0**-47
 """Positions are off by less than this part of the extent: p + t v by some 8 roundings (2^-53), (p - a).n by as many;
 64 of them are on the safe side and still far below what a drawing can mean."""
+FALLING_TOLERANCE = 2.0**-41
+"""The same under gravity: |v| t and g t^2 / 2 come to eight times the extent each before they cancel (up and down
+again in a room), and times are roots of polynomials: eight times eight as much."""
 
 
 @kernel
@@ -102,7 +119,8 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                 ending = COLLAPSE
                 break
         if t > 0.0:
-            from_x, from_y, from_vx, from_vy = x, y, vx, vy
+            from_x, from_y = x, y
+            from_vx, from_vy = side_kept(model, gravity, held, hold, vx, vy)
             x, y, vx, vy = move(model, gravity, held, hold, x, y, vx, vy, t)
             time, lost = advance(time, lost, t)
         if feature == END_OF_EDGE:
@@ -110,8 +128,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             last = held
             continue
         nx, ny, twice, wall = normal_of(model, feature, x, y)
-        if vx * nx + vy * ny > 0.0:
-            nx, ny = -nx, -ny
+        nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny, tolerance)
         vx, vy, energy = bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy)
         last = feature
         bounces += 1
@@ -121,7 +138,9 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
         if absorbs(model.restitution, wall):
             ending = ABSORBED
         if gravity is not None:
-            held, hold = held_after(model, gravity, feature, held, hold, vx, vy, nx, ny, tolerance)
+            held, hold = held_after(model, gravity, radius, feature, held, hold, x, y, vx, vy, nx, ny, tolerance)
+            if hold in (CAUGHT, WEDGED):
+                ending, vx, vy = end_of_hold(model, gravity, hold, wall, nx, ny, vx, vy)
     if ending == TIME_REACHED:
         remaining = (until - time) - lost
         if remaining > 0.0:
@@ -186,6 +205,7 @@ def end_all(states, counts, radii, x0, y0, box, position, velocity, time, bounce
         time[ball] = state[4] + state[5]
         bounces[ball] = counts[ball, 1]
         ending[ball] = counts[ball, 2]
+        r += 2.0**-40 * max(max(abs(box[0]), abs(box[1])), max(abs(box[2]), abs(box[3])))
         out_x = (x > box[2] + r and vx >= 0.0) or (x < box[0] - r and vx <= 0.0)
         out_y = (y > box[3] + r and vy >= 0.0) or (y < box[1] - r and vy <= 0.0)
         if counts[ball, 2] == TIME_REACHED and (out_x or out_y):

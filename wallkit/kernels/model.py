@@ -30,8 +30,9 @@ AMBIGUOUS = -(2**62)
 
 RUNNING = -1
 EDGE, VERTEX, SLIDE, LEAVE = 0, 1, 2, 3
-FREE, COMING_TO_REST, SLIDING, LEAVING, LEFT = 0, 1, 2, 3, 4
-"""How an edge holds a ball under gravity: not; from the next moment; now; until the next moment; until just now."""
+FREE, COMING_TO_REST, SLIDING, LEAVING, LEFT, CAUGHT, WEDGED = 0, 1, 2, 3, 4, 5, 6
+"""How an edge holds a ball under gravity: not; from the next moment; now; until the next moment; until just now; by a
+curve (an arc or a corner), along which no flight of ours goes on; with another feature in the way of the slide."""
 TIME_REACHED, BOUNCE_LIMIT, LEFT_SCENE, AT_REST, COLLAPSE, AMBIGUOUS_CORNER, ABSORBED = 0, 1, 2, 3, 4, 5, 6
 
 

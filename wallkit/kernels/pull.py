@@ -5,6 +5,10 @@ end in the time 2 w / (p (1 - e)). When the height it reaches, w^2 / (2 p), is b
 bounces are taken at once. After that it keeps to the wall: at rest where tangential restitution f < 1 has stopped it
 (or nothing pulls), else sliding with the part of gravity along the wall, until the wall ends or something is met.
 
+On a curve (an arc, or the circle of a corner) p = -g.n + v^2 k, with k the curvature of the way of the centre,
+positive in a hollow. There the bounces end the same way, but what comes after, a pendulum's swing, is not flown: the
+ball is caught, and its run ends there, by name.
+
 Each kernel takes gravity as an argument of its own; where it is None only the straight flight is left of it.
 """
 
@@ -15,7 +19,18 @@ import math
 from wallkit.kernels.falling import fall_search
 from wallkit.kernels.grid import search
 from wallkit.kernels.jit import kernel, rare_kernel
-from wallkit.kernels.model import COMING_TO_REST, END_OF_EDGE, FREE, LEFT, NO_HIT, SLIDING
+from wallkit.kernels.model import (
+    AT_REST,
+    CAUGHT,
+    COLLAPSE,
+    COMING_TO_REST,
+    END_OF_EDGE,
+    FREE,
+    LEFT,
+    NO_HIT,
+    SLIDING,
+    WEDGED,
+)
 from wallkit.kernels.motion import reflect
 from wallkit.kernels.roots import first_fall_quadratic
 
@@ -30,8 +45,9 @@ def first_contact(model, gravity, radius, x, y, vx, vy, energy, last, held, hold
         return search(model, model.grid, radius, x, y, vx, vy, energy, last, tolerance, best, NO_HIT)
     gx, gy = _pull(model, gravity, held, hold)
     skipped = held if hold in (SLIDING, LEFT) else NO_HIT
+    reference = towards(model, held, gravity) if skipped != NO_HIT else (0.0, 0.0)
     t, feature, touched = fall_search(
-        model, model.grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, NO_HIT
+        model, model.grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, NO_HIT
     )
     if hold == SLIDING:
         end = _end_of_edge(model, held, x, y, vx, vy, gx, gy)
@@ -57,6 +73,8 @@ def bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy):
     """
     if gravity is None:
         return reflect(model.restitution, wall, nx, ny, twice, vx, vy, energy)
+    if vx * nx + vy * ny >= 0.0:  # it begins to be pressed on the wall: nothing to turn yet
+        return vx, vy, energy
     height = 2.0 * (gravity[0] * x + gravity[1] * y)
     vx, vy, square = reflect(model.restitution, wall, nx, ny, twice, vx, vy, max(energy + height, 0.0))
     return vx, vy, square - height
@@ -77,25 +95,103 @@ def towards(model, held, gravity):
 
 
 @kernel
-def held_after(model, gravity, feature, held, hold, vx, vy, nx, ny, tolerance):
-    """Which edge holds a ball after a bounce off a feature (normal n towards it), and how: (edge, hold)."""
+def facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny, tolerance):
+    """Turn the normal of a contact to the ball.
+
+    Without gravity a contact approaches by far more than rounding, and the velocity tells the side. Under gravity it
+    may begin with no speed towards the wall at all. The centre of a disc is its radius off the wall then, and
+    tells the side; a point is on the side from which it is pressed.
+    """
+    towards_ball = -(vx * nx + vy * ny)
+    if gravity is not None:
+        if radius > 0.0:
+            towards_ball = _offset(model, model.arcs, feature, x, y, nx, ny)
+        else:
+            bend = _curvature(model, model.arcs, feature, radius, x, y, nx, ny)
+            press = -(gravity[0] * nx + gravity[1] * ny) + bend * (vx * vx + vy * vy)
+            if towards_ball * towards_ball <= 2.0 * abs(press) * tolerance * math.sqrt(nx * nx + ny * ny):
+                towards_ball = press
+    if towards_ball < 0.0:
+        return -nx, -ny
+    return nx, ny
+
+
+@kernel
+def _offset(model, arcs, feature, x, y, nx, ny):
+    """On which side of a feature a centre is: that of the normal above 0. All round a corner is outside."""
+    if feature < 0:
+        return 1.0
+    if arcs is not None:
+        if model.arc_of_edge[feature] >= 0:
+            arc = arcs[model.arc_of_edge[feature]]
+            return nx * nx + ny * ny - arc.radius * arc.radius
+    line = model.lines[feature]
+    return (x - line.ax) * nx + (y - line.ay) * ny
+
+
+@kernel
+def _curvature(model, arcs, feature, radius, x, y, nx, ny):
+    """How the way of the centre along a feature bends towards the normal, per unit of the normal's length.
+
+    1 / (R - r) in the hollow of an arc, -1 / (R + r) on its back, -1 / r on a corner, 0 on a line.
+    """
+    length = math.sqrt(nx * nx + ny * ny)
+    if feature < 0:
+        return -length / radius
+    if arcs is not None:
+        if model.arc_of_edge[feature] >= 0:
+            arc = arcs[model.arc_of_edge[feature]]
+            ex, ey = x - arc.ax + arc.sx, y - arc.ay + arc.sy
+            return (
+                -length / math.sqrt(ex * ex + ey * ey)
+                if ex * nx + ey * ny > 0.0
+                else length / max(arc.radius - radius, arc.radius * LEVEL)
+            )
+    return 0.0
+
+
+@kernel
+def side_kept(model, gravity, held, hold, vx, vy):
+    """Velocity at a flight's start as corners remember it: a ball that slides has the side from which it is pressed.
+
+    The lift off the wall, 2^-40 of the speed, is far above rounding and far below what corners tell apart.
+    """
+    if gravity is None:
+        return vx, vy
+    if hold != SLIDING:
+        return vx, vy
+    nx, ny = towards(model, held, gravity)
+    lift = 2.0**-40 * (abs(vx) + abs(vy))
+    return vx + lift * nx, vy + lift * ny
+
+
+@kernel
+def held_after(model, gravity, radius, feature, held, hold, x, y, vx, vy, nx, ny, tolerance):
+    """What holds a ball after a bounce off a feature (normal n towards it), and how: (edge, hold)."""
     if hold == SLIDING and feature != held:
         hx, hy = towards(model, held, gravity)
-        if _clings(gravity, hx, hy, vx, vy, tolerance):
+        if _clings(gravity, hx, hy, 0.0, vx, vy, tolerance):
+            gx, gy = _pull(model, gravity, held, SLIDING)
+            press, away = -(gx * nx + gy * ny), vx * nx + vy * ny
+            if press > 0.0 and away * away <= 2.0 * press * tolerance * math.sqrt(nx * nx + ny * ny):
+                return held, WEDGED
             return held, COMING_TO_REST
-    if feature >= 0 and _is_line(model, model.arcs, feature):
-        length = math.sqrt(nx * nx + ny * ny)
-        if _clings(gravity, nx / length, ny / length, vx, vy, tolerance):
+    length = math.sqrt(nx * nx + ny * ny)
+    bend = _curvature(model, model.arcs, feature, radius, x, y, nx, ny) / length
+    if _clings(gravity, nx / length, ny / length, bend, vx, vy, tolerance):
+        if feature >= 0 and _is_line(model, model.arcs, feature):
             return feature, COMING_TO_REST
+        return feature, CAUGHT
     return NO_HIT, FREE
 
 
 @kernel
-def _clings(gravity, nx, ny, vx, vy, tolerance):
-    """Pressed against a wall with unit normal n, a ball rises less than the tolerance."""
-    press = -(gravity[0] * nx + gravity[1] * ny)
+def _clings(gravity, nx, ny, bend, vx, vy, tolerance):
+    """Pressed against a wall with unit normal n and curvature ``bend``, a ball rises less than the tolerance."""
+    pull = abs(gravity[0]) + abs(gravity[1])
+    press = bend * (vx * vx + vy * vy) - (gravity[0] * nx + gravity[1] * ny)
     away = vx * nx + vy * ny
-    return press > LEVEL * (abs(gravity[0]) + abs(gravity[1])) and away * away <= 2.0 * press * tolerance
+    return press > LEVEL * pull and away * away <= 2.0 * press * tolerance
 
 
 @kernel
@@ -103,6 +199,21 @@ def _is_line(model, arcs, edge):
     if arcs is None:
         return True
     return model.arc_of_edge[edge] < 0
+
+
+@kernel
+def end_of_hold(model, gravity, hold, wall, nx, ny, vx, vy):
+    """How the run of a ball ends that is wedged, or that a curve has caught: (ending, vx, vy).
+
+    Wedged between what it slides on and what it slides against, it is at rest. On a curve it is at rest where the wall is rough, or at the very bottom of a hollow without speed; else it would swing on along
+    the curve, and all that is known is that its bounces have collapsed.
+    """
+    if hold == WEDGED or _sticks(model.restitution, wall):
+        return AT_REST, 0.0, 0.0
+    across = gravity[0] * ny - gravity[1] * nx
+    if abs(across) <= LEVEL * abs(gravity[0] * nx + gravity[1] * ny) and vx * ny - vy * nx == 0.0:
+        return AT_REST, 0.0, 0.0
+    return COLLAPSE, vx, vy
 
 
 @kernel
@@ -147,6 +258,13 @@ def _is_rough(restitution, wall):
     if restitution is None:
         return False
     return restitution[2 * wall + 1] < 1.0
+
+
+@kernel
+def _sticks(restitution, wall):
+    if restitution is None:
+        return False
+    return restitution[2 * wall] < 1.0 and restitution[2 * wall + 1] < 1.0
 
 
 @kernel

@@ -68,7 +68,7 @@ def first_fall_quartic(c4: float, c3: float, c2: float, c1: float, c0: float, t_
     low, high = _quadratic_roots(12.0 * c4, 6.0 * c3, 2.0 * c2)
     start = 0.0
     f_start = c0
-    slope_start = c1
+    falls = _falls_from_zero(c4, c3, c2, c1)
     cut = 0.0
     for piece in range(3):  # f' is monotone between 0, low, high and the limit
         if piece == 0:
@@ -82,19 +82,29 @@ def first_fall_quartic(c4: float, c3: float, c2: float, c1: float, c0: float, t_
             continue
         end = max(end, cut)
         slope_end = _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, end)
-        if (slope_start < 0.0) != (slope_end < 0.0):  # f turns inside
-            turn = _bracketed_root(0.0, 4.0 * c4, 3.0 * c3, 2.0 * c2, c1, cut, end)
-            if slope_start < 0.0:
+        if falls != (slope_end < 0.0):  # f turns inside
+            turn = _bracketed_root(0.0, 4.0 * c4, 3.0 * c3, 2.0 * c2, c1, cut, end, falls)
+            if falls:
                 t = _fall_between(c4, c3, c2, c1, c0, start, f_start, turn)
                 if t < NEVER:
                     return t
             start = turn
             f_start = _quartic(c4, c3, c2, c1, c0, turn)
-        slope_start = slope_end
+        falls = slope_end < 0.0
         cut = end
     if _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, 0.5 * (start + limit)) < 0.0:
         return _fall_between(c4, c3, c2, c1, c0, start, f_start, limit)
     return NEVER
+
+
+@rare_kernel
+def _falls_from_zero(c4: float, c3: float, c2: float, c1: float) -> bool:
+    """Tell whether f falls just after t = 0: the first coefficient that is not 0 decides."""
+    if c1 != 0.0:
+        return c1 < 0.0
+    if c2 != 0.0:
+        return c2 < 0.0
+    return c3 < 0.0 or (c3 == 0.0 and c4 < 0.0)
 
 
 @rare_kernel
@@ -106,18 +116,19 @@ def _fall_between(
         return start
     if _quartic(c4, c3, c2, c1, c0, end) > 0.0:
         return NEVER
-    return _bracketed_root(c4, c3, c2, c1, c0, start, end)
+    return _bracketed_root(c4, c3, c2, c1, c0, start, end, False)
 
 
 @rare_kernel
-def _bracketed_root(c4: float, c3: float, c2: float, c1: float, c0: float, low: float, high: float) -> float:
-    """Give the root of a quartic between low and high, at which it has different signs (<= 0 counts as negative).
+def _bracketed_root(
+    c4: float, c3: float, c2: float, c1: float, c0: float, low: float, high: float, rising: bool
+) -> float:
+    """Give the root of a quartic between low and high, through which it rises or falls as told.
 
     Newton's step where it stays inside the bracket and the bracket at least halves every two steps, else bisection.
     It ends when the step is no longer seen in t: the loop's bound is never met in practice (a bisection of doubles
     takes at most about 1,100 steps in all, 64 once the bracket spans a factor of two).
     """
-    rising = _quartic(c4, c3, c2, c1, c0, low) <= 0.0
     t = 0.5 * (low + high)
     width = high - low
     for _ in range(1200):

@@ -1,0 +1,69 @@
+"""Gravity in rooms with round walls: whatever a ball does there, it stays, and its run ends by name."""
+
+import numpy as np
+import pytest
+
+from wallkit import Balls, Ending, Material, Scene, Walls, simulate, survey
+
+QUARTER = np.tan(np.pi / 8)  # the bulge of a quarter circle; negative in a room, which runs clockwise
+
+ROOMS = {
+    # straight sides that run smoothly into half circles: a ball slides from the one onto the other
+    "stadium": ([[[220, 20], [20, 220], [220, 420], [620, 420], [820, 220], [620, 20]]], [[-1, -1, 0, -1, -1, 0]]),
+    "bowl": ([[[0, 100], [100, 0], [0, -100], [-100, 0]]], [[-1, -1, -1, -1]]),
+    # a round pillar in a box: a ball comes to lie on top of it and beside it
+    "pillar": (
+        [[[0, 0], [0, 300], [300, 300], [300, 0]], [[150, 100], [200, 150], [150, 200], [100, 150]]],
+        [[0, 0, 0, 0], [1, 1, 1, 1]],
+    ),
+}
+INSIDE = {
+    "stadium": lambda x, y: np.hypot(np.maximum(np.abs(x - 420) - 200, 0), y - 220) <= 200 + 1e-9,
+    "bowl": lambda x, y: np.hypot(x, y) <= 100 + 1e-9,
+    "pillar": lambda x, y: (
+        (np.maximum(np.abs(x - 150), np.abs(y - 150)) <= 150 + 1e-9) & (np.hypot(x - 150, y - 150) >= 50 - 1e-9)
+    ),
+}
+STARTS = {"stadium": (330, 250), "bowl": (10, 5), "pillar": (50, 150)}
+
+
+def walls_of(room, restitution, tangential):
+    outlines, turns = ROOMS[room]
+    bulges = [np.array(turn) * QUARTER for turn in turns]
+    return Walls.from_polylines(outlines, bulges=bulges, material=Material(restitution, tangential))
+
+
+def shots(room, count, radius):
+    rng = np.random.default_rng(5)
+    angle, speed = rng.uniform(0, 2 * np.pi, count), rng.uniform(0, 300, count)
+    velocity = np.stack([speed * np.cos(angle), speed * np.sin(angle)], axis=1)
+    return Balls(np.tile(STARTS[room], (count, 1)), velocity, radius)
+
+
+@pytest.mark.parametrize("room", ROOMS)
+@pytest.mark.parametrize("radius", [0.0, 8.0])
+@pytest.mark.parametrize(("restitution", "tangential"), [(0.3, 1.0), (0.8, 0.9), (0.97, 1.0)])
+def test_nothing_leaves_a_room_under_gravity(room, radius, restitution, tangential):
+    walls = walls_of(room, restitution, tangential)
+    for gravity in ((0.0, -300.0), (170.0, 90.0)):
+        scene = Scene(walls, shots(room, 60, radius), gravity=gravity)
+        totals = survey(scene, until=200.0, bounces=20_000)
+        assert not np.any(totals.ending == Ending.LEFT_SCENE)
+        assert INSIDE[room](totals.position[:, 0], totals.position[:, 1]).all()
+
+
+def test_a_ball_dropped_into_the_middle_of_a_bowl_comes_to_rest_at_its_bottom():
+    walls = walls_of("bowl", 0.5, 1.0)
+    run = simulate(Scene(walls, Balls([[0, 50]], [[0, 0]], 8.0), gravity=(0, -9.81)), bounces=1000)
+    # sqrt(2 h / g) (1 + e) / (1 - e), h from 50 down to where the ball touches: -(100 - 8)
+    expected = np.sqrt(2 * (50 + 92) / 9.81) * 3
+    assert run.ending == (Ending.AT_REST,)
+    assert run.final["time"][0] == pytest.approx(expected, rel=1e-6)  # bounces below rounding are not waited for
+    assert run.final["y"][0] == pytest.approx(-92, abs=1e-9)
+
+
+def test_a_ball_that_slides_smoothly_into_a_hollow_is_caught_where_the_hollow_begins():
+    walls = walls_of("stadium", 0.3, 1.0)
+    run = simulate(Scene(walls, Balls([[330, 250]], [[163, 81]], 8.0), gravity=(0, 300)), bounces=3000)
+    assert run.ending == (Ending.COLLAPSE,)
+    assert (run.final["x"][0], run.final["y"][0]) == (620.0, 412.0)
