@@ -47,7 +47,7 @@ def fall_line(
                 if one_sided[edge_wall[ids[k]]] != 0:
                     continue
             t = _fall_of_side(0.5 * side * gn, side * vn, side * d - radius, above != (side > 0.0))
-            if not (t < best or (t == best and precedes(ids[k], feature))) or (t <= 0.0 and ids[k] == last):
+            if not (t < best or (t == best and precedes(ids[k], feature))):
                 continue
             foot = u + t * (vu + 0.5 * t * gu)
             if -slack <= foot <= line.length + slack:
@@ -102,7 +102,7 @@ def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
             0.0,
             False,
         )
-        if not (t < best or (t == best and precedes(-2 - ids[k], feature))) or (t <= 0.0 and -2 - ids[k] == last):
+        if not (t < best or (t == best and precedes(-2 - ids[k], feature))):
             continue
         if one_sided is not None:
             if one_sided[corner_wall[ids[k]]] != 0 and behind(
