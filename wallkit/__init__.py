@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from importers.drawing import Drawing, DrawnPath, Layer, Subpath
     from importers.problems import Problem
     from importers.read import read_drawing, read_drawing_text
+    from importers.svg.from_svgpathtools import drawing_from_svgpathtools
     from wallkit.run import Ending, Kind, Run
     from wallkit.scene import Balls, Scene, SceneError
     from wallkit.simulation import simulate
@@ -38,6 +39,7 @@ _HOMES = {
     "importers.drawing": ("Drawing", "DrawnPath", "Layer", "Subpath"),
     "importers.problems": ("Problem",),
     "importers.read": ("read_drawing", "read_drawing_text"),
+    "importers.svg.from_svgpathtools": ("drawing_from_svgpathtools",),
     "wallkit.run": ("Ending", "Kind", "Run"),
     "wallkit.scene": ("Balls", "Scene", "SceneError"),
     "wallkit.simulation": ("simulate",),
@@ -68,6 +70,7 @@ __all__ = [
     "WallkitError",
     "Walls",
     "World",
+    "drawing_from_svgpathtools",
     "import_walls",
     "read_drawing",
     "read_drawing_text",

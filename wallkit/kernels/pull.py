@@ -205,8 +205,9 @@ def _is_line(model, arcs, edge):
 def end_of_hold(model, gravity, hold, wall, nx, ny, vx, vy):
     """How the run of a ball ends that is wedged, or that a curve has caught: (ending, vx, vy).
 
-    Wedged between what it slides on and what it slides against, it is at rest. On a curve it is at rest where the wall is rough, or at the very bottom of a hollow without speed; else it would swing on along
-    the curve, and all that is known is that its bounces have collapsed.
+    Wedged between what it slides on and what it slides against, it is at rest. On a curve it is at rest where the
+    wall is rough, or at the very bottom of a hollow without speed; else it would swing on along the curve, and all
+    that is known is that its bounces have collapsed.
     """
     if hold == WEDGED or _sticks(model.restitution, wall):
         return AT_REST, 0.0, 0.0
