@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import shapely
 
 from wallkit import Balls, Ending, Material, Scene, Walls, simulate, survey
 
@@ -67,3 +68,28 @@ def test_a_ball_that_slides_smoothly_into_a_hollow_is_caught_where_the_hollow_be
     run = simulate(Scene(walls, Balls([[330, 250]], [[163, 81]], 8.0), gravity=(0, 300)), bounces=3000)
     assert run.ending == (Ending.COLLAPSE,)
     assert (run.final["x"][0], run.final["y"][0]) == (620.0, 412.0)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("radius", [0.0, 1.0])
+@pytest.mark.parametrize(("restitution", "tangential"), [(0.3, 1.0), (0.9, 1.0), (0.5, 0.9)])
+def test_nothing_leaves_a_jagged_room_by_its_valleys(seed, radius, restitution, tangential):
+    # balls slide into valleys and under overhangs, where two walls and rounding meet in one point
+    rng = np.random.default_rng(seed)
+    count = 0
+    while count < 4:
+        corners = int(rng.integers(5, 16))
+        angle, far = np.sort(rng.uniform(0, 2 * np.pi, corners)), rng.uniform(40, 100, corners)
+        outline = np.stack([far * np.cos(angle), far * np.sin(angle)], axis=1)
+        room = shapely.Polygon(outline)
+        if not room.is_valid or room.boundary.distance(room.representative_point()) < 2:
+            continue
+        count += 1
+        start = np.array(room.representative_point().coords[0])
+        direction, speed = rng.uniform(0, 2 * np.pi, 40), rng.uniform(0, 100, 40)
+        velocity = np.stack([speed * np.cos(direction), speed * np.sin(direction)], axis=1)
+        walls = Walls.from_polylines([outline], material=Material(restitution, tangential))
+        scene = Scene(walls, Balls(np.tile(start, (40, 1)), velocity, radius), gravity=(20.0, -90.0))
+        totals = survey(scene, until=100.0, bounces=20_000)
+        # 1e-7 is far above the rounding of a hundred units and far below any way out
+        assert shapely.contains_xy(room.buffer(1e-7), totals.position).all()

@@ -18,6 +18,8 @@ from wallkit.kernels.motion import reflect
 SAME = 1e-9
 """Two outgoing velocities closer than this part of the speed are one: an angle of pi / n as drawn has a limit."""
 TURNS = 200_000
+RISE = 2.0**-30
+"""An edge that rises by less is straight on: what it turns a sliding point by is lost in the rounding of its normal."""
 
 
 @rare_kernel
@@ -44,7 +46,7 @@ def settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, toleranc
         return NO_HIT
     if still > 0:
         return found
-    last_side = _came(model, last, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+    last_side = _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
     found_side = _came(model, found, x, y, from_x, from_y, from_vx, from_vy, tolerance)
     return _outcome(model, last, last_side, found, found_side, x, y, from_vx, from_vy)
 
@@ -53,13 +55,26 @@ def settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, toleranc
 def _came(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance):
     """Side of an edge (1 that of ``normal_at``, or -1) from which the point came: that of where its flight began.
 
-    If it began on the edge too, the point left there on the side to which it flew.
+    If it began on the edge too, the point left there on the side to which it flew. If it began beside an end of the
+    edge, within rounding of its line, the place of the start is still the best that is known.
     """
     side = _side(model, model.arcs, edge, from_x, from_y, tolerance)
+    if side == 0.0 and not _touch(model, model.arcs, edge, from_x, from_y, tolerance)[0]:
+        side = _side(model, model.arcs, edge, from_x, from_y, 0.0)
     if side == 0.0:
         nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
         side = from_vx * nx + from_vy * ny
     return 1.0 if side > 0.0 else -1.0
+
+
+@rare_kernel
+def _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance):
+    """Side of the edge hit last on which the point is: it recedes from it. Along it, the side from which it came."""
+    nx, ny, _twice = normal_at(model, model.arcs, last, x, y)
+    away = vx * nx + vy * ny
+    if abs(away) > 2.0**-40 * (abs(vx) + abs(vy)) * (abs(nx) + abs(ny)):
+        return 1.0 if away > 0.0 else -1.0
+    return _came(model, last, x, y, from_x, from_y, from_vx, from_vy, tolerance)
 
 
 @rare_kernel
@@ -81,7 +96,7 @@ def _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tol
     if _passes(model.one_sided, model, model.arcs, edge, came):
         return -2.0
     mx, my, _twice = normal_at(model, model.arcs, last, x, y)
-    side = _came(model, last, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+    side = _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
     mx, my = side * mx, side * my
     dx, dy = -ny, nx
     rise = dx * mx + dy * my
@@ -192,3 +207,41 @@ def _leave(model, first, first_side, second, second_side, x, y, vx, vy):
         if receding:
             break
     return vx, vy
+
+
+@rare_kernel
+def rises_ahead(model, held, x, y, vx, vy, nx, ny, tolerance):
+    """Edge that rises from the end of the one on which a point slides, or NO_HIT: n is the side of the point.
+
+    Such an edge goes up on that side from where the point is, across its way; one that falls away or goes straight on
+    does not stop it.
+    """
+    cells, c = home(model, model.grid, x, y)
+    found = NO_HIT
+    steepest = RISE * (abs(nx) + abs(ny))
+    for k in range(cells.line_start[c], cells.line_start[c + 1]):
+        rise = _rise(model, model.line_ids[k], held, x, y, vx, vy, nx, ny, tolerance)
+        if rise > steepest:
+            steepest, found = rise, model.line_ids[k]
+    for k in range(cells.arc_start[c], cells.arc_start[c + 1]):
+        rise = _rise(model, model.arc_ids[k], held, x, y, vx, vy, nx, ny, tolerance)
+        if rise > steepest:
+            steepest, found = rise, model.arc_ids[k]
+    return found
+
+
+@rare_kernel
+def _rise(model, edge, held, x, y, vx, vy, nx, ny, tolerance):
+    """How steeply an edge at (x, y) goes up along n, as a part of n; 0 if it is not there, or beside the way."""
+    if edge == held:
+        return 0.0
+    touches, starts, ends = _touch(model, model.arcs, edge, x, y, tolerance)
+    if not touches:
+        return 0.0
+    mx, my, _twice = normal_at(model, model.arcs, edge, x, y)
+    length = math.sqrt(mx * mx + my * my)
+    dx, dy = -my / length, mx / length
+    rise = dx * nx + dy * ny
+    if not (starts or ends):
+        return abs(rise)
+    return rise if starts else -rise

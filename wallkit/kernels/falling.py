@@ -15,6 +15,9 @@ from wallkit.kernels.impact import behind, precedes
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
 
+LEVEL_SPEED = 2.0**-40
+"""A smaller part of the speed, towards a wall or from it, may be rounding: that of v + g t and of a product with n."""
+
 
 @rare_kernel
 def fall_line(
@@ -29,6 +32,7 @@ def fall_line(
     """
     touched = 0
     slack = tolerance + radius * 2.0**-42
+    noise = LEVEL_SPEED * (abs(vx) + abs(vy))
     for k in range(start, stop):
         if ids[k] == skipped:
             continue
@@ -40,7 +44,7 @@ def fall_line(
         above = d > 0.0
         if radius == 0.0 and abs(d) <= tolerance and -tolerance <= u <= line.length + tolerance:
             touched += 1 if ids[k] != last else 0
-            above = vn > 0.0 if vn * vn > 2.0 * abs(gn) * tolerance else gn < 0.0  # pressed on it, it lies on it
+            above = vn > 0.0 if abs(vn) > noise else gn < 0.0  # pressed on it, it lies on it
         for turn in range(2):
             side = 1.0 if turn == 0 else -1.0
             if side < 0.0 and one_sided is not None:
@@ -146,6 +150,7 @@ def fall_arcs(
         return best, feature, touched
     slack = tolerance + radius * 2.0**-42
     c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
+    noise = LEVEL_SPEED * (abs(vx) + abs(vy))
     for k in range(start, stop):
         arc = arcs[k]
         wx, wy = x - arc.ax, y - arc.ay
@@ -156,7 +161,7 @@ def fall_arcs(
         if radius == 0.0 and abs(power) <= (2.0 * arc.radius + tolerance) * tolerance and holds(arc, ex, ey, tolerance):
             touched += 1 if ids[k] != last else 0
             along = ex * reference[0] + ey * reference[1]
-            outside = c1 > 0.0 if c1 * c1 > 8.0 * arc.radius * abs(c2) * tolerance else c2 < 0.0
+            outside = c1 > 0.0 if abs(c1) > 2.0 * arc.radius * noise else c2 < 0.0
             if along != 0.0:
                 outside = along > 0.0
         for turn in range(2):

@@ -20,6 +20,7 @@ from wallkit.kernels.model import (
     END_OF_EDGE,
     LEAVE,
     LEAVING,
+    LEFT,
     LEFT_SCENE,
     NO_HIT,
     RUNNING,
@@ -41,6 +42,7 @@ from wallkit.kernels.pull import (
     move,
     rests,
     side_kept,
+    stops_slide,
     towards,
 )
 
@@ -86,15 +88,19 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             break
         remaining = (until - time) - lost
         if gravity is not None and hold in (COMING_TO_REST, LEAVING):
+            kind = SLIDE if hold == COMING_TO_REST else LEAVE
             if hold == COMING_TO_REST:
-                x, y, vx, vy, t = keep_to(model, held, x, y, vx, vy, gravity)
+                x, y, vx, vy, t, hold = keep_to(
+                    model, model.restitution, held, radius, x, y, vx, vy, gravity, last, tolerance
+                )
                 time, lost = advance(time, lost, t)
                 energy = kept_energy(gravity, x, y, vx, vy)
+                last = held
+            else:
+                hold = LEFT
             nx, ny = towards(model, held, gravity)
-            kind = SLIDE if hold == COMING_TO_REST else LEAVE
             note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, held, kind)
             noted += 1 if len(log) > 0 else 0
-            hold += 1
             if hold == SLIDING and rests(model, held, vx, vy, gravity):
                 ending = AT_REST
             continue
@@ -124,11 +130,15 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             x, y, vx, vy = move(model, gravity, held, hold, x, y, vx, vy, t)
             time, lost = advance(time, lost, t)
         if feature == END_OF_EDGE:
-            hold = LEAVING
             last = held
-            continue
+            feature = stops_slide(model, gravity, radius, held, x, y, vx, vy, tolerance)
+            if feature == NO_HIT:
+                hold = LEAVING
+                continue
+            from_x, from_y = x, y  # where it came from is back along the slide, on its side of the edge
+            from_vx, from_vy = side_kept(model, gravity, held, hold, -vx, -vy)
         nx, ny, twice, wall = normal_of(model, feature, x, y)
-        nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny, tolerance)
+        nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny)
         vx, vy, energy = bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy)
         last = feature
         bounces += 1

@@ -16,7 +16,8 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.falling import fall_search
+from wallkit.kernels.corner import rises_ahead
+from wallkit.kernels.falling import LEVEL_SPEED, fall_search
 from wallkit.kernels.grid import search
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import (
@@ -26,6 +27,7 @@ from wallkit.kernels.model import (
     COMING_TO_REST,
     END_OF_EDGE,
     FREE,
+    LEAVING,
     LEFT,
     NO_HIT,
     SLIDING,
@@ -95,7 +97,7 @@ def towards(model, held, gravity):
 
 
 @kernel
-def facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny, tolerance):
+def facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny):
     """Turn the normal of a contact to the ball.
 
     Without gravity a contact approaches by far more than rounding, and the velocity tells the side. Under gravity it
@@ -109,7 +111,7 @@ def facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny, tolerance):
         else:
             bend = _curvature(model, model.arcs, feature, radius, x, y, nx, ny)
             press = -(gravity[0] * nx + gravity[1] * ny) + bend * (vx * vx + vy * vy)
-            if towards_ball * towards_ball <= 2.0 * abs(press) * tolerance * math.sqrt(nx * nx + ny * ny):
+            if abs(towards_ball) <= LEVEL_SPEED * (abs(vx) + abs(vy)) * math.sqrt(nx * nx + ny * ny):
                 towards_ball = press
     if towards_ball < 0.0:
         return -nx, -ny
@@ -168,7 +170,7 @@ def side_kept(model, gravity, held, hold, vx, vy):
 @kernel
 def held_after(model, gravity, radius, feature, held, hold, x, y, vx, vy, nx, ny, tolerance):
     """What holds a ball after a bounce off a feature (normal n towards it), and how: (edge, hold)."""
-    if hold == SLIDING and feature != held:
+    if feature != held and _is_on(model, held, hold, radius, x, y, tolerance):
         hx, hy = towards(model, held, gravity)
         if _clings(gravity, hx, hy, 0.0, vx, vy, tolerance):
             gx, gy = _pull(model, gravity, held, SLIDING)
@@ -183,6 +185,27 @@ def held_after(model, gravity, radius, feature, held, hold, x, y, vx, vy, nx, ny
             return feature, COMING_TO_REST
         return feature, CAUGHT
     return NO_HIT, FREE
+
+
+@kernel
+def stops_slide(model, gravity, radius, held, x, y, vx, vy, tolerance):
+    """Edge that stops a point at the end of the edge on which it slides, or NO_HIT; a disc is stopped before."""
+    if gravity is None or radius > 0.0:
+        return NO_HIT
+    nx, ny = towards(model, held, gravity)
+    return rises_ahead(model, held, x, y, vx, vy, nx, ny, tolerance)
+
+
+@kernel
+def _is_on(model, held, hold, radius, x, y, tolerance):
+    """Tell whether a ball is on the edge that holds it, or held it until just now, ends included."""
+    if hold not in (SLIDING, LEFT):
+        return False
+    line = model.lines[held]
+    ex, ey = x - line.ax, y - line.ay
+    u = ey * line.nx - ex * line.ny
+    near = abs(abs(ex * line.nx + ey * line.ny) - radius) <= 2.0 * tolerance
+    return near and -tolerance <= u <= line.length + tolerance
 
 
 @kernel
@@ -217,32 +240,40 @@ def end_of_hold(model, gravity, hold, wall, nx, ny, vx, vy):
     return COLLAPSE, vx, vy
 
 
-@kernel
-def keep_to(model, held, x, y, vx, vy, gravity):
-    """Take the last, endless bounces on an edge at once: (x, y, vx, vy after them, the time they take)."""
-    line = model.lines[held]
-    time, way, along = _last_bounces(
-        model, model.restitution, held, vx * line.nx + vy * line.ny, vy * line.nx - vx * line.ny, gravity
-    )
-    return x - way * line.ny, y + way * line.nx, -along * line.ny, along * line.nx, time
-
-
 @rare_kernel
-def _last_bounces(model, restitution, held, away, along, gravity):
-    """Sum the bounces: (time they take, way along the edge, speed along it after)."""
-    if restitution is None:
-        return 0.0, 0.0, along
-    wall = model.edge_wall[held]
-    e, f = restitution[2 * wall], restitution[2 * wall + 1]
-    if e >= 1.0:
-        return 0.0, 0.0, along
+def keep_to(model, restitution, held, radius, x, y, vx, vy, gravity, last, tolerance):
+    """Take the last, endless bounces on an edge at once: (x, y, vx, vy after them, the time they take, hold).
+
+    With f = 1 the way along the wall is that of sliding, so the ball slides at once; only where nothing moves it are
+    the bounces waited for. With f < 1 they stop it after the way v w' / (1 - e f), w' = 2 w / p the time of the first,
+    unless something stands in that way, or the edge ends before.
+    """
     line = model.lines[held]
-    first = 2.0 * abs(away) / abs(gravity[0] * line.nx + gravity[1] * line.ny)
-    time = first / (1.0 - e)
-    if f < 1.0:
-        return time, along * first / (1.0 - e * f), 0.0
-    pull = gravity[1] * line.nx - gravity[0] * line.ny
-    return time, time * (along + 0.5 * time * pull), along + time * pull
+    along = vy * line.nx - vx * line.ny
+    ax, ay = -along * line.ny, along * line.nx
+    e, f = 1.0, 1.0
+    if restitution is not None:
+        e, f = restitution[2 * model.edge_wall[held]], restitution[2 * model.edge_wall[held] + 1]
+    away = abs(vx * line.nx + vy * line.ny)
+    first = 2.0 * away / abs(gravity[0] * line.nx + gravity[1] * line.ny)
+    if e >= 1.0 or f >= 1.0:
+        gx, gy = _pull(model, gravity, held, SLIDING)
+        moves = e >= 1.0 or along != 0.0 or gx != 0.0 or gy != 0.0
+        return x, y, ax, ay, 0.0 if moves else first / (1.0 - e), SLIDING
+    time, span = first / (1.0 - e), first / (1.0 - e * f)
+    t, feature, touched = fall_search(
+        model, model.grid, radius, x, y, ax, ay, 0.0, 0.0, last, held, tolerance,
+        towards(model, held, gravity), span, NO_HIT,
+    )  # fmt: skip
+    if touched > 0:
+        return x, y, 0.0, 0.0, time, SLIDING
+    end = _end_of_edge(model, held, x, y, ax, ay, 0.0, 0.0)
+    if end < span and (feature == NO_HIT or end < t):
+        left = 1.0 - end / span
+        return x + end * ax, y + end * ay, left * ax, left * ay, time * (1.0 - left), LEAVING
+    if feature != NO_HIT:
+        span = t
+    return x + span * ax, y + span * ay, 0.0, 0.0, time, SLIDING
 
 
 @kernel
