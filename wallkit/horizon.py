@@ -122,6 +122,7 @@ def predicted_errors(
     fresh = _roundings(scene, own, course) if source == "rounding" else _drawing_errors(scene, own)
     variance = np.full(len(own), np.inf)
     _kernel(carry, len(own))(*course, fresh, variance)
+    variance[~(variance >= 0.0)] = np.inf  # overflown on the way: beyond any promise
     rms = np.sqrt(variance)
     return rms, SURE * rms
 
