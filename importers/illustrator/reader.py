@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from itertools import count, repeat
 
+from importers.ids import decode_id
 from importers.illustrator import findings, scanner
 from importers.illustrator.art import Art, Operands, Text
-from importers.illustrator.text import MAX_STRING_BYTES, alphabet, decode, decode_xml_name, string_end, unescape
+from importers.illustrator.text import MAX_STRING_BYTES, alphabet, decode, string_end, unescape
 from importers.sources import Source
 
 _BATCH = 20_000  # tokens between two looks at the limits
@@ -225,7 +226,7 @@ class ArtReader:
             end = string_end(line, start, len(line)) if start >= 0 else -1
             if end > 0:
                 name = decode(unescape(line[start + 1 : end - 1]), self.art.encoding)
-                self.art.set_name(decode_xml_name(name) if is_id else name)
+                self.art.set_name(decode_id(name) if is_id else name)
             return
         last = line[-8:].split()
         if last and last[-1] in _HIDDEN_OBJECT_ENDS:

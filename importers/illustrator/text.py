@@ -11,8 +11,6 @@ _MAX_MARKS = 8_192  # parentheses and backslashes in a string, for the same reas
 _PLAIN = re.compile(rb"[^()\\]*")
 _ESCAPE = re.compile(rb"\\(?:([0-7]{1,3})|(\r\n|\r|\n)|(.))", re.DOTALL)
 _LETTERS = {b"n": b"\n", b"r": b"\r", b"t": b"\t", b"b": b"\b", b"f": b"\f"}
-_XML_ESCAPE = re.compile(r"_x([0-9A-Fa-f]{1,6})_")
-_SECOND_USE = re.compile(r"_\d+_$")
 
 
 def string_end(data: bytes, start: int, stop: int) -> int:
@@ -98,23 +96,6 @@ def decode(raw: bytes, encoding: str) -> str:
         # Latin-1 has only control codes there; MacRoman has most of its accented letters.
         encoding = "mac_roman" if any(0x80 <= byte <= 0x9F for byte in raw) else "latin-1"
     return _printable(raw.decode(encoding, "replace"))
-
-
-def decode_xml_name(name: str) -> str:
-    """Undo Illustrator's XML names: ``Left_x5F_hole_1_`` is ``Left_hole``, used a second time.
-
-    It spells what an XML name cannot have as ``_xHH_``, a blank as ``_``, and makes names unique with a number.
-    """
-    parts = _XML_ESCAPE.split(_SECOND_USE.sub("", name))
-    plain = [part.replace("_", " ") for part in parts[0::2]]
-    codes = [_character(code) for code in parts[1::2]]
-    return "".join(piece for pair in zip(plain, [*codes, ""], strict=True) for piece in pair).strip()
-
-
-def _character(code: str) -> str:
-    """Give the character of a hexadecimal code, or the escape as it stands when there is none."""
-    number = int(code, 16)
-    return chr(number) if 32 <= number <= 0x10FFFF and not 0xD800 <= number <= 0xDFFF else f"_x{code}_"
 
 
 def _printable(text: str) -> str:
