@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from wallkit.run import Ending, Kind, Run
     from wallkit.scene import Balls, Scene, SceneError
     from wallkit.simulation import simulate
-    from wallkit.surveys import Totals, survey
+    from wallkit.surveys import Prepared, Totals, prepare, survey
     from wallkit.walls import Material, Wall, Walls
     from wallkit.walls.build import import_walls
     from wallkit.world import World
@@ -43,7 +43,7 @@ _HOMES = {
     "wallkit.run": ("Ending", "Kind", "Run"),
     "wallkit.scene": ("Balls", "Scene", "SceneError"),
     "wallkit.simulation": ("simulate",),
-    "wallkit.surveys": ("Totals", "survey"),
+    "wallkit.surveys": ("Prepared", "Totals", "prepare", "survey"),
     "wallkit.walls": ("Material", "Wall", "Walls"),
     "wallkit.walls.build": ("import_walls",),
     "wallkit.world": ("World",),
@@ -60,6 +60,7 @@ __all__ = [
     "Layer",
     "LimitError",
     "Material",
+    "Prepared",
     "Problem",
     "Run",
     "Scene",
@@ -72,6 +73,7 @@ __all__ = [
     "World",
     "drawing_from_svgpathtools",
     "import_walls",
+    "prepare",
     "read_drawing",
     "read_drawing_text",
     "simulate",

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.indexing import spread
 from wallkit.scene import Balls, FloatArray, Scene, SceneError
 from wallkit.walls import Walls
 
 IntArray = NDArray[np.int64]
-ALL_PAIRS = 20_000_000
 TOUCHING = 2.0**-44
 """An overlap of this part of the scene's size is contact, as rounded."""
 WAYS = 48
@@ -71,33 +71,42 @@ def clearances(walls: Walls, position: FloatArray, reach: FloatArray) -> tuple[F
     edges = np.flatnonzero(sides)
     if not len(edges) or not len(position):
         return distance, nearest
-    if len(edges) * len(position) <= ALL_PAIRS:
-        step = max(1, 1_000_000 // len(edges))
-        for first in range(0, len(position), step):
-            places = np.arange(first, min(first + step, len(position)))
-            d = _distances(walls, np.tile(edges, len(places)), np.repeat(position[places], len(edges), axis=0))
-            d = d.reshape(len(places), len(edges))
-            nearest[places], distance[places] = edges[d.argmin(axis=1)], d.min(axis=1)
-    else:
-        place, edge = _near_pairs(walls, edges, position, reach)
-        d = _distances(walls, edge, position[place])
-        order = np.lexsort((-d, place))  # the nearest of each place comes last and stays
-        distance[place[order]], nearest[place[order]] = d[order], edge[order]
-    far = distance > reach
-    return np.where(far, np.inf, distance), np.where(far, -1, nearest)
+    place, edge = _near_pairs(walls, edges, position, float(reach.max()))
+    d = _distances(walls, edge, position[place])
+    near = d <= reach[place]
+    place, edge, d = place[near], edge[near], d[near]
+    order = np.lexsort((-edge, -d, place))  # the nearest of each place comes last and stays
+    distance[place[order]], nearest[place[order]] = d[order], edge[order]
+    return distance, nearest
 
 
-def _near_pairs(walls: Walls, edges: IntArray, position: FloatArray, reach: FloatArray) -> tuple[IntArray, IntArray]:
-    import shapely
+def _near_pairs(walls: Walls, edges: IntArray, position: FloatArray, reach: float) -> tuple[IntArray, IntArray]:
+    """List pairs (place, edge) that may be within reach.
 
+    Places are sorted by rows, and along each row; the box of an edge, widened, has one range of them in each row.
+    Boxes are widened by a millionth of the places' extent too, far above the rounding of the sorted keys.
+    """
     a, b = walls.vertices[walls.edge_starts[edges]], walls.vertices[walls.edge_ends[edges]]
     bulge = np.abs(walls.bulges[walls.edge_starts[edges]])
     bow = np.hypot(*(b - a).T) / 2 * np.maximum(bulge, np.minimum(1.0, bulge))
-    low, high = np.minimum(a, b) - bow[:, None], np.maximum(a, b) + bow[:, None]
-    tree = shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
-    x, y = position.T
-    place, found = tree.query(shapely.box(x - reach, y - reach, x + reach, y + reach))
-    return place, edges[found]
+    corner = np.array([position[:, 0].min(), position[:, 1].min()])
+    width, height = float(position[:, 0].max() - corner[0]), float(position[:, 1].max() - corner[1])
+    widened = (reach + 2.0**-20 * (width + height) + bow)[:, None]
+    low, high = np.minimum(a, b) - widened - corner, np.maximum(a, b) + widened - corner
+    beside = (high[:, 0] >= 0.0) & (low[:, 0] <= width) & (high[:, 1] >= 0.0) & (low[:, 1] <= height)
+    near = np.flatnonzero(beside)
+    low, high = np.clip(low[near], 0.0, (width, height)), np.clip(high[near], 0.0, (width, height))
+    step = max(height / math.sqrt(len(position)), 2.0 * reach) or 1.0
+    stride = 2.0 * width or 1.0
+    keys = stride * np.floor((position[:, 1] - corner[1]) / step) + (position[:, 0] - corner[0])
+    order = np.argsort(keys)
+    keys = keys[order]
+    box, row = spread(*(np.floor(side[:, 1] / step).astype(np.int64) for side in (low, high)))
+    slack = 2.0**-22 * width
+    first = np.searchsorted(keys, stride * row + low[box, 0] - slack)
+    last = np.searchsorted(keys, stride * row + high[box, 0] + slack, side="right") - 1
+    pair, rank = spread(first, last)
+    return order[rank], edges[near[box[pair]]]
 
 
 def _distances(walls: Walls, edge: IntArray, place: FloatArray) -> FloatArray:

@@ -115,7 +115,7 @@ def _chords(
     """Cut arcs into chords: (chords, how far each arc bows out, whose they are)."""
     piece = 2.0 * np.arccos(np.clip(1.0 - BOW * size / np.maximum(radius, 1e-300), 0.0, 1.0))
     pieces = np.maximum(np.ceil(fans[:, 1] / np.maximum(piece, 2.0**-20)), 1).astype(np.int64)
-    which, number = _spread(np.zeros_like(pieces), pieces - 1)
+    which, number = spread(np.zeros_like(pieces), pieces - 1)
     angle = fans[which, 1] / pieces[which]
     start = fans[which, 0] + number * angle
     centre, size_of = centres[which], radius[which][:, None]
@@ -146,7 +146,7 @@ def _cells_of_lines(
     ax, ay, bx, by = lines[:, 0], lines[:, 1], lines[:, 2], lines[:, 3]
     first = _place(np.minimum(ax, bx) - reach - low[0], size, columns)
     last = _place(np.maximum(ax, bx) + reach - low[0], size, columns)
-    line, column = _spread(first, last)
+    line, column = spread(first, last)
     ax, ay, bx, by, reach = ax[line], ay[line], bx[line], by[line], reach[line]
     cell_left = low[0] + column * size - reach
     cell_right = low[0] + (column + 1) * size + reach
@@ -157,7 +157,7 @@ def _cells_of_lines(
     bottom = np.where(flat, np.clip(np.minimum(at_left, at_right), low_y, high_y), low_y)
     top = np.where(flat, np.clip(np.maximum(at_left, at_right), low_y, high_y), high_y)
     first, last = _place(bottom - reach - low[1], size, rows), _place(top + reach - low[1], size, rows)
-    pair, row = _spread(first, last)
+    pair, row = spread(first, last)
     return row * columns + column[pair], line[pair]
 
 
@@ -165,7 +165,7 @@ def _place(offset: FloatArray, size: float, count: int) -> IntArray:
     return np.clip(np.floor(offset / size), 0, count - 1).astype(np.int64)
 
 
-def _spread(first: IntArray, last: IntArray) -> tuple[IntArray, IntArray]:
+def spread(first: IntArray, last: IntArray) -> tuple[IntArray, IntArray]:
     """Give for each range all its numbers: (which range, number)."""
     counts = last - first + 1
     which = np.repeat(np.arange(len(first)), counts)

@@ -194,7 +194,8 @@ def _fans(walls: Walls, vertices: FloatArray, lines: FloatArray, angles: FloatAr
 
 def _restitution(scene: Scene) -> FloatArray | None:
     materials = scene.walls.materials
-    if all(m.restitution == 1.0 and m.tangential_restitution == 1.0 for m in set(materials)):
+    different = {id(m): m for m in materials}.values()  # by identity: to hash ten thousand takes long
+    if all(m.restitution == 1.0 and m.tangential_restitution == 1.0 for m in different):
         return None
     pairs = np.array([(m.restitution, m.tangential_restitution) for m in materials], dtype=np.float64)
     return np.ascontiguousarray(pairs).reshape(-1)

@@ -47,8 +47,57 @@ class Totals:
     ending: NDArray[np.uint8]
 
 
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A scene made ready by :func:`prepare`: checked, in local coordinates, indexed.
+
+    Attributes:
+        scene: what it was made of; what is changed in it later is not seen.
+        modelled: what the kernels see of it.
+        order: (n,) in which the balls are flown, None for as they come.
+    """
+
+    scene: Scene
+    modelled: Modelled
+    order: NDArray[np.int64] | None
+
+
+def prepare(scene: Scene, *, check: bool = True) -> Prepared:
+    """Do once what every ``survey`` of a scene would do first: check it, and index its walls.
+
+    Args:
+        scene: walls, balls, and what acts.
+        check: look whether a disc overlaps a wall at the start; False where that is known, to save the time.
+
+    Raises:
+        SceneError: the scene cannot be simulated.
+    """
+    refuse_damping(scene)
+    if check:
+        check_starts(scene)
+    modelled = Modelled(scene)
+    order = None if modelled.model.grid is None else _neighbours_together(np.asarray(scene.balls.position))
+    return Prepared(scene, modelled, order)
+
+
+def _neighbours_together(position: FloatArray) -> NDArray[np.int64]:
+    """Order places along Morton's curve: a ball then finds the cells it needs where the one before left them."""
+    if not len(position):
+        return np.empty(0, dtype=np.int64)
+    x, y = position[:, 0] - position[:, 0].min(), position[:, 1] - position[:, 1].min()
+    per_extent = 1023.0 / (max(float(x.max()), float(y.max())) or 1.0)
+    return np.argsort(_spaced((x * per_extent).astype(np.int64)) | _spaced((y * per_extent).astype(np.int64)) << 1)
+
+
+def _spaced(number: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Put a zero before each of ten bits."""
+    for shift, mask in ((8, 0x300FF), (4, 0x30F0F), (2, 0x33333), (1, 0x55555)):
+        number = (number | number << shift) & mask
+    return number
+
+
 def survey(
-    scene: Scene,
+    scene: Scene | Prepared,
     until: float | None = None,
     bounces: int | None = None,
     *,
@@ -62,7 +111,7 @@ def survey(
     the same as that of :func:`wallkit.simulate`. Kernels are compiled and release the interpreter's lock.
 
     Args:
-        scene: walls, balls, and what acts.
+        scene: walls, balls, and what acts; from :func:`prepare`, it is not prepared again.
         until: seconds; None for no end in time.
         bounces: bounces a ball; None for the guard of ``simulate``. At least one of the two must be given.
         threads: how many to use; None for one a core.
@@ -73,13 +122,12 @@ def survey(
         SceneError: neither limit was given, or the scene cannot be simulated.
     """
     limit_time, limit_bounces = limits(until, bounces)
-    refuse_damping(scene)
-    if check:
-        check_starts(scene)
-    modelled = Modelled(scene)
-    states, counts = _begin(scene, modelled)
+    ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
+    scene, modelled = ready.scene, ready.modelled
+    radii = modelled.radii if ready.order is None else modelled.radii[ready.order]
+    states, counts = _begin(ready)
     work, model, no_log = compiled(fly_all), modelled.model, np.empty(0)
-    in_step = compiled(fly_in_step) if suits_lockstep(model, modelled.radii) else None
+    in_step = compiled(fly_in_step) if suits_lockstep(model, radii) else None
 
     threads = threads if threads is not None else os.cpu_count() or 1
     shares = 1 if threads <= 1 and executor is None else 8 * max(threads, 2)
@@ -88,17 +136,17 @@ def survey(
     def fly_chunk(first: int) -> NDArray[np.int64]:
         part = slice(first, first + chunk)
         hits = np.zeros(len(scene.walls), dtype=np.int64)
-        radii, chunk_states, chunk_counts = modelled.radii[part], states[part], counts[part]
+        chunk_radii, chunk_states, chunk_counts = radii[part], states[part], counts[part]
         if in_step is not None:
             scratch, balls = np.empty(SCRATCH), np.empty(LANES, dtype=np.int64)
-            in_step(model, radii[0], chunk_states, chunk_counts, limit_time, limit_bounces, hits, scratch, balls)
+            in_step(model, chunk_radii[0], chunk_states, chunk_counts, limit_time, limit_bounces, hits, scratch, balls)
             return hits
-        work(model, model.gravity, radii, chunk_states, chunk_counts, limit_time, limit_bounces, hits, no_log, 1)
+        work(model, model.gravity, chunk_radii, chunk_states, chunk_counts, limit_time, limit_bounces, hits, no_log, 1)
         return hits
 
     starts = range(0, len(states), chunk)
     hits = sum(_map(fly_chunk, starts, threads, executor), np.zeros(len(scene.walls), dtype=np.int64))
-    return _totals(scene, modelled, states, counts, hits)
+    return _totals(ready, states, counts, hits)
 
 
 def suits_lockstep(model: Model, radii: FloatArray) -> bool:
@@ -119,8 +167,11 @@ def _map(task: Any, starts: range, threads: int, executor: Executor | None) -> l
         return list(pool.map(task, starts))
 
 
-def _begin(scene: Scene, modelled: Modelled) -> tuple[FloatArray, NDArray[np.int64]]:
-    position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
+def _begin(ready: Prepared) -> tuple[FloatArray, NDArray[np.int64]]:
+    position, velocity = np.asarray(ready.scene.balls.position), np.asarray(ready.scene.balls.velocity)
+    if ready.order is not None:
+        position, velocity = position[ready.order], velocity[ready.order]
+    modelled = ready.modelled
     if modelled.model.gravity is not None:
         states = initial_states(modelled, position, velocity)
         return states, np.tile(np.array(START, dtype=np.int64), (len(states), 1))
@@ -130,10 +181,12 @@ def _begin(scene: Scene, modelled: Modelled) -> tuple[FloatArray, NDArray[np.int
     return states, counts
 
 
-def _totals(
-    scene: Scene, modelled: Modelled, states: FloatArray, counts: NDArray[np.int64], hits: NDArray[np.int64]
-) -> Totals:
-    count = len(states)
+def _totals(ready: Prepared, states: FloatArray, counts: NDArray[np.int64], hits: NDArray[np.int64]) -> Totals:
+    if ready.order is not None:
+        back = np.empty_like(ready.order)
+        back[ready.order] = np.arange(len(back))
+        states, counts = states[back], counts[back]
+    count, modelled = len(states), ready.modelled
     position, velocity, time = np.empty((count, 2)), np.empty((count, 2)), np.empty(count)
     bounces, ending = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.uint8)
     x0, y0 = modelled.origin.tolist()

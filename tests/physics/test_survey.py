@@ -1,8 +1,13 @@
 """Surveys: totals that add up, balls drawn by number, memory that does not grow."""
 
 import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import wallkit
+from wallkit.clearance import clearances
 from wallkit.streams import RandomBalls, survey_stream
 
 ROOM = wallkit.Walls.from_polylines(
@@ -35,3 +40,55 @@ def test_chunks_of_a_stream_change_no_bit():
     assert [len(part.bounces) for part in parts] == [700, 700, 700, 700, 200]
     np.testing.assert_array_equal(np.concatenate([part.position for part in parts]), whole.position)
     np.testing.assert_array_equal(sum(part.hits for part in parts), whole.hits)
+
+
+def _pillars(radius, count=300):
+    """A room of short walls in all directions, with balls that touch none of them."""
+    rng = np.random.default_rng(8)
+    middle, angle = rng.uniform(10.0, 190.0, (200, 2)), rng.uniform(0.0, np.pi, 200)
+    arm = 3.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    room = np.array([[0.0, 0.0], [200.0, 0.0], [200.0, 200.0], [0.0, 200.0]])
+    lines = [room, *np.stack([middle - arm, middle + arm], axis=1)]
+    walls = wallkit.Walls.from_polylines(lines, closed=[True] + [False] * 200)
+    tries, way = rng.uniform(3.0, 197.0, (4 * count, 2)), rng.uniform(0.0, 2 * np.pi, count)
+    far = shapely.distance(shapely.MultiLineString([*lines[1:]]), shapely.points(tries)) > radius + 0.1
+    velocity = 9.0 * np.stack([np.cos(way), np.sin(way)], axis=1)
+    return wallkit.Scene(walls, wallkit.Balls(tries[far][:count], velocity, radius))
+
+
+@pytest.mark.parametrize("radius", [0.0, 1.5])
+def test_the_order_in_which_balls_fly_is_not_seen(radius):
+    scene = _pillars(radius)
+    ready = wallkit.prepare(scene)
+    assert ready.order is not None
+    assert not np.array_equal(ready.order, np.arange(len(ready.order)))
+    run = wallkit.simulate(scene, until=12.0)
+    for totals in (wallkit.survey(scene, until=12.0), wallkit.survey(ready, until=12.0), wallkit.survey(ready, 12.0)):
+        np.testing.assert_array_equal(totals.position, np.stack([run.final["x"], run.final["y"]], axis=1))
+        np.testing.assert_array_equal(totals.bounces, np.bincount(run.contacts["ball"], minlength=len(ready.order)))
+        assert totals.hits.sum() == totals.bounces.sum() > 300
+
+
+def test_balls_of_many_radii_keep_their_own():
+    scene = _pillars(1.5)
+    balls = wallkit.Balls(scene.balls.position, scene.balls.velocity, np.linspace(0.1, 1.5, len(scene.balls)))
+    scene = wallkit.Scene(scene.walls, balls)
+    run = wallkit.simulate(scene, until=12.0)
+    totals = wallkit.survey(scene, until=12.0)
+    np.testing.assert_array_equal(totals.position, np.stack([run.final["x"], run.final["y"]], axis=1))
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.integers(0, 2**32), st.integers(1, 60), st.floats(0.01, 300.0), st.sampled_from([0.0, 1.0, 1e6]))
+def test_room_at_the_start_is_what_shapely_measures(seed, count, reach, offset):
+    rng = np.random.default_rng(seed)
+    ends = rng.uniform(0.0, 200.0, (30, 2, 2)) + offset
+    places = rng.uniform(-20.0, 220.0, (count, 2)) * rng.choice([[1.0, 1.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
+    places += offset
+    walls = wallkit.Walls.from_polylines(list(ends), closed=[False] * 30)
+    found, edge = clearances(walls, places, np.full(count, reach))
+    expected = shapely.distance(shapely.points(places)[:, None], shapely.linestrings(ends)[None]).min(axis=1)
+    inside = expected < reach * (1.0 - 1e-9)
+    np.testing.assert_allclose(found[inside], expected[inside], atol=1e-9, rtol=0)  # coordinates up to 1e6
+    assert np.isinf(found[expected > reach * (1.0 + 1e-9)]).all()
+    assert ((edge >= 0) == np.isfinite(found)).all()
