@@ -92,7 +92,7 @@ def _fall_after(c4, c3, c2, c1, c0, time, from_behind):
 
 
 @rare_kernel
-def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, last, best, feature):
+def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, best, feature):
     """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls."""
     for k in range(start, stop):
         corner = corners[k]
@@ -200,7 +200,7 @@ def fall_scan(model, cells, c, radius, x, y, vx, vy, gx, gy, last, skipped, tole
     )  # fmt: skip
     best, feature = fall_corners(
         model.corner_entries, model.corner_ids, cells.corner_start[c], cells.corner_start[c + 1],
-        model.one_sided, model.corner_wall, radius, x, y, vx, vy, gx, gy, last, best, feature,
+        model.one_sided, model.corner_wall, radius, x, y, vx, vy, gx, gy, best, feature,
     )  # fmt: skip
     return best, feature, touched + more
 
