@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.corner import normal_at, settle
+from wallkit.kernels.hold import change_hold, end_of_hold, held_after, rests, stops_slide
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.model import (
     ABSORBED,
@@ -18,33 +19,17 @@ from wallkit.kernels.model import (
     COMING_TO_REST,
     EDGE,
     END_OF_EDGE,
-    LEAVE,
     LEAVING,
-    LEFT,
     LEFT_SCENE,
     NO_HIT,
     RUNNING,
-    SLIDE,
     SLIDING,
     TIME_REACHED,
     VERTEX,
     WEDGED,
 )
 from wallkit.kernels.motion import advance
-from wallkit.kernels.pull import (
-    bounce,
-    end_of_hold,
-    facing,
-    first_contact,
-    held_after,
-    keep_to,
-    kept_energy,
-    move,
-    rests,
-    side_kept,
-    stops_slide,
-    towards,
-)
+from wallkit.kernels.pull import bounce, facing, first_contact, move, side_kept, towards
 
 TOLERANCE = 2.0**-47
 """Positions are off by less than this part of the extent: p + t v by some 8 roundings (2^-53), (p - a).n by as many;
@@ -80,56 +65,39 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
     ending = RUNNING
     noted = 0
     while ending == RUNNING and noted < capacity:
-        if gravity is None and energy <= 0.0:
-            ending = AT_REST
+        ending = ending_at_once(gravity, energy, bounces, limit)
+        if ending != RUNNING:
             break
-        if bounces >= limit:
-            ending = BOUNCE_LIMIT
-            break
-        remaining = (until - time) - lost
         if gravity is not None and hold in (COMING_TO_REST, LEAVING):
-            kind = SLIDE if hold == COMING_TO_REST else LEAVE
-            if hold == COMING_TO_REST:
-                x, y, vx, vy, t, hold = keep_to(
-                    model, model.restitution, held, radius, x, y, vx, vy, gravity, last, tolerance
-                )
-                time, lost = advance(time, lost, t)
-                energy = kept_energy(gravity, x, y, vx, vy)
-                last = held
-            else:
-                hold = LEFT
+            x, y, vx, vy, t, energy, last, hold, kind = change_hold(
+                model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance
+            )
+            time, lost = advance(time, lost, t)
             nx, ny = towards(model, held, gravity)
-            note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, held, kind)
-            noted += 1 if len(log) > 0 else 0
+            noted = note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, held, kind)
             if hold == SLIDING and rests(model, held, vx, vy, gravity):
                 ending = AT_REST
             continue
         t, feature, touched = first_contact(
-            model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance, remaining
+            model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance, (until - time) - lost
         )
         if touched > 0 and last >= 0:
             met = settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still)
-            if met in (AMBIGUOUS, COLLAPSES):
-                ending = AMBIGUOUS_CORNER if met == AMBIGUOUS else COLLAPSE
-                break
             if met != NO_HIT:
                 t, feature = 0.0, met
-        if feature == NO_HIT:
-            ending = LEFT_SCENE if until == math.inf else TIME_REACHED
+        if feature in (NO_HIT, AMBIGUOUS, COLLAPSES):
+            ending = ending_without(feature, until)
             break
-        if time + t > time and t * (abs(vx) + abs(vy)) > tolerance * 2.0**-6:
-            still = 0
-        else:
-            still += 1
-            if still > still_limit(model.restitution):
-                ending = COLLAPSE
-                break
+        still = 0 if passes(time, t, vx, vy, tolerance) else still + 1
+        if still > still_limit(model.restitution):
+            ending = COLLAPSE
+            break
         if t > 0.0:
             from_x, from_y = x, y
             from_vx, from_vy = side_kept(model, gravity, held, hold, vx, vy)
             x, y, vx, vy = move(model, gravity, held, hold, x, y, vx, vy, t)
             time, lost = advance(time, lost, t)
-        if feature == END_OF_EDGE:
+        if gravity is not None and feature == END_OF_EDGE:
             last = held
             feature = stops_slide(model, gravity, radius, held, x, y, vx, vy, tolerance)
             if feature == NO_HIT:
@@ -143,8 +111,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
         last = feature
         bounces += 1
         hits[wall] += 1
-        note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
-        noted += 1 if len(log) > 0 else 0
+        noted = note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
         if absorbs(model.restitution, wall):
             ending = ABSORBED
         if gravity is not None:
@@ -161,6 +128,31 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
     state[7], state[8], state[9], state[10] = from_x, from_y, from_vx, from_vy
     counts[0], counts[1], counts[2], counts[3], counts[4], counts[5] = last, bounces, ending, still, held, hold
     return noted
+
+
+@kernel
+def ending_at_once(gravity, energy, bounces, limit):
+    """What ends the run of a ball that is about to fly: an ending, or RUNNING."""
+    if gravity is None:
+        if energy <= 0.0:
+            return AT_REST
+    return BOUNCE_LIMIT if bounces >= limit else RUNNING
+
+
+@kernel
+def ending_without(feature, until):
+    """What ends the run of a ball for which no contact was found that it gets out of."""
+    if feature == AMBIGUOUS:
+        return AMBIGUOUS_CORNER
+    if feature == COLLAPSES:
+        return COLLAPSE
+    return LEFT_SCENE if until == math.inf else TIME_REACHED
+
+
+@kernel
+def passes(time, t, vx, vy, tolerance):
+    """Tell whether a flight passes time and space by more than their rounding."""
+    return time + t > time and t * (abs(vx) + abs(vy)) > tolerance * 2.0**-6
 
 
 @kernel
@@ -233,9 +225,9 @@ def fly_all(model, gravity, radii, states, counts, until, limit, hits, log, capa
 
 @kernel
 def note(log, row, time, x, y, vx, vy, nx, ny, radius, feature, kind):
-    """Write one contact to the log, the normal made a unit and pointing to the ball."""
+    """Write one contact to the log, the normal made a unit and pointing to the ball: the row for the next one."""
     if len(log) == 0:
-        return
+        return row
     length = math.sqrt(nx * nx + ny * ny)
     nx, ny = nx / length, ny / length
     o = 11 * row
@@ -243,3 +235,4 @@ def note(log, row, time, x, y, vx, vy, nx, ny, radius, feature, kind):
     log[o + 5], log[o + 6] = x - radius * nx, y - radius * ny
     log[o + 7], log[o + 8], log[o + 9] = nx, ny, float(feature)
     log[o + 10] = float(kind)
+    return row + 1
