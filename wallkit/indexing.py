@@ -11,17 +11,17 @@ contact.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.model import Cells, Grid
+from wallkit.kernels.model import CELL, Grid
 from wallkit.scene import FloatArray
 
 IntArray = NDArray[np.int64]
 MARGIN = 2.0**-16
-CELL = 0.8
+SPACING = 0.8
 """Cell size in units of sqrt(area / edges); measured, flat between 0.5 and 1.2."""
 BOW = 1.0 / 8.0
 """Arcs are entered in chords that miss them by at most this part of a cell, and by what they miss them."""
@@ -43,7 +43,7 @@ class Places(NamedTuple):
     corner_ids: IntArray
 
 
-def build_grid(places: Places, radii: tuple[float, float]) -> tuple[Grid, IntArray, IntArray, IntArray]:
+def build_grid(places: Places, radii: tuple[float, float]) -> tuple[Grid, NDArray[Any], NDArray[np.uint32]]:
     """Sort edges and corners into cells.
 
     Args:
@@ -51,7 +51,7 @@ def build_grid(places: Places, radii: tuple[float, float]) -> tuple[Grid, IntArr
         radii: smallest and largest distance of a centre at a contact.
 
     Returns:
-        The grid, and the ids of lines, arcs and corners cell by cell.
+        The grid, its cells (``CELL``), and the ids that they list.
     """
     middle, spread = (radii[0] + radii[1]) / 2, (radii[1] - radii[0]) / 2
     low, high = _box(places)
@@ -62,14 +62,31 @@ def build_grid(places: Places, radii: tuple[float, float]) -> tuple[Grid, IntArr
     box = (low, size, columns, rows)
     reach = spread + size * MARGIN
     beside, owners = _beside(places.lines, places.line_ids, middle)
-    line_start, lines = _enter(box, beside, owners, np.full(len(owners), reach))
+    line_cells, lines = _enter(box, beside, owners, np.full(len(owners), reach))
     chords, bow, owners = _around_arcs(places.arcs, places.arc_ids, middle, size)
-    arc_start, arcs = _enter(box, chords, owners, reach + bow)
+    arc_cells, arcs = _enter(box, chords, owners, reach + bow)
     radius = np.full(len(places.corners), middle)
     chords, bow, owners = _chords(places.corners, places.fans, places.corner_ids, radius, size)
-    corner_start, corners = _enter(box, chords, owners, reach + bow)
-    cells = Cells(line_start, arc_start, corner_start)
-    return Grid(cells, float(low[0]), float(low[1]), size, columns, rows), lines, arcs, corners
+    corner_cells, corners = _enter(box, chords, owners, reach + bow)
+    counts = np.stack([np.bincount(c, minlength=columns * rows) for c in (line_cells, arc_cells, corner_cells)])
+    taken = counts.sum(axis=0)
+    cells = np.zeros(columns * rows + 1, dtype=CELL)
+    cells["first"][1:] = np.cumsum(taken)
+    cells["arcs"][:-1] = cells["first"][:-1] + counts[0]
+    cells["corners"][:-1] = cells["arcs"][:-1] + counts[1]
+    cells["link"] = 1
+    cells["link"][:-1] = _clearings(taken.reshape(rows, columns) > 0).ravel()
+    order = np.argsort(np.concatenate([line_cells, arc_cells, corner_cells]), kind="stable")
+    ids = np.append(np.concatenate([lines, arcs, corners])[order], 0).astype(np.uint32)
+    return Grid(float(low[0]), float(low[1]), size, 1.0 / size, 0, columns, rows), cells, ids
+
+
+def _clearings(taken: NDArray[np.bool_]) -> NDArray[np.int32]:
+    """How many king's moves each cell is from the nearest one that lists something, at least 1."""
+    from scipy.ndimage import distance_transform_cdt
+
+    moves: NDArray[np.int32] = np.maximum(distance_transform_cdt(~taken, metric="chessboard"), 1)
+    return moves
 
 
 def _box(places: Places) -> tuple[FloatArray, FloatArray]:
@@ -86,7 +103,7 @@ def _box(places: Places) -> tuple[FloatArray, FloatArray]:
 def _cell_size(extent: FloatArray, count: int) -> float:
     width, height = float(extent[0]), float(extent[1])
     longest = max(width, height)
-    return max(CELL * math.sqrt(width * height / count), longest / (4.0 * count + 64.0), longest * 2.0**-20)
+    return max(SPACING * math.sqrt(width * height / count), longest / (4.0 * count + 64.0), longest * 2.0**-20)
 
 
 def _beside(lines: FloatArray, ids: IntArray, distance: float) -> tuple[FloatArray, IntArray]:
@@ -128,14 +145,11 @@ def _enter(
     box: tuple[FloatArray, float, int, int], lines: FloatArray, owners: IntArray, reach: FloatArray
 ) -> tuple[NDArray[np.uint64], IntArray]:
     """Enter lines into cells: (start of each cell, owners by cell, each once)."""
-    count = box[2] * box[3]
     cells, which = _cells_of_lines(box, lines, reach)
     many = int(owners.max(initial=0)) + 1
     keys = np.sort(cells * many + owners[which])
     keys = keys[np.diff(keys, prepend=-1) > 0]
-    start = np.zeros(count + 1, dtype=np.uint64)
-    np.cumsum(np.bincount(keys // many, minlength=count), out=start[1:])
-    return start, keys % many
+    return keys // many, keys % many
 
 
 def _cells_of_lines(

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.indexing import Places, build_grid
-from wallkit.kernels.model import ARC, CORNER, LINE, Arc, Cells, Corner, Line, Model
+from wallkit.kernels.model import ARC, CELL, CORNER, LINE, Arc, Cell, Corner, Line, Model
 from wallkit.scene import FloatArray, Scene, SceneError
 from wallkit.walls import Walls
 
@@ -95,23 +95,17 @@ def _model(scene: Scene, origin: FloatArray, least: float, radius: float, index:
     fans, corners = _fans(walls, vertices, lines, angles)
     corner_ids = np.flatnonzero(fans[:, 1] > SMOOTH).astype(np.int64) if radius > 0.0 else np.empty(0, np.int64)
     one_sided = _one_sided(scene)
-    whole = Cells(*(np.array([0, len(ids)], dtype=np.uint64) for ids in (line_ids, arc_ids, corner_ids)))
-    grid = None
+    grid, cells, ids = None, *_one_cell(line_ids, arc_ids, corner_ids)
     if index == "grid" or (index == "auto" and len(line_ids) + len(arc_ids) > BRUTE_FORCE):
         least = 0.0 if one_sided is not None else least  # a disc may stand across a wall that it came through
         places = Places(
             lines[line_ids], line_ids, arcs, arc_ids, corners[corner_ids, 0:2], fans[corner_ids], corner_ids
         )
-        grid, line_ids, arc_ids, corner_ids = build_grid(places, (least, radius))
+        grid, cells, ids = build_grid(places, (least, radius))
     line_records, arc_records, corner_records = _records(lines, LINE), _records(arcs, ARC), _records(corners, CORNER)
     return Model(
-        line_entries=line_records[line_ids],
-        line_ids=line_ids,
-        arc_entries=arc_records[arc_of_edge[arc_ids]] if len(arcs) else None,
-        arc_ids=arc_ids,
-        corner_entries=corner_records[corner_ids],
-        corner_ids=corner_ids,
-        whole=whole,
+        ids=ids,
+        cells=cells,
         grid=grid,
         lines=line_records,
         arcs=arc_records if len(arcs) else None,
@@ -124,6 +118,13 @@ def _model(scene: Scene, origin: FloatArray, least: float, radius: float, index:
         gravity=_gravity(scene),
         extent=float(np.abs(vertices).max(initial=0.0)) + radius,
     )
+
+
+def _one_cell(lines: IntArray, arcs: IntArray, corners: IntArray) -> tuple[NDArray[Any], NDArray[np.uint32]]:
+    """List everything in one cell: (cells, ids)."""
+    ids = np.concatenate([lines, arcs, corners, [0]]).astype(np.uint32)
+    end = len(ids) - 1
+    return np.array([(0, len(lines), end - len(corners), 1), (end, end, end, 1)], dtype=CELL), ids
 
 
 def _arcs(lines: FloatArray, bulges: FloatArray) -> tuple[FloatArray, IntArray, FloatArray]:
@@ -224,7 +225,7 @@ def _as_lists(model: Model) -> Model:
     def convert(value: Any) -> Any:
         if isinstance(value, np.ndarray):
             if value.dtype.names is not None:
-                record: Any = {LINE: Line, ARC: Arc, CORNER: Corner}[value.dtype]
+                record: Any = {LINE: Line, ARC: Arc, CORNER: Corner, CELL: Cell}[value.dtype]
                 return list(map(record._make, value.tolist()))
             return value.tolist()
         if isinstance(value, tuple):

@@ -201,7 +201,7 @@ class Flights:
 
     def _entries_a_bounce(self) -> int:
         model = self.modelled.model
-        return 30 if model.grid is not None else len(model.line_ids) + len(model.corner_ids) + 4
+        return 30 if model.grid is not None else len(model.ids) + 3
 
     def part_done(self, ball: int, until: float, limit: int) -> float:
         """Part of all the work that is done when this ball is where it is, 0 to 1."""

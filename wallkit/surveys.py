@@ -152,7 +152,7 @@ def survey(
 def suits_lockstep(model: Model, radii: FloatArray) -> bool:
     """Few lines, one radius, and nothing else that acts."""
     features = (model.grid, model.arcs, model.gravity, model.restitution, model.one_sided)
-    few = len(model.line_ids) <= MOST_EDGES
+    few = int(model.cells[0]["arcs"]) <= MOST_EDGES
     if len(radii) < WORTH_LOCKSTEP or not few:
         return False
     return all(feature is None for feature in features) and bool((radii == radii[0]).all())

@@ -16,7 +16,9 @@ WELL_KNOWN = 2.0**-20
 
 
 @kernel
-def scan_arcs_point(arcs, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, energy, last, tolerance, best, feature):
+def scan_arcs_point(
+    arcs, numbers, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, energy, last, tolerance, best, feature
+):
     """Earliest contact of a point with the arcs of entries start to stop.
 
     A line cuts a circle twice: into it, then out of it. If a and b lie on different sides of the line, one of
@@ -37,7 +39,7 @@ def scan_arcs_point(arcs, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, 
         return best, feature, touched
     speed = math.sqrt(energy)
     for k in range(start, stop):
-        arc = arcs[k]
+        arc = arcs[numbers[ids[k]]]
         wx = x - arc.ax
         wy = y - arc.ay
         ex = wx + arc.sx
@@ -106,7 +108,7 @@ def holds(arc, ex, ey, slack):
 
 @kernel
 def scan_arcs_disc(
-    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, energy, last, tolerance, best, feature
+    arcs, numbers, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, energy, last, tolerance, best, feature
 ):
     """Earliest contact of a disc with the arcs of entries start to stop.
 
@@ -122,7 +124,7 @@ def scan_arcs_disc(
     slack = tolerance + radius * 2.0**-42
     speed = math.sqrt(energy)
     for k in range(start, stop):
-        arc = arcs[k]
+        arc = arcs[numbers[ids[k]]]
         wx = x - arc.ax
         wy = y - arc.ay
         ex = wx + arc.sx

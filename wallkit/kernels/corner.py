@@ -29,16 +29,11 @@ def settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, toleranc
     Returns AMBIGUOUS if starting with the other wall would send the point elsewhere: an exact corner hit that
     has no limit; COLLAPSES if restitution takes all speed before the point gets out.
     """
-    cells, c = home(model, model.grid, x, y)
+    cell = model.cells[home(model, model.grid, x, y)]
     found = NO_HIT
     closest = -2.0
-    for k in range(cells.line_start[c], cells.line_start[c + 1]):
-        edge = model.line_ids[k]
-        lean = _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
-        if lean > closest:
-            closest, found = lean, edge
-    for k in range(cells.arc_start[c], cells.arc_start[c + 1]):
-        edge = model.arc_ids[k]
+    for k in range(cell.first, cell.corners):
+        edge = int(model.ids[k])
         lean = _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
         if lean > closest:
             closest, found = lean, edge
@@ -216,17 +211,14 @@ def rises_ahead(model, held, x, y, vx, vy, nx, ny, tolerance):
     Such an edge goes up on that side from where the point is, across its way; one that falls away or goes straight on
     does not stop it.
     """
-    cells, c = home(model, model.grid, x, y)
+    cell = model.cells[home(model, model.grid, x, y)]
     found = NO_HIT
     steepest = RISE * (abs(nx) + abs(ny))
-    for k in range(cells.line_start[c], cells.line_start[c + 1]):
-        rise = _rise(model, model.line_ids[k], held, x, y, vx, vy, nx, ny, tolerance)
+    for k in range(cell.first, cell.corners):
+        edge = int(model.ids[k])
+        rise = _rise(model, edge, held, x, y, vx, vy, nx, ny, tolerance)
         if rise > steepest:
-            steepest, found = rise, model.line_ids[k]
-    for k in range(cells.arc_start[c], cells.arc_start[c + 1]):
-        rise = _rise(model, model.arc_ids[k], held, x, y, vx, vy, nx, ny, tolerance)
-        if rise > steepest:
-            steepest, found = rise, model.arc_ids[k]
+            steepest, found = rise, edge
     return found
 
 

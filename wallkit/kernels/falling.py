@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.arcs import holds
-from wallkit.kernels.grid import cell_of
+from wallkit.kernels.grid import clearing, leaf, place
 from wallkit.kernels.impact import behind, precedes
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
@@ -36,7 +36,7 @@ def fall_line(
     for k in range(start, stop):
         if ids[k] == skipped:
             continue
-        line = lines[k]
+        line = lines[ids[k]]
         ex, ey = x - line.ax, y - line.ay
         nx, ny = line.nx, line.ny
         d, vn, gn = ex * nx + ey * ny, vx * nx + vy * ny, gx * nx + gy * ny
@@ -95,7 +95,7 @@ def _fall_after(c4, c3, c2, c1, c0, time, from_behind):
 def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, best, feature):
     """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls."""
     for k in range(start, stop):
-        corner = corners[k]
+        corner = corners[ids[k]]
         ex, ey = x - corner.x, y - corner.y
         t = _fall_after(
             0.25 * (gx * gx + gy * gy),
@@ -134,7 +134,7 @@ def _polished(t, limit, ex, ey, vx, vy, gx, gy):
 
 @rare_kernel
 def fall_arcs(
-    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference,
+    arcs, numbers, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference,
     best, feature,
 ):  # fmt: skip
     """Earliest contact with the arcs of entries start to stop: |e(t)|^2 - (R + r)^2 or (R - r)^2 - |e(t)|^2 falls.
@@ -152,7 +152,7 @@ def fall_arcs(
     c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
     noise = LEVEL_SPEED * (abs(vx) + abs(vy))
     for k in range(start, stop):
-        arc = arcs[k]
+        arc = arcs[numbers[ids[k]]]
         wx, wy = x - arc.ax, y - arc.ay
         ex, ey = wx + arc.sx, wy + arc.sy
         power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
@@ -188,18 +188,19 @@ def fall_arcs(
 
 
 @kernel
-def fall_scan(model, cells, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature):
-    """Earliest contact with the entries of one cell: (time, feature, edges touched by a point where it starts)."""
+def fall_scan(model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature):
+    """Earliest contact with what one cell lists: (time, feature, edges touched by a point where it starts)."""
+    cell = model.cells[c]
     best, feature, touched = fall_line(
-        model.line_entries, model.line_ids, cells.line_start[c], cells.line_start[c + 1],
+        model.lines, model.ids, cell.first, cell.arcs,
         model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature,
     )  # fmt: skip
     best, feature, more = fall_arcs(
-        model.arc_entries, model.arc_ids, cells.arc_start[c], cells.arc_start[c + 1],
+        model.arcs, model.arc_of_edge, model.ids, cell.arcs, cell.corners,
         model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference, best, feature,
     )  # fmt: skip
     best, feature = fall_corners(
-        model.corner_entries, model.corner_ids, cells.corner_start[c], cells.corner_start[c + 1],
+        model.corners, model.ids, cell.corners, model.cells[c + 1].first,
         model.one_sided, model.corner_wall, radius, x, y, vx, vy, gx, gy, best, feature,
     )  # fmt: skip
     return best, feature, touched + more
@@ -213,39 +214,42 @@ def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolera
     coordinate of a parabola passes each border at most twice.
     """
     if grid is None:
-        return fall_scan(
-            model, model.whole, 0, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature
-        )
-    column, row = cell_of(grid, x, y)
+        return fall_scan(model, 0, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature)
+    column, row = place(grid, x, y)
+    columns, rows = grid.columns << grid.shift, grid.rows << grid.shift
     touched = 0
     now = 0.0
-    for _step in range(2 * (grid.columns + grid.rows) + 8):
+    for _step in range(2 * (columns + rows) + 8):
+        c, shift = leaf(model.cells, grid, column, row)
         best, feature, more = fall_scan(
-            model, grid.cells, row * grid.columns + column, radius, x, y, vx, vy, gx, gy,
-            last, skipped, tolerance, reference, best, feature,
+            model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature,
         )  # fmt: skip
         if now == 0.0:
             touched += more
-        step_x, time_x = _leaving(grid.x0, grid.size, column, grid.columns, x, vx, gx, now)
-        step_y, time_y = _leaving(grid.y0, grid.size, row, grid.rows, y, vy, gy, now)
+        link = int(model.cells[c].link)
+        left, right = clearing(grid, link, shift, column, columns)
+        low, high = clearing(grid, link, shift, row, rows)
+        next_column, time_x = _leaving(grid.x0, grid.unit, left, right, columns, x, vx, gx, now)
+        next_row, time_y = _leaving(grid.y0, grid.unit, low, high, rows, y, vy, gy, now)
         passed = min(time_x, time_y)
         if passed == NEVER or best <= now + passed:
             break
         now += passed
+        then_column, then_row = place(grid, x + now * (vx + 0.5 * now * gx), y + now * (vy + 0.5 * now * gy))
         if time_x < time_y:
-            column += step_x
+            column, row = next_column, min(max(then_row, low), high - 1)
         else:
-            row += step_y
+            column, row = min(max(then_column, left), right - 1), next_row
     return best, feature, touched
 
 
 @kernel
-def _leaving(low, size, number, count, p, v, g, now):
-    """How long after ``now`` a coordinate leaves its column or row, and to which side: (step, time)."""
+def _leaving(origin, unit, first, end, count, p, v, g, now):
+    """How long after ``now`` a coordinate leaves what lies from first to end, and where to: (column or row, time)."""
     p_now, v_now = p + now * (v + 0.5 * now * g), v + now * g
     up, down = NEVER, NEVER
-    if number < count - 1:
-        up = first_fall_quadratic(-0.5 * g, -v_now, low + (number + 1) * size - p_now, math.inf)
-    if number > 0:
-        down = first_fall_quadratic(0.5 * g, v_now, p_now - (low + number * size), math.inf)
-    return (1, up) if up < down else (-1, down)
+    if end < count:
+        up = first_fall_quadratic(-0.5 * g, -v_now, origin + end * unit - p_now, math.inf)
+    if first > 0:
+        down = first_fall_quadratic(0.5 * g, v_now, p_now - (origin + first * unit), math.inf)
+    return (end, up) if up < down else (first - 1, down)

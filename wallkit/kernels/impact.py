@@ -44,7 +44,7 @@ def scan_point(lines, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last
     touched = 0
     reach = best * WIDER
     for k in range(start, stop):
-        line = lines[k]
+        line = lines[ids[k]]
         ex = line.ax - x
         ey = line.ay - y
         nx = line.nx
@@ -98,7 +98,7 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
     reach = best * WIDER
     slack = tolerance + radius * 2.0**-42
     for k in range(start, stop):
-        line = lines[k]
+        line = lines[ids[k]]
         ex = x - line.ax
         ey = y - line.ay
         nx = line.nx
@@ -143,7 +143,7 @@ def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
     per_energy = 1.0 / energy
     square = radius * radius
     for k in range(start, stop):
-        corner = corners[k]
+        corner = corners[ids[k]]
         ex = x - corner.x
         ey = y - corner.y
         along = ex * vx + ey * vy

@@ -186,14 +186,14 @@ def fly_in_step(model, radius, states, counts, until, limit, hits, s, balls):
         flying += more
     while flying > 0:
         _begin(s, until)
-        for k in range(len(model.line_ids)):
+        for k in range(model.cells[0].arcs):
             if radius == 0.0:
-                _pass_point(s, float(model.line_ids[k]), model.line_entries[k])
+                _pass_point(s, float(model.ids[k]), model.lines[model.ids[k]])
             else:
-                _pass_disc(s, float(model.line_ids[k]), model.line_entries[k], radius)
+                _pass_disc(s, float(model.ids[k]), model.lines[model.ids[k]], radius)
         if radius > 0.0:
-            for k in range(len(model.corner_ids)):
-                _pass_corner(s, -2.0 - float(model.corner_ids[k]), model.corner_entries[k], radius)
+            for k in range(model.cells[0].corners, model.cells[1].first):
+                _pass_corner(s, -2.0 - float(model.ids[k]), model.corners[model.ids[k]], radius)
         else:
             for i in range(LANES):
                 if s[TOUCHED + i] > 0.0 and s[LAST + i] >= 0.0:

@@ -2,7 +2,7 @@
 
 The same tuples hold NumPy arrays (of records) for the compiled kernels and lists (of named tuples) of Python floats
 for the interpreted ones; both are read as ``lines[i].ax``, so that one source serves and gives the same bits.
-Positions in arrays of entries are unsigned: they need no look whether they count from the end.
+Ids and what counts them are unsigned: they need no look whether they count from the end.
 Coordinates are local (see ``wallkit.modelling``).
 """
 
@@ -78,45 +78,54 @@ class Corner(NamedTuple):
     sy: float
 
 
+class Cell(NamedTuple):
+    """A cell of the index, and what is listed in it: ids from ``first`` to the next cell's ``first``.
+
+    Lines come first, then arcs (from ``arcs`` on), then corners (from ``corners`` on). ``link`` above 0: nothing at
+    all is listed in cells nearer than that many, counted as a king moves (1 where something is listed here). Else the
+    cell is divided into 2^arcs by 2^arcs smaller ones, row by row from the cell -link on, and lists nothing itself.
+    """
+
+    first: int
+    arcs: int
+    corners: int
+    link: int
+
+
 LINE = np.dtype([(name, np.float64) for name in Line._fields])
 ARC = np.dtype([(name, np.float64) for name in Arc._fields])
 CORNER = np.dtype([(name, np.float64) for name in Corner._fields])
-
-
-class Cells(NamedTuple):
-    """Where entries start: those of cell c are start[c] to start[c + 1]."""
-
-    line_start: Any
-    arc_start: Any
-    corner_start: Any
+CELL = np.dtype([("first", np.uint32), ("arcs", np.uint32), ("corners", np.uint32), ("link", np.int32)])
 
 
 class Grid(NamedTuple):
-    """Square cells, row by row."""
+    """Square cells, row by row, some of them divided again and again.
 
-    cells: Any
+    Places in it are counted in units: whole numbers of the side of the smallest cell, so that all cells begin and end
+    at whole numbers and the walk through them is exact whatever their sizes.
+    """
+
     x0: float
     y0: float
-    size: float
+    unit: float
+    per_unit: float
+    """1 / unit."""
+    shift: int
+    """A cell that is not part of another one has the side 2^shift, in units."""
     columns: int
     rows: int
+    """Of cells that are not part of another one."""
 
 
 class Model(NamedTuple):
     """All that a flight needs to know of its scene."""
 
-    line_entries: Any
-    """``Line`` cell by cell, as ``line_ids`` are."""
-    line_ids: Any
-    arc_entries: Any
-    """``Arc`` cell by cell; None when all edges are lines."""
-    arc_ids: Any
-    corner_entries: Any
-    """``Corner`` cell by cell; empty when all balls are points."""
-    corner_ids: Any
-    whole: Any
-    """All entries as the ``Cells`` of one cell."""
+    ids: Any
+    """Edges and vertices cell by cell, unsigned; one more at the end."""
+    cells: Any
+    """``Cell``, and one more whose ``first`` ends the last; without a grid one cell lists all."""
     grid: Any
+    """``Grid``, or None."""
     lines: Any
     """``Line`` by edge; the chord of an arc."""
     arcs: Any
