@@ -14,7 +14,7 @@ from wallkit.clearance import check_starts
 from wallkit.damping import refuse_damping
 from wallkit.kernels.flight import begin_all, end_all, fly_all
 from wallkit.kernels.jit import compiled
-from wallkit.kernels.lockstep import LANES, MOST_EDGES, SCRATCH, fly_in_step
+from wallkit.kernels.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start, fly_in_step
 from wallkit.kernels.model import STATE_SIZE, Model
 from wallkit.modelling import Modelled
 from wallkit.scene import FloatArray, Scene
@@ -124,35 +124,73 @@ def survey(
     limit_time, limit_bounces = limits(until, bounces)
     ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
     scene, modelled = ready.scene, ready.modelled
-    radii = modelled.radii if ready.order is None else modelled.radii[ready.order]
-    states, counts = _begin(ready)
-    work, model, no_log = compiled(fly_all), modelled.model, np.empty(0)
-    in_step = compiled(fly_in_step) if suits_lockstep(model, radii) else None
-
+    outcome = _room_for(len(modelled.radii))
     threads = threads if threads is not None else os.cpu_count() or 1
     shares = 1 if threads <= 1 and executor is None else 8 * max(threads, 2)
-    chunk = min(max(-(-len(states) // shares), LEAST), MOST)
+    chunk = min(max(-(-len(modelled.radii) // shares), LEAST), MOST)
+    work = _in_step if suits_lockstep(modelled.model, modelled.radii) else _one_by_one
 
     def fly_chunk(first: int) -> NDArray[np.int64]:
-        part = slice(first, first + chunk)
-        hits = np.zeros(len(scene.walls), dtype=np.int64)
-        chunk_radii, chunk_states, chunk_counts = radii[part], states[part], counts[part]
-        if in_step is not None:
-            scratch, balls = np.empty(SCRATCH), np.empty(LANES, dtype=np.int64)
-            in_step(model, chunk_radii[0], chunk_states, chunk_counts, limit_time, limit_bounces, hits, scratch, balls)
-            return hits
-        work(model, model.gravity, chunk_radii, chunk_states, chunk_counts, limit_time, limit_bounces, hits, no_log, 1)
-        return hits
+        part = slice(first, min(first + chunk, len(modelled.radii)))
+        return work(ready, part, limit_time, limit_bounces, outcome)
 
-    starts = range(0, len(states), chunk)
+    starts = range(0, len(modelled.radii), chunk)
     hits = sum(_map(fly_chunk, starts, threads, executor), np.zeros(len(scene.walls), dtype=np.int64))
-    return _totals(ready, states, counts, hits)
+    return Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending)
+
+
+def _room_for(count: int) -> Outcome:
+    return Outcome(
+        position=np.empty((count, 2)),
+        velocity=np.empty((count, 2)),
+        time=np.empty(count),
+        bounces=np.empty(count, dtype=np.int64),
+        ending=np.empty(count, dtype=np.uint8),
+    )
+
+
+def _in_step(ready: Prepared, part: slice, until: float, limit: int, outcome: Outcome) -> NDArray[np.int64]:
+    """Fly some balls in lockstep: bounces by wall."""
+    modelled, balls = ready.modelled, ready.scene.balls
+    model = modelled.model
+    hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
+    start = Start(
+        position=np.asarray(balls.position),
+        velocity=np.asarray(balls.velocity),
+        origin=tuple(modelled.origin.tolist()),
+        extent=model.extent,
+        box=modelled.box,
+    )
+    radius = float(modelled.radii[0]) or None
+    scratch = Scratch(
+        lanes=np.empty(SCRATCH),
+        balls=np.empty(LANES, dtype=np.int64),
+        ended=np.empty(LANES + 1, dtype=np.int64),
+        met=np.empty(LANES, dtype=np.uint64),
+        rows=np.zeros((len(model.ids), ROW_SIZE)),
+    )
+    compiled(fly_in_step)(model, radius, start, part.start, part.stop, until, limit, hits, outcome, scratch)
+    return hits
+
+
+def _one_by_one(ready: Prepared, part: slice, until: float, limit: int, outcome: Outcome) -> NDArray[np.int64]:
+    """Fly some balls, in their order, one after the other: bounces by wall."""
+    modelled, model = ready.modelled, ready.modelled.model
+    hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
+    balls = np.arange(part.start, part.stop) if ready.order is None else ready.order[part]
+    states, counts = _begin(ready, balls)
+    radii = modelled.radii[balls]
+    compiled(fly_all)(model, model.gravity, radii, states, counts, until, limit, hits, np.empty(0), 1)
+    x0, y0 = modelled.origin.tolist()
+    compiled(end_all)(states, counts, radii, x0, y0, modelled.box, balls, outcome)
+    return hits
 
 
 def suits_lockstep(model: Model, radii: FloatArray) -> bool:
-    """Few lines, one radius, and nothing else that acts."""
+    """Few lines and corners, one radius, and nothing else that acts."""
     features = (model.grid, model.arcs, model.gravity, model.restitution, model.one_sided)
-    few = int(model.cells[0]["arcs"]) <= MOST_EDGES
+    lines, corners = int(model.cells[0]["arcs"]), int(model.cells[1]["first"] - model.cells[0]["corners"])
+    few = lines <= MOST_EDGES and corners <= 2 * MOST_EDGES
     if len(radii) < WORTH_LOCKSTEP or not few:
         return False
     return all(feature is None for feature in features) and bool((radii == radii[0]).all())
@@ -167,29 +205,13 @@ def _map(task: Any, starts: range, threads: int, executor: Executor | None) -> l
         return list(pool.map(task, starts))
 
 
-def _begin(ready: Prepared) -> tuple[FloatArray, NDArray[np.int64]]:
+def _begin(ready: Prepared, balls: NDArray[np.int64]) -> tuple[FloatArray, NDArray[np.int64]]:
     position, velocity = np.asarray(ready.scene.balls.position), np.asarray(ready.scene.balls.velocity)
-    if ready.order is not None:
-        position, velocity = position[ready.order], velocity[ready.order]
     modelled = ready.modelled
     if modelled.model.gravity is not None:
-        states = initial_states(modelled, position, velocity)
+        states = initial_states(modelled, position[balls], velocity[balls])
         return states, np.tile(np.array(START, dtype=np.int64), (len(states), 1))
-    states, counts = np.empty((len(position), STATE_SIZE)), np.empty((len(position), len(START)), dtype=np.int64)
+    states, counts = np.empty((len(balls), STATE_SIZE)), np.empty((len(balls), len(START)), dtype=np.int64)
     x0, y0 = modelled.origin.tolist()
-    compiled(begin_all)(position, velocity, x0, y0, modelled.model.extent, states, counts, np.array(START))
+    compiled(begin_all)(position, velocity, balls, x0, y0, modelled.model.extent, states, counts, START)
     return states, counts
-
-
-def _totals(ready: Prepared, states: FloatArray, counts: NDArray[np.int64], hits: NDArray[np.int64]) -> Totals:
-    if ready.order is not None:
-        back = np.empty_like(ready.order)
-        back[ready.order] = np.arange(len(back))
-        states, counts = states[back], counts[back]
-    count, modelled = len(states), ready.modelled
-    position, velocity, time = np.empty((count, 2)), np.empty((count, 2)), np.empty(count)
-    bounces, ending = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.uint8)
-    x0, y0 = modelled.origin.tolist()
-    box = np.array(modelled.box)
-    compiled(end_all)(states, counts, modelled.radii, x0, y0, box, position, velocity, time, bounces, ending)
-    return Totals(bounces, position, velocity, time, hits, ending)

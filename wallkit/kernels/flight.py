@@ -184,34 +184,46 @@ def still_limit(restitution):
 
 
 @kernel
-def begin_all(position, velocity, x0, y0, extent, states, counts, start):
-    """Write the states of balls at time 0, without gravity, and their counts; see ``initial_states``."""
-    for ball in range(len(position)):
-        x, y, vx, vy = position[ball, 0] - x0, position[ball, 1] - y0, velocity[ball, 0], velocity[ball, 1]
-        state = states[ball]
-        state[0], state[1], state[2], state[3], state[4], state[5] = x, y, vx, vy, 0.0, 0.0
-        state[6] = vx * vx + vy * vy
-        state[7], state[8], state[9], state[10] = x, y, vx, vy
-        state[11] = TOLERANCE * max(max(abs(x), abs(y)), extent)
-        for k in range(len(start)):
-            counts[ball, k] = start[k]
+def tolerance_of(x, y, extent):
+    """How far positions of a flight that begins at (x, y) may be off by rounding, without gravity."""
+    return TOLERANCE * max(max(abs(x), abs(y)), extent)
 
 
 @kernel
-def end_all(states, counts, radii, x0, y0, box, position, velocity, time, bounces, ending):
-    """Read totals from states and counts, in the scene's coordinates; see ``is_gone`` for balls that have left."""
-    for ball in range(len(states)):
-        state = states[ball]
-        x, y, vx, vy, r = state[0] + x0, state[1] + y0, state[2], state[3], radii[ball]
-        position[ball, 0], position[ball, 1], velocity[ball, 0], velocity[ball, 1] = x, y, vx, vy
-        time[ball] = state[4] + state[5]
-        bounces[ball] = counts[ball, 1]
-        ending[ball] = counts[ball, 2]
-        r += 2.0**-40 * max(max(abs(box[0]), abs(box[1])), max(abs(box[2]), abs(box[3])))
-        out_x = (x > box[2] + r and vx >= 0.0) or (x < box[0] - r and vx <= 0.0)
-        out_y = (y > box[3] + r and vy >= 0.0) or (y < box[1] - r and vy <= 0.0)
-        if counts[ball, 2] == TIME_REACHED and (out_x or out_y):
-            ending[ball] = LEFT_SCENE
+def has_left(box, r, x, y, vx, vy):
+    """Tell whether a ball is outside the box of the walls, by more than rounding, and flies away: ``is_gone``."""
+    r += 2.0**-40 * max(max(abs(box[0]), abs(box[1])), max(abs(box[2]), abs(box[3])))
+    out_x = (x > box[2] + r and vx >= 0.0) or (x < box[0] - r and vx <= 0.0)
+    out_y = (y > box[3] + r and vy >= 0.0) or (y < box[1] - r and vy <= 0.0)
+    return out_x or out_y
+
+
+@kernel
+def begin_all(position, velocity, balls, x0, y0, extent, states, counts, start):
+    """Write the states of some balls at time 0, without gravity, and their counts; see ``initial_states``."""
+    for i in range(len(balls)):
+        ball, state = balls[i], states[i]
+        x, y, vx, vy = position[ball, 0] - x0, position[ball, 1] - y0, velocity[ball, 0], velocity[ball, 1]
+        state[0], state[1], state[2], state[3], state[4], state[5] = x, y, vx, vy, 0.0, 0.0
+        state[6] = vx * vx + vy * vy
+        state[7], state[8], state[9], state[10] = x, y, vx, vy
+        state[11] = tolerance_of(x, y, extent)
+        for k in range(len(start)):
+            counts[i, k] = start[k]
+
+
+@kernel
+def end_all(states, counts, radii, x0, y0, box, balls, outcome):
+    """Read from states and counts where some balls ended, in the scene's coordinates; see ``Outcome``."""
+    for i in range(len(balls)):
+        ball, state = balls[i], states[i]
+        x, y, vx, vy = state[0] + x0, state[1] + y0, state[2], state[3]
+        outcome.position[ball, 0], outcome.position[ball, 1] = x, y
+        outcome.velocity[ball, 0], outcome.velocity[ball, 1] = vx, vy
+        outcome.time[ball] = state[4] + state[5]
+        outcome.bounces[ball] = counts[i, 1]
+        gone = counts[i, 2] == TIME_REACHED and has_left(box, radii[i], x, y, vx, vy)
+        outcome.ending[ball] = LEFT_SCENE if gone else counts[i, 2]
 
 
 @kernel
