@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.damping import damping_of
 from wallkit.indexing import Places, build_grid
 from wallkit.kernels.model import ARC, CELL, CORNER, LINE, Arc, Cell, Corner, Line, Model
 from wallkit.scene import FloatArray, Scene, SceneError
@@ -116,6 +117,7 @@ def _model(scene: Scene, origin: FloatArray, least: float, radius: float, index:
         restitution=_restitution(scene),
         one_sided=one_sided,
         gravity=_gravity(scene),
+        damping=damping_of(scene),
         extent=float(np.abs(vertices).max(initial=0.0)) + radius,
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from importers.pictured import Pictured
-from wallkit.damping import damping_of, slowed_between
+from wallkit.damping import carried_on, damping_of
 
 if TYPE_CHECKING:
     from wallkit.horizon import Horizon, Source
@@ -154,22 +155,25 @@ class Run(Pictured):
             if contact is not None:
                 since = float(contact["time"])
                 state[ball] = contact["x"], contact["y"], contact["vx"], contact["vy"]
-            span = min(time, float(self.final[ball]["time"])) - since
-            if span > 0.0:
-                state[ball] = self._after(state[ball], contact, span)
+            end = float(self.final[ball]["time"])
+            if self._damping is not None:
+                rests = time >= end and self.ending[ball] == Ending.AT_REST
+                span = math.inf if rests else max(min(time, end) - since, 0.0)
+                state[ball] = carried_on(self._damping, state[ball], span)
+            elif (span := min(time, end) - since) > 0.0:
+                pull = self.pull_after(contact)
+                x, v = state[ball, 0:2], state[ball, 2:4]
+                state[ball] = np.concatenate([x + span * (v + 0.5 * span * pull), v + span * pull])
         return state
+
+    @cached_property
+    def _damping(self) -> NDArray[np.float64] | None:
+        return damping_of(self.scene)
 
     @cached_property
     def _turns(self) -> list[NDArray[Any]]:
         """By ball the contacts that change its flight; sensors do not."""
         return [own[own["kind"] < Kind.ENTER] for own in map(self.contacts_of, range(len(self.final)))]
-
-    def _after(self, state: NDArray[np.float64], contact: Any, span: float) -> NDArray[np.float64]:
-        damping = damping_of(self.scene)
-        if damping is not None:
-            return slowed_between(damping, state, span)
-        pull = self.pull_after(contact)
-        return np.concatenate([state[0:2] + span * (state[2:4] + 0.5 * span * pull), state[2:4] + span * pull])
 
     def pull_after(self, contact: Any) -> NDArray[np.float64]:
         """Acceleration after a contact (None: at the start): gravity, or the part of it along a wall that holds."""

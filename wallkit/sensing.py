@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.kernels.damping import free_time, slowed
 from wallkit.kernels.flight import normal_of
 from wallkit.kernels.model import FREE, NO_HIT
 from wallkit.kernels.motion import advance
@@ -26,7 +28,8 @@ def with_crossings(run: Run) -> Run:
     """
     if run.scene.sensors is None or not len(run.scene.sensors):
         return run
-    modelled = Modelled(Scene(run.scene.sensors, Balls(np.empty((0, 2)), np.empty((0, 2)))))
+    none = Balls(np.empty((0, 2)), np.empty((0, 2)))
+    modelled = Modelled(replace(run.scene, walls=run.scene.sensors, balls=none, gravity=None))
     walls, edge_in_wall = modelled.index_of_edge(Scene(run.scene.sensors))
     rows = [
         (*row[:-1], walls[row[-1]], edge_in_wall[row[-1]], kind)
@@ -61,14 +64,17 @@ def _crossings(
     tolerance = 2.0**-47 * max(model.extent, abs(x), abs(y))
     time, lost, last = since, 0.0, NO_HIT
     while vx or vy or gravity:
-        energy = vx * vx + vy * vy
+        energy, remaining = vx * vx + vy * vy, (until - time) - lost
+        best = free_time(model.damping, energy, remaining)
         t, feature, _touched = first_contact(
-            model, gravity, 0.0, x, y, vx, vy, energy, last, NO_HIT, FREE, tolerance, (until - time) - lost
+            model, gravity, 0.0, x, y, vx, vy, energy, last, NO_HIT, FREE, tolerance, best
         )
         if feature == NO_HIT:
             return
+        passed, kept = slowed(model.damping, energy, t, remaining)
         x, y, vx, vy = move(model, gravity, NO_HIT, FREE, x, y, vx, vy, t)
-        time, lost = advance(time, lost, t)
+        vx, vy = kept * vx, kept * vy
+        time, lost = advance(time, lost, passed)
         nx, ny, twice, _wall = normal_of(model, feature, x, y)
         unit = (0.5 * twice) ** 0.5
         if model.arcs is not None and model.arc_of_edge[feature] >= 0:

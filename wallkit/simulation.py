@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.clearance import check_starts, settled
-from wallkit.damping import Slowed, damping_of, refuse_damping
 from wallkit.kernels.flight import FALLING_TOLERANCE, TOLERANCE, fly, fly_all
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.model import FREE, LOG_STRIDE, NO_HIT, RUNNING, STATE_SIZE, Counts
@@ -58,17 +57,11 @@ def simulate(
     if settle:
         scene = settled(scene)
     check_starts(scene)
-    damping = damping_of(scene)
-    if damping is not None and scene.sensors is not None:
-        raise SceneError("sensors do not work with friction or drag yet", code="not-yet", fix="leave one of them out")
-    flights = Flights(scene, mode=mode, damped=damping is not None)
+    flights = Flights(scene, mode=mode)
     logs: list[FloatArray] = []
     owners: list[NDArray[np.int32]] = []
     for ball in range(len(flights)):
-        pieces = flights.fly(ball, limit_time if damping is None else math.inf, limit_bounces)
-        if damping is not None:
-            pieces = flights.slow_down(ball, pieces, Slowed(damping, flights.local_start(ball), limit_time))
-        for log in pieces:
+        for log in flights.fly(ball, limit_time, limit_bounces):
             logs.append(log)
             owners.append(np.full(len(log), ball, dtype=np.int32))
             if progress is not None:
@@ -85,9 +78,7 @@ class Flights:
         hits: (W,) bounces by wall so far.
     """
 
-    def __init__(self, scene: Scene, *, mode: Mode = "auto", index: str = "auto", damped: bool = False) -> None:
-        if not damped:
-            refuse_damping(scene)
+    def __init__(self, scene: Scene, *, mode: Mode = "auto", index: str = "auto") -> None:
         self.scene = scene
         self.modelled = Modelled(scene, index=index)
         self.mode = mode
@@ -139,31 +130,6 @@ class Flights:
         self._work += (noted + 1) * self._entries_a_bounce()
         return np.array(log).reshape(room, LOG_STRIDE)[:noted]
 
-    def local_start(self, ball: int) -> list[float]:
-        """Position and velocity of a ball at time 0, local coordinates."""
-        return [*(self.start[ball, 0:2] - self.modelled.origin).tolist(), *self.start[ball, 2:4].tolist()]
-
-    def slow_down(self, ball: int, pieces: Any, clock: Slowed) -> Any:
-        """Turn the contacts of a ball into those of one that friction or drag slows down; set its end."""
-        for log in pieces:
-            kept = 0
-            for row in log:
-                slowed = clock.contact(row[1], row[2], row[3], row[4])
-                if slowed is None:
-                    break
-                row[0], row[3], row[4] = slowed
-                kept += 1
-            if kept:
-                yield log[:kept]
-            if clock.done:
-                break
-        counts = self._counts[ball]
-        if not clock.done and counts[2] in (Ending.LEFT_SCENE, Ending.TIME_REACHED):
-            clock.stop()
-        if clock.done:
-            counts[2] = Ending.AT_REST if clock.at_rest else Ending.TIME_REACHED
-        self._states[ball][0:6] = [*clock.state, 0.0]
-
     def next_contact(self, ball: int) -> FloatArray | None:
         """Fly a ball on to its next contact, (LOG_STRIDE,); None if it has none."""
         counts = self._counts[ball]
@@ -175,8 +141,14 @@ class Flights:
         return piece[0] if len(piece) else None
 
     def ended(self, ball: int) -> float | None:
-        """Give the time at which a ball came to an end of its own (rest, collapse, ambiguous corner), or None."""
-        if self._counts[ball][2] in (RUNNING, Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE):
+        """Give the time at which a ball came to an end of its own (rest, collapse, ambiguous corner), or None.
+
+        None too for a ball that friction or drag stops: its flight itself ends where it rests.
+        """
+        ending = self._counts[ball][2]
+        if ending in (RUNNING, Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE):
+            return None
+        if ending == Ending.AT_REST and self.modelled.model.damping is not None:
             return None
         return float(self._states[ball][4] + self._states[ball][5])
 

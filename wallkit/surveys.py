@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.clearance import check_starts
-from wallkit.damping import refuse_damping
 from wallkit.kernels.flight import begin_all, end_all, fly_all
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start, fly_in_step
@@ -72,7 +71,6 @@ def prepare(scene: Scene, *, check: bool = True) -> Prepared:
     Raises:
         SceneError: the scene cannot be simulated.
     """
-    refuse_damping(scene)
     if check:
         check_starts(scene)
     modelled = Modelled(scene)
@@ -188,7 +186,7 @@ def _one_by_one(ready: Prepared, part: slice, until: float, limit: int, outcome:
 
 def suits_lockstep(model: Model, radii: FloatArray) -> bool:
     """Few lines and corners, one radius, and nothing else that acts."""
-    features = (model.grid, model.arcs, model.gravity, model.restitution, model.one_sided)
+    features = (model.grid, model.arcs, model.gravity, model.damping, model.restitution, model.one_sided)
     lines, corners = int(model.cells[0]["arcs"]), int(model.cells[1]["first"] - model.cells[0]["corners"])
     few = lines <= MOST_EDGES and corners <= 2 * MOST_EDGES
     if len(radii) < WORTH_LOCKSTEP or not few:

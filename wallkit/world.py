@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from wallkit.damping import carried_on, damping_of
 from wallkit.kernels.model import NO_HIT
 from wallkit.run import CONTACT, Kind
 from wallkit.scene import FloatArray, Scene, SceneError
@@ -61,6 +62,7 @@ class World:
         self.way: Way = way
         self.time = 0.0
         self._flights = Flights(scene, mode="compiled" if compile else "interpreted")
+        self._damping = damping_of(scene)
         self._base = self._flights.start.copy()  # where each ball was, and its velocity, ...
         self._since = np.zeros(len(self._base))  # ... when: after its last contact or change
         self._gravity = np.zeros(2) if scene.gravity is None else np.array(scene.gravity, dtype=np.float64)
@@ -81,16 +83,20 @@ class World:
     @property
     def position(self) -> FloatArray:
         """(n, 2) centres now."""
-        span = (np.minimum(self.time, self._end) - self._since)[:, None]
-        position: FloatArray = self._base[:, 0:2] + span * (self._base[:, 2:4] + 0.5 * span * self._pull)
-        return position
+        return self._state()[:, 0:2]
 
     @property
     def velocity(self) -> FloatArray:
         """(n, 2) velocities now."""
-        span = (np.minimum(self.time, self._end) - self._since)[:, None]
-        velocity: FloatArray = self._base[:, 2:4] + span * self._pull
-        return velocity
+        return self._state()[:, 2:4]
+
+    def _state(self) -> FloatArray:
+        span = np.minimum(self.time, self._end) - self._since
+        if self._damping is not None:
+            return np.array([carried_on(self._damping, *now) for now in zip(self._base, span.tolist(), strict=True)])
+        position, velocity = self._base[:, 0:2], self._base[:, 2:4]
+        grown = span[:, None] * self._pull
+        return np.hstack([position + span[:, None] * (velocity + 0.5 * grown), velocity + grown])
 
     def step(self, dt: float) -> NDArray[Any]:
         """Move everything on by ``dt`` seconds.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.corner import normal_at, settle
+from wallkit.kernels.damping import free_time, last_flight, slowed
 from wallkit.kernels.hold import change_hold, end_of_hold, held_after, rests, stops_slide
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.model import (
@@ -78,17 +79,20 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             if hold == SLIDING and rests(model, held, vx, vy, gravity):
                 ending = AT_REST
             continue
+        remaining = (until - time) - lost
+        best = free_time(model.damping, energy, remaining)  # in which t is: as if nothing slowed the ball down
         t, feature, touched = first_contact(
-            model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance, (until - time) - lost
+            model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance, best
         )
         if touched > 0 and last >= 0:
             met = settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still)
             if met != NO_HIT:
                 t, feature = 0.0, met
         if feature in (NO_HIT, AMBIGUOUS, COLLAPSES):
-            ending = ending_without(feature, until)
+            ending = ending_without(model.damping, feature, until)
             break
-        still = 0 if passes(time, t, vx, vy, tolerance) else still + 1
+        passed, kept = slowed(model.damping, energy, t, remaining)
+        still = 0 if passes(time, passed, t, vx, vy, tolerance) else still + 1
         if still > still_limit(model.restitution):
             ending = COLLAPSE
             break
@@ -96,7 +100,8 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             from_x, from_y = x, y
             from_vx, from_vy = side_kept(model, gravity, held, hold, vx, vy)
             x, y, vx, vy = move(model, gravity, held, hold, x, y, vx, vy, t)
-            time, lost = advance(time, lost, t)
+            vx, vy, energy = kept * vx, kept * vy, kept * kept * energy
+            time, lost = advance(time, lost, passed)
         if gravity is not None and feature == END_OF_EDGE:
             last = held
             feature = stops_slide(model, gravity, radius, held, x, y, vx, vy, tolerance)
@@ -118,12 +123,13 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             held, hold = held_after(model, gravity, radius, feature, held, hold, x, y, vx, vy, nx, ny, tolerance)
             if hold in (CAUGHT, WEDGED):
                 ending, vx, vy = end_of_hold(model, gravity, hold, wall, nx, ny, vx, vy)
-    if ending == TIME_REACHED:
-        remaining = (until - time) - lost
-        if remaining > 0.0:
-            from_x, from_y, from_vx, from_vy = x, y, vx, vy
-            x, y, vx, vy = move(model, gravity, held, hold, x, y, vx, vy, remaining)
-            time, lost = until, 0.0
+    if ending == TIME_REACHED and (until - time) - lost > 0.0:
+        from_x, from_y, from_vx, from_vy = x, y, vx, vy
+        t, kept, time, lost = last_flight(model.damping, energy, time, lost, until)
+        x, y, vx, vy = move(model, gravity, held, hold, x, y, vx, vy, t)
+        vx, vy, energy = kept * vx, kept * vy, kept * kept * energy
+        if kept == 0.0:
+            ending, vx, vy = AT_REST, 0.0, 0.0
     state[0], state[1], state[2], state[3], state[4], state[5], state[6] = x, y, vx, vy, time, lost, energy
     state[7], state[8], state[9], state[10] = from_x, from_y, from_vx, from_vy
     counts[0], counts[1], counts[2], counts[3], counts[4], counts[5] = last, bounces, ending, still, held, hold
@@ -140,19 +146,22 @@ def ending_at_once(gravity, energy, bounces, limit):
 
 
 @kernel
-def ending_without(feature, until):
+def ending_without(damping, feature, until):
     """What ends the run of a ball for which no contact was found that it gets out of."""
     if feature == AMBIGUOUS:
         return AMBIGUOUS_CORNER
     if feature == COLLAPSES:
         return COLLAPSE
-    return LEFT_SCENE if until == math.inf else TIME_REACHED
+    if damping is None:
+        if until == math.inf:
+            return LEFT_SCENE
+    return TIME_REACHED
 
 
 @kernel
-def passes(time, t, vx, vy, tolerance):
-    """Tell whether a flight passes time and space by more than their rounding."""
-    return time + t > time and t * (abs(vx) + abs(vy)) > tolerance * 2.0**-6
+def passes(time, passed, t, vx, vy, tolerance):
+    """Tell whether a flight passes time and space by more than their rounding; t is its free time."""
+    return time + passed > time and t * (abs(vx) + abs(vy)) > tolerance * 2.0**-6
 
 
 @kernel

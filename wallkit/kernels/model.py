@@ -142,6 +142,8 @@ class Model(NamedTuple):
     """By wall: 1 when solid from its outward side alone; None when all are two-sided."""
     gravity: Any
     """(gx, gy), or None."""
+    damping: Any
+    """(rolling friction, drag), one of them 0, or None."""
     extent: float
     """Largest absolute local coordinate."""
 
