@@ -15,6 +15,7 @@ from wallkit.kernels.flight import begin_all, end_all, fly_all
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start, fly_in_step
 from wallkit.kernels.model import STATE_SIZE, Model
+from wallkit.kernels.room import all_clear
 from wallkit.modelling import Modelled
 from wallkit.scene import FloatArray, Scene
 from wallkit.simulation import START, initial_states, limits
@@ -71,11 +72,22 @@ def prepare(scene: Scene, *, check: bool = True) -> Prepared:
     Raises:
         SceneError: the scene cannot be simulated.
     """
-    if check:
-        check_starts(scene)
     modelled = Modelled(scene)
+    if check and not _surely_clear(scene, modelled):
+        check_starts(scene)
     order = None if modelled.model.grid is None else _neighbours_together(np.asarray(scene.balls.position))
     return Prepared(scene, modelled, order)
+
+
+def _surely_clear(scene: Scene, modelled: Modelled) -> bool:
+    """Tell whether a quick look shows that no ball overlaps a wall; it only pays for many balls among few lines."""
+    model, radii = modelled.model, modelled.radii
+    if len(radii) < WORTH_LOCKSTEP or model.grid is not None or model.arcs is not None:
+        return False
+    if not radii.any():
+        return True
+    origin = tuple(modelled.origin.tolist())
+    return bool(compiled(all_clear)(model, origin, np.ravel(scene.balls.position), radii))
 
 
 def _neighbours_together(position: FloatArray) -> NDArray[np.int64]:
@@ -162,9 +174,9 @@ def _in_step(ready: Prepared, part: slice, until: float, limit: int, outcome: Ou
     radius = float(modelled.radii[0]) or None
     scratch = Scratch(
         lanes=np.empty(SCRATCH),
-        balls=np.empty(LANES, dtype=np.int64),
-        ended=np.empty(LANES + 1, dtype=np.int64),
-        met=np.empty(LANES, dtype=np.uint64),
+        balls=np.empty(LANES, dtype=np.uint32),
+        ended=np.empty(LANES + 1, dtype=np.uint32),
+        met=np.empty(LANES, dtype=np.uint32),
         rows=np.zeros((len(model.ids), ROW_SIZE)),
     )
     compiled(fly_in_step)(model, radius, start, part.start, part.stop, until, limit, hits, outcome, scratch)

@@ -72,7 +72,7 @@ class Outcome(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Memory to work in: contents do not matter."""
+    """Memory to work in: contents do not matter. Integers are unsigned: no look whether they count from the end."""
 
     lanes: Any
     """SCRATCH floats."""
@@ -81,7 +81,7 @@ class Scratch(NamedTuple):
     ended: Any
     """LANES + 1 integers."""
     met: Any
-    """LANES unsigned integers."""
+    """LANES integers: the row of what the ball of each lane meets."""
     rows: Any
     """(1 + lines + corners, ROW_SIZE) floats; numbers, whatever they are."""
 
