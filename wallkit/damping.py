@@ -37,7 +37,7 @@ def damping_of(scene: Scene) -> FloatArray | None:
 
 
 def carried_on(damping: FloatArray, state: FloatArray, span: float) -> FloatArray:
-    """Give x, y, vx, vy a time after a contact; inf for the place where the ball comes to rest.
+    """Give x, y, vx, vy a time after a contact, or after an infinite one: where the ball comes to rest.
 
     Args:
         damping: of :func:`damping_of`.

@@ -64,7 +64,8 @@ class Scene(Pictured):
         balls: see :class:`Balls`.
         gravity: (gx, gy) in units per second squared, or None.
         rolling_friction: constant deceleration of a rolling ball, units per second squared, or None.
-        drag: rate k of dv/dt = -k v, per second, or None; neither acts together with the other or with gravity.
+        drag: rate k of dv/dt = -k v, per second, or None; neither acts together with the other or with gravity. Drag
+            takes for ever to stop a ball; at 2^-50 of the speed with which its flight began the ball is at rest.
         sensors: walls that report each crossing of a ball's centre and do not bounce it, or None.
     """
 
