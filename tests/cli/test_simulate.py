@@ -277,3 +277,27 @@ def test_energy_under_gravity_counts_height_and_ends_with_little_at_the_bottom(w
     assert "energy   25.00% left (kinetic and potential)" in wallkit("simulate", file)[1]
     file.write_text(text % 1)
     assert "energy   kept (kinetic and potential), to" in wallkit("simulate", file)[1]
+
+
+def test_friction_and_drag_slow_balls_down_unless_they_are_0(wallkit, scene):
+    code, out, _err = wallkit("simulate", scene, "--friction", 10, "--bounces", 100)
+    assert code == 0
+    assert " in 5 s" in out  # 50 / 10
+    assert "at rest" in out
+    code, out, _err = wallkit("simulate", scene, "--drag", 0.5, "--until", 2, "--format", "json")
+    final = json.loads(out)["final"][0]
+    assert math.hypot(final["vx"], final["vy"]) == pytest.approx(50 * math.exp(-1.0), rel=1e-12)
+    scene.write_text("drag = 0.5\n" + SCENE)
+    code, out, _err = wallkit("simulate", scene, "--drag", 0)
+    assert "kept" in out
+    code, out, err = wallkit("simulate", scene, "--friction", 1)
+    assert code == 2
+    assert "act together" in err
+
+
+def test_a_run_that_drag_ends_can_be_written(wallkit, scene, tmp_path):
+    code, out, _err = wallkit("simulate", scene, "--drag", 0.5, "-o", tmp_path / "run.json", "-o", tmp_path / "run.svg")
+    assert code == 0
+    assert "at rest" in out
+    final = json.loads((tmp_path / "run.json").read_text())["final"][0]
+    assert (final["vx"], final["vy"]) == (0.0, 0.0)

@@ -43,6 +43,8 @@ class Wishes:
         gravity: ``GX,GY``.
         restitution: of every wall.
         tangential_restitution: the same along the wall.
+        friction: deceleration of a rolling ball, units per second squared.
+        drag: rate k of dv/dt = -k v, per second.
         until: end in seconds.
         bounces: end in bounces a ball.
         importing: options of ``import_walls``.
@@ -58,6 +60,8 @@ class Wishes:
     gravity: str | None = None
     restitution: float | None = None
     tangential_restitution: float | None = None
+    friction: float | None = None
+    drag: float | None = None
     until: float | None = None
     bounces: int | None = None
     importing: dict[str, Any] = field(default_factory=dict)
@@ -189,7 +193,9 @@ def _complete(walls: Walls, given: _Given, wishes: Wishes, kind: str, problems: 
         bounces = BOUNCES
         assumed.append(f"{BOUNCES} bounces a ball (--bounces, --until)")
     base = given.scene.scene if given.scene else Scene(walls)
-    scene = replace(base, walls=walls, balls=balls, gravity=gravity)
+    friction = base.rolling_friction if wishes.friction is None else wishes.friction
+    drag = base.drag if wishes.drag is None else wishes.drag
+    scene = replace(base, walls=walls, balls=balls, gravity=gravity, rolling_friction=friction, drag=drag)
     return Prepared(scene, until, bounces, kind, [*walls.problems, *problems], assumed)
 
 

@@ -44,6 +44,14 @@ Tangential = Annotated[
     float | None,
     typer.Option("--tangential-restitution", metavar="E", help="The same along the wall.", min=0, max=1),
 ]
+Friction = Annotated[
+    float | None,
+    typer.Option(metavar="A", help="Rolling friction: speed that a ball loses per second.", min=0),
+]
+Drag = Annotated[
+    float | None,
+    typer.Option(metavar="K", help="Drag: rate of dv/dt = -K v, per second.", min=0),
+]
 Out = Annotated[
     list[str] | None,
     typer.Option("-o", "--out", metavar="OUT", help=f"Where to; the ending decides: {' '.join(FORMATS)}. Repeatable."),
@@ -75,6 +83,8 @@ def simulate_file(
     gravity: Gravity = None,
     restitution: Restitution = None,
     tangential_restitution: Tangential = None,
+    friction: Friction = None,
+    drag: Drag = None,
     curves: Curves = None,
     tolerance: drawing_options.Tolerance = None,
     layer: drawing_options.Layer = None,
@@ -103,8 +113,8 @@ def simulate_file(
         "scale": scale if scale != 1 else None, "flip_y": flip_y or None,
     }  # fmt: skip
     wishes = Wishes(
-        ball or [], velocity, speed, angle, radius, balls, seed, gravity, restitution, tangential_restitution, until,
-        bounces, {key: value for key, value in importing.items() if value is not None},
+        ball or [], velocity, speed, angle, radius, balls, seed, gravity, restitution, tangential_restitution,
+        friction, drag, until, bounces, {key: value for key, value in importing.items() if value is not None},
     )  # fmt: skip
     targets = _targets(out or [], form)
     prepared = prepare(file, wishes)
