@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.damping import last_flight
+from wallkit.kernels.damping import AS_GOOD_AS_NONE, last_flight
 from wallkit.scene import Scene, SceneError
 
 FloatArray = NDArray[np.float64]
@@ -50,3 +51,25 @@ def carried_on(damping: FloatArray, state: FloatArray, span: float) -> FloatArra
         return state
     t, kept, _time, _lost = last_flight(damping.tolist(), energy, 0.0, 0.0, span)
     return np.array([x + t * vx, y + t * vy, kept * vx, kept * vy])
+
+
+def on_a_free_clock(damping: FloatArray, start: FloatArray, own: Any) -> tuple[FloatArray, FloatArray]:
+    """Give the contacts of one slowed ball the times and velocities that they had if nothing slowed it down.
+
+    Args:
+        damping: of :func:`damping_of`.
+        start: (4,) x, y, vx, vy at time 0.
+        own: (n,) its contacts, of ``wallkit.run.CONTACT``, in order.
+
+    Returns:
+        (n,) times, and (n, 2) velocities after the contacts.
+    """
+    friction, drag = damping.tolist()
+    velocity = np.stack([own["vx"], own["vy"]], axis=1)
+    length = np.hypot(np.diff(own["x"], prepend=start[0]), np.diff(own["y"], prepend=start[1]))
+    speed = np.hypot(*np.concatenate([start[None, 2:4], velocity])[:-1].T)
+    lost = drag * length / speed if drag > 0.0 else 2.0 * friction * length / (speed * speed)
+    left = np.maximum(1.0 - lost, AS_GOOD_AS_NONE)
+    kept = np.cumprod(left if drag > 0.0 else np.sqrt(left))
+    before = np.concatenate([[1.0], kept])[:-1]
+    return np.cumsum(length / speed * before), velocity / kept[:, None]

@@ -16,6 +16,8 @@ its own new error: roundings of the state, and the wall's own displacement and t
 carried (new errors count as independent), which gives the root mean square; what is promised is
 three times that.
 
+Rolling friction and drag leave the path as it is: the errors are those of the same ball without them.
+
 Where the first order ends, trust ends: when the error reaches the distance by which the path passed a corner
 (points: the distance of a hit from a corner that turns), or the depth of a grazing hit.
 """
@@ -29,6 +31,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.damping import damping_of, on_a_free_clock
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.tangent import carry, stretch
 from wallkit.near_misses import CORNER, GRAZE, Flights, circles, near_misses
@@ -155,7 +158,9 @@ def _course(scene: Scene, own: Any, ball: int) -> Course:
     table = np.array([(m.tangential_restitution, m.restitution) for m in materials]).reshape(-1, 2)
     path = np.stack([own[name].astype(np.float64) for name in ("time", "vx", "vy", "nx", "ny", "kind")], axis=1)
     path[:, 5] = np.maximum(path[:, 5] - 1.0, 0.0)  # edge and vertex are bounces; slide and leave are not
-    start = np.atleast_2d(np.asarray(scene.balls.velocity, dtype=np.float64))[ball]
+    begin, start = (np.atleast_2d(np.asarray(part))[ball] for part in (scene.balls.position, scene.balls.velocity))
+    if (damping := damping_of(scene)) is not None:
+        path[:, 0], path[:, 1:3] = on_a_free_clock(damping, np.concatenate([begin, start]), own)
     gravity = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
     pull = np.tile(gravity, (len(own) + 1, 1))
     slides = path[:, 5] == 1.0

@@ -150,3 +150,18 @@ def test_a_parabola_that_turns_round_just_below_a_ceiling_is_noticed():
     near = list(near_misses(scene, horizon._flights(scene, contacts, 0), 1.0, 1e-6))
     clear = [found for flights, found, what in near if what == GRAZE and len(flights)]
     assert clear[0][0] == pytest.approx(1e-8, abs=1e-13)
+
+
+@pytest.mark.parametrize("acts", [{"rolling_friction": 0.04}, {"drag": 1e-3}], ids=str)
+def test_what_slows_a_ball_down_leaves_its_errors_as_they_are(acts):
+    walls = Walls.from_polylines([scenes.star().vertices], material=Material(0.99, 0.98))
+    balls = Balls([(3.0, -7.0)], [(40.0, 25.0)], 5.0)
+    plain = simulate(Scene(walls, balls), bounces=40)
+    run = simulate(Scene(walls, balls, **acts), bounces=40)
+    assert len(run.contacts) == 40
+    assert np.hypot(run.final["vx"], run.final["vy"]) < 0.95 * np.hypot(plain.final["vx"], plain.final["vy"])
+    expected, _worst = horizon.predicted_errors(plain.scene, plain.contacts)
+    found, _worst = horizon.predicted_errors(run.scene, run.contacts)
+    np.testing.assert_allclose(found, expected, rtol=1e-3)
+    assert run.trusted_until(1e-12)[0].bounces == plain.trusted_until(1e-12)[0].bounces < 40
+    assert run.trusted_until(1e-12)[0].reason == plain.trusted_until(1e-12)[0].reason

@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from wallkit.accuracy import scenes
 from wallkit.scene import Balls, Scene
@@ -24,8 +25,8 @@ class Cost:
     more: float | None
 
 
-def _scene(walls: Walls, radius: float = 0.0, gravity: tuple[float, float] | None = None) -> Scene:
-    return Scene(walls, Balls([(3.0, -7.0)], [_AIM], radius), gravity=gravity)
+def _scene(walls: Walls, radius: float = 0.0, **acts: Any) -> Scene:
+    return Scene(walls, Balls([(3.0, -7.0)], [_AIM], radius), **acts)
 
 
 def _star(material: Material | None = None, bulge: float = 0.0) -> Walls:
@@ -74,10 +75,13 @@ _ROWS: list[tuple[str, Callable[[], Scene], Callable[[Scene, int], int], str]] =
     ("nothing: a point among ten lines, totals only", lambda: _scene(_star()), _surveyed, ""),
     ("restitution, all 1 (absent)", lambda: _scene(_star(Material(1.0, 1.0))), _surveyed, ""),
     ("gravity of 0 (absent)", lambda: _scene(_star(), gravity=(0.0, 0.0)), _surveyed, ""),
+    ("friction and drag of 0 (absent)", lambda: _scene(_star(), rolling_friction=0.0, drag=0.0), _surveyed, ""),
     ("corners: a disc", lambda: _scene(_star(), 5.0), _surveyed, ""),
     ("arcs: one edge is one", lambda: _scene(_star(bulge=1e-3)), _surveyed, ""),
     ("restitution", lambda: _scene(_star(Material(1.0, 1.0 - 1e-9))), _surveyed, ""),
     ("gravity", lambda: _scene(_star(), gravity=(0.0, -1e-3)), _surveyed, ""),
+    ("rolling friction", lambda: _scene(_star(), rolling_friction=1e-6), _surveyed, ""),
+    ("drag", lambda: _scene(_star(), drag=1e-8), _surveyed, ""),
     (_RECORDING, lambda: _scene(_star()), _simulated, ""),
     ("recording, and the horizon", lambda: _scene(_star()), _with_horizon, _RECORDING),
     ("recording, and a sensor", _with_sensor, _sensed, _RECORDING),
