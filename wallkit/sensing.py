@@ -17,6 +17,7 @@ from wallkit.kernels.pull import first_contact, move
 from wallkit.modelling import Modelled
 from wallkit.run import CONTACT, Kind, Run
 from wallkit.scene import Balls, Scene
+from wallkit.walls import Walls
 
 
 def with_crossings(run: Run) -> Run:
@@ -26,22 +27,22 @@ def with_crossings(run: Run) -> Run:
     ``EXIT`` where it goes along it; wall and edge are those of the sensor, the velocity is that of the ball, which
     it keeps, and the normal is the outward one.
     """
-    if run.scene.sensors is None or not len(run.scene.sensors):
+    sensors = sensors_of(run.scene)
+    if sensors is None:
         return run
-    none = Balls(np.empty((0, 2)), np.empty((0, 2)))
-    modelled = Modelled(replace(run.scene, walls=run.scene.sensors, balls=none, gravity=None))
-    walls, edge_in_wall = modelled.index_of_edge(Scene(run.scene.sensors))
     rows = [
-        (*row[:-1], walls[row[-1]], edge_in_wall[row[-1]], kind)
+        row
         for ball in range(len(run.final))
         for flight in _flights(run, ball)
-        for row, kind in _crossings(modelled, ball, *flight)
+        for row in sensors.crossings(ball, *flight)
     ]
-    if rows:
-        contacts = np.concatenate([run.contacts, np.array(rows, dtype=CONTACT)])
-        order = np.lexsort((contacts["ball"], contacts["time"]))
-        run = Run(run.scene, contacts[order], run.final, run.ending, run.start)
-    return run
+    return Run(run.scene, in_order(run.contacts, rows), run.final, run.ending, run.start) if rows else run
+
+
+def in_order(contacts: NDArray[Any], rows: list[tuple[Any, ...]]) -> NDArray[Any]:
+    """Give contacts together with rows of ``CONTACT``, by time."""
+    contacts = np.concatenate([contacts, np.array(rows, dtype=CONTACT)])
+    return contacts[np.lexsort((contacts["ball"], contacts["time"]))]
 
 
 def _flights(run: Run, ball: int) -> Iterator[tuple[float, NDArray[np.float64], float, NDArray[np.float64]]]:
@@ -54,32 +55,60 @@ def _flights(run: Run, ball: int) -> Iterator[tuple[float, NDArray[np.float64], 
     yield since, state, float(run.final[ball]["time"]), run.pull_after(contact)
 
 
-def _crossings(
-    modelled: Modelled, ball: int, since: float, state: NDArray[np.float64], until: float, pull: NDArray[np.float64]
-) -> Iterator[tuple[tuple[Any, ...], Kind]]:
-    model, (ox, oy) = modelled.lists, modelled.origin.tolist()
-    x, y, vx, vy = state.tolist()
-    x, y = x - ox, y - oy
-    gravity = pull.tolist() if pull.any() else None
-    tolerance = 2.0**-47 * max(model.extent, abs(x), abs(y))
-    time, lost, last = since, 0.0, NO_HIT
-    while vx or vy or gravity:
-        energy, remaining = vx * vx + vy * vy, (until - time) - lost
-        best = free_time(model.damping, energy, remaining)
-        t, feature, _touched = first_contact(
-            model, gravity, 0.0, x, y, vx, vy, energy, last, NO_HIT, FREE, tolerance, best
-        )
-        if feature == NO_HIT:
-            return
-        passed, kept = slowed(model.damping, energy, t, remaining)
-        x, y, vx, vy = move(model, gravity, NO_HIT, FREE, x, y, vx, vy, t)
-        vx, vy = kept * vx, kept * vy
-        time, lost = advance(time, lost, passed)
-        nx, ny, twice, _wall = normal_of(model, feature, x, y)
+def sensors_of(scene: Scene) -> Sensors | None:
+    """The sensors of a scene, ready to be asked; None where it has none."""
+    return Sensors(scene, scene.sensors) if scene.sensors is not None and len(scene.sensors) else None
+
+
+class Sensors:
+    """Sensors in the form in which kernels see walls, asked flight by flight."""
+
+    def __init__(self, scene: Scene, walls: Walls) -> None:
+        none = Balls(np.empty((0, 2)), np.empty((0, 2)))
+        self._modelled = Modelled(replace(scene, walls=walls, balls=none, gravity=None))
+        self._wall, self._edge = self._modelled.index_of_edge(Scene(walls))
+
+    def crossings(
+        self, ball: int, since: float, state: NDArray[np.float64], until: float, pull: NDArray[np.float64]
+    ) -> Iterator[tuple[Any, ...]]:
+        """Give what a ball crosses in one flight, in order: rows of ``CONTACT``.
+
+        Args:
+            ball: its number.
+            since: when the flight begins.
+            state: (4,) x, y, vx, vy then.
+            until: when it ends, or inf.
+            pull: (2,) acceleration.
+        """
+        model, (ox, oy) = self._modelled.lists, self._modelled.origin.tolist()
+        x, y, vx, vy = state.tolist()
+        x, y = x - ox, y - oy
+        gravity = pull.tolist() if pull.any() else None
+        tolerance = 2.0**-47 * max(model.extent, abs(x), abs(y))
+        time, lost, last = since, 0.0, NO_HIT
+        while vx or vy or gravity:
+            energy, remaining = vx * vx + vy * vy, (until - time) - lost
+            best = free_time(model.damping, energy, remaining)
+            t, feature, _touched = first_contact(
+                model, gravity, 0.0, x, y, vx, vy, energy, last, NO_HIT, FREE, tolerance, best
+            )
+            if feature == NO_HIT:
+                return
+            passed, kept = slowed(model.damping, energy, t, remaining)
+            x, y, vx, vy = move(model, gravity, NO_HIT, FREE, x, y, vx, vy, t)
+            vx, vy = kept * vx, kept * vy
+            time, lost = advance(time, lost, passed)
+            nx, ny = self._outward(feature, x, y)
+            kind = Kind.ENTER if vx * nx + vy * ny < 0.0 else Kind.EXIT
+            place = (x + ox, y + oy)
+            yield time + lost, ball, *place, vx, vy, *place, nx, ny, self._wall[feature], self._edge[feature], kind
+            last = feature
+
+    def _outward(self, edge: int, x: float, y: float) -> tuple[float, float]:
+        """Unit normal of an edge at a place on it."""
+        model = self._modelled.lists
+        nx, ny, twice, _wall = normal_of(model, edge, x, y)
         unit = (0.5 * twice) ** 0.5
-        if model.arcs is not None and model.arc_of_edge[feature] >= 0:
-            unit *= model.arcs[model.arc_of_edge[feature]].turn
-        nx, ny = nx * unit, ny * unit
-        kind = Kind.ENTER if vx * nx + vy * ny < 0.0 else Kind.EXIT
-        yield (time + lost, ball, x + ox, y + oy, vx, vy, x + ox, y + oy, nx, ny, feature), kind
-        last = feature
+        if model.arcs is not None and model.arc_of_edge[edge] >= 0:
+            unit *= model.arcs[model.arc_of_edge[edge]].turn
+        return nx * unit, ny * unit

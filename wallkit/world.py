@@ -12,6 +12,7 @@ from wallkit.damping import carried_on, damping_of
 from wallkit.kernels.model import NO_HIT
 from wallkit.run import CONTACT, Kind
 from wallkit.scene import FloatArray, Scene, SceneError
+from wallkit.sensing import in_order, sensors_of
 from wallkit.simulation import Flights
 
 _NO_CONTACTS = np.empty(0, dtype=CONTACT)
@@ -72,6 +73,8 @@ class World:
         self._touched = np.full(len(self._base), NO_HIT, dtype=np.int64)
         self._next_time = np.full(len(self._base), math.inf)
         self._next: list[FloatArray | None] = [None] * len(self._base)
+        self._sensors = sensors_of(scene)
+        self._coming: list[list[tuple[Any, ...]]] = [[] for _ in self._base]  # crossings of sensors before that contact
         self._lost = 0.0  # what the sum of the frames loses to rounding
         for ball in range(len(self)):
             self._look_ahead(ball)
@@ -102,7 +105,7 @@ class World:
         """Move everything on by ``dt`` seconds.
 
         Returns:
-            (k,) of :data:`wallkit.run.CONTACT`: the contacts of this frame, in order of time.
+            (k,) of :data:`wallkit.run.CONTACT`: the contacts of this frame, and crossings of sensors, in order of time.
 
         Raises:
             SceneError: ``dt`` is negative or not finite.
@@ -117,17 +120,21 @@ class World:
             return _NO_CONTACTS
         rows: list[FloatArray] = []
         owners: list[int] = []
+        crossed: list[tuple[Any, ...]] = []
         for ball in np.flatnonzero(self._next_time <= end).tolist():
+            crossed += self._cross(ball, end)
             while (row := self._next[ball]) is not None and row[0] <= end:
                 rows.append(row[None])
                 owners.append(ball)
                 if self.way == "exact":
                     self._accept(ball, row)
+                    crossed += self._cross(ball, end)
                 else:
                     self._accept_late(ball, row, end, dt)
                     break
         self.time, self._soonest = end, float(self._next_time.min(initial=math.inf))
-        return self._flights.contacts(rows, [np.array([ball], dtype=np.int32) for ball in owners])
+        contacts = self._flights.contacts(rows, [np.array([ball], dtype=np.int32) for ball in owners])
+        return in_order(contacts, crossed) if crossed else contacts
 
     def place(self, ball: int, position: ArrayLike | None = None, velocity: ArrayLike | None = None) -> None:
         """Put a ball somewhere else, or give it another velocity, now: a kick, a flipper, a new ball.
@@ -151,9 +158,26 @@ class World:
     def _look_ahead(self, ball: int) -> None:
         """Find the ball's next contact; the frames catch up with it later."""
         row = self._next[ball] = self._flights.next_contact(ball)
-        self._next_time[ball] = math.inf if row is None else row[0]
         end = self._flights.ended(ball) if row is None else None
         self._end[ball] = math.inf if end is None else end
+        if self._sensors is not None:
+            until = self._end[ball] if row is None else row[0]
+            flight = float(self._since[ball]), self._base[ball], float(until), self._pull[ball]
+            self._coming[ball] = list(self._sensors.crossings(ball, *flight))
+        self._set_next_time(ball)
+
+    def _set_next_time(self, ball: int) -> None:
+        """Note when the next contact or crossing is."""
+        row, coming = self._next[ball], self._coming[ball]
+        self._next_time[ball] = coming[0][0] if coming else math.inf if row is None else row[0]
+
+    def _cross(self, ball: int, end: float) -> list[tuple[Any, ...]]:
+        """Take from the coming crossings those up to a time."""
+        coming = self._coming[ball]
+        passed = sum(crossing[0] <= end for crossing in coming)
+        self._coming[ball] = coming[passed:]
+        self._set_next_time(ball)
+        return coming[:passed]
 
     def _accept(self, ball: int, row: FloatArray) -> None:
         """The frame has reached the contact: from there the ball goes on."""

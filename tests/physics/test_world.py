@@ -186,3 +186,35 @@ def test_between_contacts_a_ball_falls_on_a_parabola():
     world.place(0, velocity=(0.0, 0.0))
     world.step(1.0)
     assert world.position[0].tolist() == [1.5, 5.0 - 1.5**2 - 1.0]
+
+
+@pytest.mark.parametrize(
+    "acts",
+    [{}, {"gravity": (0.0, -9.81)}, {"rolling_friction": 0.7}, {"drag": 0.2}],
+    ids=lambda acts: next(iter(acts), ""),
+)
+@pytest.mark.parametrize("dt", [0.1, 3.0])
+def test_frames_report_what_crosses_a_sensor_as_a_run_does(acts, dt):
+    room = Walls.from_polylines([[(0.0, 0.0), (0.0, 8.0), (12.0, 8.0), (12.0, 0.0)]], material=Material(0.9, 1.0))
+    sensors = Walls.from_polylines(
+        [[(3.0, 0.0), (3.0, 8.0)], [(5.0, 2.0), (8.0, 2.0), (8.0, 5.0)]], closed=[False, True]
+    )
+    scene = Scene(room, Balls([(2.0, 5.0), (9.0, 3.0)], [(7.0, 1.0), (-6.0, 2.0)], [0.2, 0.0]), sensors=sensors, **acts)
+    world = World(scene)
+    found = np.concatenate([world.step(dt) for _ in range(round(15.0 / dt))])
+    run = simulate(scene, until=world.time)
+    assert {Kind.EDGE, Kind.ENTER, Kind.EXIT} <= set(found["kind"])
+    assert set(found["wall"][found["kind"] >= Kind.ENTER]) == {0, 1}
+    for name in found.dtype.names:
+        assert np.array_equal(found[name], run.contacts[name]), name
+
+
+def test_a_kicked_ball_crosses_sensors_on_its_new_way():
+    sensors = Walls.from_polylines([[(7.0, -50.0), (7.0, 50.0)]], closed=False)
+    world = World(Scene(corridor(), Balls([(5.0, 0.0)], [(4.0, 0.0)], 1.0), sensors=sensors))
+    assert len(world.step(0.25)) == 0
+    world.place(0, velocity=(0.0, 1.0))
+    assert len(world.step(1.0)) == 0
+    world.place(0, velocity=(2.0, 0.0))
+    (crossing,) = world.step(1.0)
+    assert (crossing["time"], crossing["x"], crossing["kind"]) == (1.75, 7.0, Kind.EXIT)
