@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.indexing import spread
 from wallkit.scene import Balls, FloatArray, Scene, SceneError
 from wallkit.walls import Walls
 
@@ -107,6 +106,14 @@ def _near_pairs(walls: Walls, edges: IntArray, position: FloatArray, reach: floa
     last = np.searchsorted(keys, stride * row + high[box, 0] + slack, side="right") - 1
     pair, rank = spread(first, last)
     return order[rank], edges[near[box[pair]]]
+
+
+def spread(first: IntArray, last: IntArray) -> tuple[IntArray, IntArray]:
+    """Give for each range all its numbers: (which range, number)."""
+    counts = last - first + 1
+    which = np.repeat(np.arange(len(first)), counts)
+    start = np.cumsum(counts) - counts
+    return which, np.arange(len(which)) - start[which] + first[which]
 
 
 def _distances(walls: Walls, edge: IntArray, place: FloatArray) -> FloatArray:

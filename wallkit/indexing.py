@@ -1,187 +1,235 @@
-"""The index: a uniform grid whose cells list what a ball in them can meet.
+"""The index: square cells that list what a ball in them can meet, the crowded ones divided into smaller cells.
 
 At a contact the centre is at the distance r from what it touches: on one of two lines beside an edge, or on the
 arc around a corner that lies between the normals of its edges. An entry is in every cell which that locus crosses
-or passes within a margin of (for radii from r to R: within the band between the two). The margin, a part of the
-cell, is far above the rounding of a position and of a cell's border, so a contact is always listed in the cell in
-which the centre is at that time: the walk through the cells may stop at the first cell that contains its best
-contact.
+or passes within a margin of (for radii from r to R: within the band between the two). The margin is far above the
+rounding of a position and of a cell's border, so a contact is always listed in the cell in which the centre is at
+that time: the walk through the cells may stop at the first cell that contains its best contact.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.model import CELL, Grid
+from wallkit.kernels.entering import LATEST, clear, enter, lay_out
+from wallkit.kernels.jit import compiled
+from wallkit.kernels.model import BLOCK, CELL, Block, Grid, Model, in_lists
 from wallkit.scene import FloatArray
 
 IntArray = NDArray[np.int64]
 MARGIN = 2.0**-16
+"""Of the side of a cell: far above the rounding of its border, which is given by a number below 2^30 (2^-23)."""
+ROUNDING = 2.0**-39
+"""Of the largest coordinate, added to the margin: far above the rounding of a position, and four times what a point
+under gravity may be off (``FALLING_TOLERANCE``)."""
+SMALLEST = 2.0**-28
+"""Side of the smallest cells, in parts of the largest coordinate: what ROUNDING adds to them is 2^-11 of their side."""
 SPACING = 0.8
-"""Cell size in units of sqrt(area / edges); measured, flat between 0.5 and 1.2."""
-BOW = 1.0 / 8.0
-"""Arcs are entered in chords that miss them by at most this part of a cell, and by what they miss them."""
+"""Side of the cells before any is divided, in units of sqrt(area / edges); measured, flat between 0.5 and 1.2."""
+CROWDED = 16
+"""A cell with more entries is divided."""
+MOST_BITS = 7
+"""A cell is divided into at most 2^7 by 2^7: more would be empty, mostly."""
+GROWTH, AT_LEAST = 64, 1 << 12
+"""Entries there may be, in all, for each one to be entered, and at the least. Divided cells list long edges over and
+over, and cells around a vertex at which a thousand edges meet are crowded however small they are."""
+COMPILING_PAYS = 4000
+"""Edges and corners that interpreted kernels take as long to enter as compiled ones to be loaded."""
 
 
-class Places(NamedTuple):
-    """What is to be indexed: edges and corners of the model, with the numbers they go by."""
+@dataclass(eq=False)
+class _Level:
+    """Cells of blocks, and the ids that they list; ``divided`` cells are the ``parts`` of the next level."""
 
-    lines: FloatArray
-    """(n, 8) columns of ``Line``."""
-    line_ids: IntArray
-    arcs: FloatArray
-    """(n, 11) columns of ``Arc``."""
-    arc_ids: IntArray
-    corners: FloatArray
-    """(n, 2)."""
-    fans: FloatArray
-    """(n, 2) angle at which the arc around a corner begins, and how far it goes, radians."""
-    corner_ids: IntArray
+    blocks: NDArray[Any]
+    numbers: NDArray[np.int32]
+    """(cells + 1, 4) see ``Cell``."""
+    ids: NDArray[np.uint32]
+    divided: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    parts: NDArray[Any] = field(default_factory=lambda: np.empty(0, dtype=BLOCK))
+
+    def block_of(self, cells: IntArray) -> NDArray[Any]:
+        """Give the block that each cell is in."""
+        return self.blocks[np.searchsorted(self.blocks["first"], cells, side="right") - 1]
 
 
-def build_grid(places: Places, radii: tuple[float, float]) -> tuple[Grid, NDArray[Any], NDArray[np.uint32]]:
+def build_grid(
+    model: Model,
+    fans: NDArray[Any],
+    box: FloatArray,
+    radii: tuple[float, float],
+    extent: float,
+    *,
+    machine_code: bool = False,
+) -> tuple[Grid, NDArray[Any], NDArray[np.uint32]]:
     """Sort edges and corners into cells.
 
     Args:
-        places: what to enter.
+        model: with one cell that lists all there is to enter.
+        fans: ``Fan`` by vertex.
+        box: (2, 2) lowest and highest corner of a box that no edge reaches beyond.
         radii: smallest and largest distance of a centre at a contact.
+        extent: largest absolute coordinate of a centre.
+        machine_code: use compiled kernels for a small scene too; the same cells come of both.
 
     Returns:
         The grid, its cells (``CELL``), and the ids that they list.
     """
-    middle, spread = (radii[0] + radii[1]) / 2, (radii[1] - radii[0]) / 2
-    low, high = _box(places)
-    low, high = low - radii[1], high + radii[1]
-    size = _cell_size(high - low, len(places.lines) + len(places.arcs))
-    low, high = low - size * MARGIN * 4, high + size * MARGIN * 4
-    columns, rows = (int(n) + 1 for n in np.floor((high - low) / size))
-    box = (low, size, columns, rows)
-    reach = spread + size * MARGIN
-    beside, owners = _beside(places.lines, places.line_ids, middle)
-    line_cells, lines = _enter(box, beside, owners, np.full(len(owners), reach))
-    chords, bow, owners = _around_arcs(places.arcs, places.arc_ids, middle, size)
-    arc_cells, arcs = _enter(box, chords, owners, reach + bow)
-    radius = np.full(len(places.corners), middle)
-    chords, bow, owners = _chords(places.corners, places.fans, places.corner_ids, radius, size)
-    corner_cells, corners = _enter(box, chords, owners, reach + bow)
-    counts = np.stack([np.bincount(c, minlength=columns * rows) for c in (line_cells, arc_cells, corner_cells)])
-    taken = counts.sum(axis=0)
-    cells = np.zeros(columns * rows + 1, dtype=CELL)
-    cells["first"][1:] = np.cumsum(taken)
-    cells["arcs"][:-1] = cells["first"][:-1] + counts[0]
-    cells["corners"][:-1] = cells["arcs"][:-1] + counts[1]
-    cells["link"] = 1
-    cells["link"][:-1] = _clearings(taken.reshape(rows, columns) > 0).ravel()
-    order = np.argsort(np.concatenate([line_cells, arc_cells, corner_cells]), kind="stable")
-    ids = np.append(np.concatenate([lines, arcs, corners])[order], 0).astype(np.uint32)
-    return Grid(float(low[0]), float(low[1]), size, 1.0 / size, 0, columns, rows), cells, ids
+    work = _Work(model, fans, radii, extent, machine_code or len(model.ids) > COMPILING_PAYS)
+    finest = SMALLEST * extent
+    level: _Level | None = _first_level(work, model, box)
+    levels = []
+    while level is not None:
+        levels.append(level)
+        level = _next_level(work, level, finest)
+    top = levels[0].blocks[0]
+    unit = min(float(level.blocks["side"].min()) for level in levels)
+    shift = int(math.log2(top["side"] / unit))
+    ids = np.concatenate([*(level.ids for level in levels), np.zeros(1, dtype=np.uint32)])
+    grid = Grid(float(top["x0"]), float(top["y0"]), unit, 1.0 / unit, shift, int(top["columns"]), int(top["rows"]))
+    return grid, _joined(levels), ids
 
 
-def _clearings(taken: NDArray[np.bool_]) -> NDArray[np.int32]:
-    """How many king's moves each cell is from the nearest one that lists something, at least 1."""
-    from scipy.ndimage import distance_transform_cdt
+def _joined(levels: list[_Level]) -> NDArray[Any]:
+    """Put the cells of all levels one after the other, and what divided cells say in place of where ids begin.
 
-    moves: NDArray[np.int32] = np.maximum(distance_transform_cdt(~taken, metric="chessboard"), 1)
-    return moves
+    The ids that a divided cell listed stay where they are: nobody asks for them.
+    """
+    tables, cells, ids = [], 0, 0
+    for level in levels:
+        table = level.numbers[:-1].copy()
+        cells += len(table)
+        table[:, :LATEST] += ids
+        ids += len(level.ids)
+        np.maximum(table[:, LATEST], 1, out=table[:, LATEST])
+        table[level.divided, LATEST] = -(cells + level.parts["first"])
+        table[level.divided, 1] = np.log2(level.parts["columns"]).astype(np.int64)
+        tables.append(table)
+    tables.append(np.array([[ids, ids, ids, 1]], dtype=np.int32))
+    return np.concatenate(tables).view(CELL).reshape(-1)
 
 
-def _box(places: Places) -> tuple[FloatArray, FloatArray]:
-    """Give the lowest and highest coordinates of edges; an arc may bow out as far as its circle."""
-    a, b = places.arcs[:, 0:2], places.arcs[:, 2:4]
-    chord = np.hypot(*(b - a).T)[:, None]
-    radius, wide = places.arcs[:, 8:9], places.arcs[:, 10:11]
-    half = np.sqrt(np.maximum(radius * radius - chord * chord / 4, 0.0))
-    bow = np.where(wide > 0.0, radius + half, chord * chord / (4.0 * np.maximum(radius + half, 1e-300)))
-    ends = np.concatenate([places.lines[:, 0:2], places.lines[:, 2:4], *(p + s * bow for p in (a, b) for s in (1, -1))])
-    return ends.min(axis=0), ends.max(axis=0)
+class _Work:
+    """Kernels, compiled or not, and what they are given in every call."""
+
+    def __init__(
+        self, model: Model, fans: NDArray[Any], radii: tuple[float, float], extent: float, machine_code: bool
+    ) -> None:
+        self.machine_code = machine_code
+        self.budget = GROWTH * len(model.ids) + AT_LEAST
+        self.distance, self._spread = sum(radii) / 2, (radii[1] - radii[0]) / 2
+        self._rounding = extent * ROUNDING
+        shared = model.lines, model.arcs, model.arc_of_edge, model.corners, fans
+        self._shared = shared if machine_code else in_lists(shared)
+
+    def reach(self, side: Any) -> Any:
+        """How far beyond its locus an entry goes."""
+        return self._spread + side * MARGIN + self._rounding
+
+    def count(self, blocks: NDArray[Any], source: NDArray[np.uint32]) -> tuple[Any, IntArray]:
+        """Count entries: (flat numbers of the cells of blocks, entries by block)."""
+        cells = int((blocks["columns"] * blocks["rows"]).sum())
+        numbers: Any = np.zeros(4 * cells + 4, dtype=np.int32)
+        if not self.machine_code:
+            numbers = numbers.tolist()
+        return numbers, self._enter(blocks, source, numbers, self._room(0))
+
+    def fill(self, blocks: NDArray[Any], source: NDArray[np.uint32], numbers: Any, endless: bool) -> _Level:
+        """Write the entries that were counted."""
+        ids = self._room(self._run(lay_out, numbers))
+        self._enter(blocks, source, numbers, ids)
+        self._run(clear, blocks if self.machine_code else in_lists(blocks), numbers, endless)
+        table = np.asarray(numbers, dtype=np.int32).reshape(-1, 4)
+        return _Level(blocks, table, np.asarray(ids, dtype=np.uint32))
+
+    def _enter(self, blocks: NDArray[Any], source: NDArray[np.uint32], numbers: Any, ids: Any) -> IntArray:
+        entered: Any = np.zeros(len(blocks), dtype=np.int64)
+        if not self.machine_code:
+            blocks, source, entered = in_lists((blocks, source, entered))
+        self._run(enter, blocks, source, *self._shared, self.distance, numbers, ids, entered)
+        return np.asarray(entered)
+
+    def _room(self, size: int) -> Any:
+        return np.empty(size, dtype=np.uint32) if self.machine_code else [0] * size
+
+    def _run(self, kernel: Callable[..., Any], *arguments: Any) -> Any:
+        return (compiled(kernel) if self.machine_code else kernel)(*arguments)
 
 
-def _cell_size(extent: FloatArray, count: int) -> float:
-    width, height = float(extent[0]), float(extent[1])
+def _first_level(work: _Work, model: Model, box: FloatArray) -> _Level:
+    """Enter all that the model's one cell lists; where that comes to too many entries, into larger cells."""
+    first, arcs, corners, _link = model.cells[0].tolist()
+    width, height = (box[1] - box[0]).tolist()
+    side = _side(width, height, corners)
+    while True:
+        beyond = work.distance + work.reach(side)
+        low, high = box[0] - beyond, box[1] + beyond
+        columns, rows = (int(n) + 1 for n in np.floor((high - low) / side))
+        span, most = (first, arcs, corners, len(model.ids) - 1), work.budget // 2
+        block = Block(low[0], low[1], side, work.reach(side), columns, rows, 0, *span, most)
+        blocks = np.array([block], dtype=BLOCK)
+        numbers, entered = work.count(blocks, model.ids)
+        if entered[0] <= most:
+            work.budget -= int(entered[0])
+            return work.fill(blocks, model.ids, numbers, endless=True)
+        side *= 2.0
+
+
+def _side(width: float, height: float, count: int) -> float:
     longest = max(width, height)
     return max(SPACING * math.sqrt(width * height / count), longest / (4.0 * count + 64.0), longest * 2.0**-20)
 
 
-def _beside(lines: FloatArray, ids: IntArray, distance: float) -> tuple[FloatArray, IntArray]:
-    """Give the two lines at a distance beside each edge (the edge itself at 0), and whose they are."""
-    if distance == 0.0:
-        return lines[:, 0:4], ids
-    shift = distance * np.tile(lines[:, 4:6], 2)
-    return np.concatenate([lines[:, 0:4] + shift, lines[:, 0:4] - shift]), np.concatenate([ids, ids])
+def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:
+    """Divide the crowded cells of a level, those that it helps, as far as the budget goes; None without any."""
+    counts = np.diff(level.numbers[:, 0])
+    cells = np.flatnonzero(counts > CROWDED)
+    cells = cells[level.block_of(cells)["side"] >= 2.0 * finest]
+    if not len(cells):
+        return None
+    blocks = _parts(work, level, cells, finest)
+    numbers, entered = work.count(blocks, level.ids)
+    growth = np.where(entered > blocks["most"], np.inf, entered / counts[cells])
+    order = np.argsort(growth, kind="stable")
+    fits = np.cumsum(entered[order]) <= work.budget // 2
+    kept = np.sort(order[fits & np.isfinite(growth[order])])
+    if not len(kept):
+        return None
+    if len(kept) < len(cells):
+        blocks = blocks[kept]
+        blocks["first"] = _starts(blocks["columns"] * blocks["rows"])
+        numbers, entered = work.count(blocks, level.ids)
+    work.budget -= int(entered.sum())
+    level.divided, level.parts = cells[kept], blocks
+    return work.fill(blocks, level.ids, numbers, endless=False)
 
 
-def _around_arcs(
-    arcs: FloatArray, ids: IntArray, distance: float, size: float
-) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Cut the arcs at a distance outside and inside each arc into chords, as ``_chords`` does."""
-    centre, radius = arcs[:, 0:2] - arcs[:, 4:6], arcs[:, 8]
-    start, end = np.arctan2(arcs[:, 5], arcs[:, 4]), np.arctan2(arcs[:, 7], arcs[:, 6])
-    fans = np.stack([start, np.remainder(end - start, 2 * np.pi)], axis=1)
-    both = [_chords(centre, fans, ids, np.abs(radius + side), size) for side in (distance, -distance)]
-    chords, bow, owners = (np.concatenate(parts) for parts in zip(*both, strict=True))
-    return chords, bow, owners
+def _parts(work: _Work, level: _Level, cells: IntArray, finest: float) -> NDArray[Any]:
+    """Make a block of each cell, with about as many parts as it has entries."""
+    parents, numbers = level.block_of(cells), level.numbers
+    entries = numbers[cells + 1, 0] - numbers[cells, 0]
+    room = np.floor(np.log2(parents["side"] / finest))
+    bits = np.clip(np.rint(np.log2(entries) / 2), 1, np.minimum(room, MOST_BITS)).astype(np.int64)
+    row, column = np.divmod(cells - parents["first"], parents["columns"])
+    blocks = np.zeros(len(cells), dtype=BLOCK)
+    blocks["x0"], blocks["y0"] = (parents[o] + at * parents["side"] for o, at in (("x0", column), ("y0", row)))
+    blocks["side"] = np.ldexp(parents["side"], -bits)
+    blocks["reach"] = work.reach(blocks["side"])
+    blocks["columns"] = blocks["rows"] = 1 << bits
+    blocks["first"] = _starts(1 << 2 * bits)
+    for part, name in enumerate(("start", "arcs", "corners")):
+        blocks[name] = numbers[cells, part]
+    blocks["end"] = numbers[cells + 1, 0]
+    blocks["most"] = 2 * entries << bits
+    return blocks
 
 
-def _chords(
-    centres: FloatArray, fans: FloatArray, ids: IntArray, radius: FloatArray, size: float
-) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Cut arcs into chords: (chords, how far each arc bows out, whose they are)."""
-    piece = 2.0 * np.arccos(np.clip(1.0 - BOW * size / np.maximum(radius, 1e-300), 0.0, 1.0))
-    pieces = np.maximum(np.ceil(fans[:, 1] / np.maximum(piece, 2.0**-20)), 1).astype(np.int64)
-    which, number = spread(np.zeros_like(pieces), pieces - 1)
-    angle = fans[which, 1] / pieces[which]
-    start = fans[which, 0] + number * angle
-    centre, size_of = centres[which], radius[which][:, None]
-    a = centre + size_of * np.stack([np.cos(start), np.sin(start)], axis=1)
-    b = centre + size_of * np.stack([np.cos(start + angle), np.sin(start + angle)], axis=1)
-    return np.hstack([a, b]), radius[which] * (1.0 - np.cos(angle / 2)), ids[which]
-
-
-def _enter(
-    box: tuple[FloatArray, float, int, int], lines: FloatArray, owners: IntArray, reach: FloatArray
-) -> tuple[NDArray[np.uint64], IntArray]:
-    """Enter lines into cells: (start of each cell, owners by cell, each once)."""
-    cells, which = _cells_of_lines(box, lines, reach)
-    many = int(owners.max(initial=0)) + 1
-    keys = np.sort(cells * many + owners[which])
-    keys = keys[np.diff(keys, prepend=-1) > 0]
-    return keys // many, keys % many
-
-
-def _cells_of_lines(
-    box: tuple[FloatArray, float, int, int], lines: FloatArray, reach: FloatArray
-) -> tuple[IntArray, IntArray]:
-    """List (cell, line) pairs: column by column, the rows that the line and what is within reach of it cover."""
-    low, size, columns, rows = box
-    ax, ay, bx, by = lines[:, 0], lines[:, 1], lines[:, 2], lines[:, 3]
-    first = _place(np.minimum(ax, bx) - reach - low[0], size, columns)
-    last = _place(np.maximum(ax, bx) + reach - low[0], size, columns)
-    line, column = spread(first, last)
-    ax, ay, bx, by, reach = ax[line], ay[line], bx[line], by[line], reach[line]
-    cell_left = low[0] + column * size - reach
-    cell_right = low[0] + (column + 1) * size + reach
-    flat = bx != ax
-    slope = np.divide(by - ay, bx - ax, out=np.zeros_like(ax), where=flat)
-    at_left, at_right = ay + (cell_left - ax) * slope, ay + (cell_right - ax) * slope
-    low_y, high_y = np.minimum(ay, by), np.maximum(ay, by)
-    bottom = np.where(flat, np.clip(np.minimum(at_left, at_right), low_y, high_y), low_y)
-    top = np.where(flat, np.clip(np.maximum(at_left, at_right), low_y, high_y), high_y)
-    first, last = _place(bottom - reach - low[1], size, rows), _place(top + reach - low[1], size, rows)
-    pair, row = spread(first, last)
-    return row * columns + column[pair], line[pair]
-
-
-def _place(offset: FloatArray, size: float, count: int) -> IntArray:
-    return np.clip(np.floor(offset / size), 0, count - 1).astype(np.int64)
-
-
-def spread(first: IntArray, last: IntArray) -> tuple[IntArray, IntArray]:
-    """Give for each range all its numbers: (which range, number)."""
-    counts = last - first + 1
-    which = np.repeat(np.arange(len(first)), counts)
-    start = np.cumsum(counts) - counts
-    return which, np.arange(len(which)) - start[which] + first[which]
+def _starts(sizes: IntArray) -> IntArray:
+    starts: IntArray = np.cumsum(sizes) - sizes
+    return starts

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.damping import damping_of
-from wallkit.indexing import Places, build_grid
-from wallkit.kernels.model import ARC, CELL, CORNER, LINE, Arc, Cell, Corner, Line, Model
+from wallkit.indexing import build_grid
+from wallkit.kernels.model import ARC, CELL, CORNER, FAN, LINE, Corner, Fan, Line, Model, in_lists
 from wallkit.scene import FloatArray, Scene, SceneError
 from wallkit.walls import Walls
 
@@ -21,6 +21,8 @@ FLAT = 2.0**-44
 """An arc with a smaller bulge is its chord, to rounding."""
 BRUTE_FORCE = 16
 """Up to this many edges looking at all of them beats any index."""
+
+_NO_CORNERS = np.empty((0, len(Fan._fields))), np.empty((0, len(Corner._fields)))
 
 
 class Modelled:
@@ -33,19 +35,62 @@ class Modelled:
         box: (x_min, y_min, x_max, y_max) that no wall reaches beyond, in the scene's coordinates.
     """
 
-    def __init__(self, scene: Scene, *, index: str = "auto") -> None:
+    def __init__(self, scene: Scene, *, index: str = "auto", machine_code: bool = False) -> None:
+        """Model a scene.
+
+        Args:
+            scene: walls, balls, and what acts.
+            index: ``"grid"``, ``"none"``, or ``"auto"``: a grid where there are many edges.
+            machine_code: whether flights will be compiled anyway; then the index is made by compiled kernels too.
+        """
         self.box = _box(scene.walls)
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
         self.origin = local_origin(scene.walls.vertices)
-        least = float(self.radii.min()) if len(self.radii) else 0.0
-        self.model = _model(scene, self.origin, least, float(self.radii.max(initial=0.0)), index)
+        self.model = self._made(scene, index, machine_code)
         self._lists: Model | None = None
+
+    def _made(self, scene: Scene, index: str, machine_code: bool) -> Model:
+        walls, radius = scene.walls, float(self.radii.max(initial=0.0))
+        vertices, starts, ends = walls.vertices - self.origin, walls.edge_starts, walls.edge_ends
+        lines, bulges = _lines(vertices[starts], vertices[ends]), walls.bulges[starts]
+        arcs, arc_of_edge = _arcs(lines, bulges)
+        fans, corners = _fans(vertices, lines, bulges, starts, ends) if radius > 0.0 else _NO_CORNERS
+        kinds = _ids(lines, arc_of_edge, fans)
+        ids = np.concatenate([*kinds, np.zeros(1, dtype=np.uint32)])
+        model = Model(
+            ids=ids,
+            cells=_one_cell(*map(len, kinds)),
+            grid=None,
+            lines=_records(lines, LINE),
+            arcs=_records(arcs, ARC) if len(arcs) else None,
+            arc_of_edge=arc_of_edge,
+            corners=_records(corners, CORNER),
+            edge_wall=np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)),
+            corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)),
+            restitution=_restitution(scene),
+            one_sided=_one_sided(scene),
+            gravity=_gravity(scene),
+            damping=damping_of(scene),
+            extent=float(np.abs(vertices).max(initial=0.0)) + radius,
+        )
+        many = len(kinds[0]) + len(kinds[1]) > BRUTE_FORCE
+        if index != "grid" and not (index == "auto" and many):
+            return model
+        least = float(self.radii.min(initial=radius))
+        if model.one_sided is not None:
+            least = 0.0  # a disc may stand across a wall that it came through
+        farthest = float(np.abs(np.asarray(scene.balls.position) - self.origin).max(initial=model.extent))
+        box = np.array(self.box).reshape(2, 2) - self.origin
+        grid, cells, ids = build_grid(
+            model, _records(fans, FAN), box, (least, radius), farthest, machine_code=machine_code
+        )
+        return model._replace(ids=ids, cells=cells, grid=grid)
 
     @property
     def lists(self) -> Model:
         """The model with lists of Python floats for arrays: several times faster to interpret."""
         if self._lists is None:
-            self._lists = _as_lists(self.model)
+            self._lists = in_lists(self.model)
         return self._lists
 
     def index_of_edge(self, scene: Scene) -> tuple[IntArray, IntArray]:
@@ -85,52 +130,23 @@ def local_origin(vertices: FloatArray) -> FloatArray:
     return origin if not np.any(lost) and np.array_equal(local + origin, vertices) else np.zeros(2)
 
 
-def _model(scene: Scene, origin: FloatArray, least: float, radius: float, index: str) -> Model:
-    walls = scene.walls
-    vertices = walls.vertices - origin
-    lines = _lines(vertices[walls.edge_starts], vertices[walls.edge_ends])
-    arcs, arc_of_edge, angles = _arcs(lines, walls.bulges[walls.edge_starts])
-    wall_of_edge = np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)).astype(np.int64)
-    line_ids = np.flatnonzero((lines[:, 6] > 0.0) & (arc_of_edge < 0)).astype(np.int64)
-    arc_ids = np.flatnonzero(arc_of_edge >= 0).astype(np.int64)
-    fans, corners = _fans(walls, vertices, lines, angles)
-    corner_ids = np.flatnonzero(fans[:, 1] > SMOOTH).astype(np.int64) if radius > 0.0 else np.empty(0, np.int64)
-    one_sided = _one_sided(scene)
-    grid, cells, ids = None, *_one_cell(line_ids, arc_ids, corner_ids)
-    if index == "grid" or (index == "auto" and len(line_ids) + len(arc_ids) > BRUTE_FORCE):
-        least = 0.0 if one_sided is not None else least  # a disc may stand across a wall that it came through
-        places = Places(
-            lines[line_ids], line_ids, arcs, arc_ids, corners[corner_ids, 0:2], fans[corner_ids], corner_ids
-        )
-        grid, cells, ids = build_grid(places, (least, radius))
-    line_records, arc_records, corner_records = _records(lines, LINE), _records(arcs, ARC), _records(corners, CORNER)
-    return Model(
-        ids=ids,
-        cells=cells,
-        grid=grid,
-        lines=line_records,
-        arcs=arc_records if len(arcs) else None,
-        arc_of_edge=arc_of_edge,
-        corners=corner_records,
-        edge_wall=wall_of_edge,
-        corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)).astype(np.int64),
-        restitution=_restitution(scene),
-        one_sided=one_sided,
-        gravity=_gravity(scene),
-        damping=damping_of(scene),
-        extent=float(np.abs(vertices).max(initial=0.0)) + radius,
-    )
+def _ids(lines: FloatArray, arc_of_edge: IntArray, fans: FloatArray) -> list[NDArray[np.uint32]]:
+    """Give edges that are lines, edges that are arcs, and vertices at which a disc can touch."""
+    opened = (fans[:, 0] != fans[:, 2]) | (fans[:, 1] != fans[:, 3]) | (fans[:, 4] != 0.0)
+    return [
+        np.flatnonzero(which).astype(np.uint32)
+        for which in ((lines[:, 6] > 0.0) & (arc_of_edge < 0), arc_of_edge >= 0, opened)
+    ]
 
 
-def _one_cell(lines: IntArray, arcs: IntArray, corners: IntArray) -> tuple[NDArray[Any], NDArray[np.uint32]]:
-    """List everything in one cell: (cells, ids)."""
-    ids = np.concatenate([lines, arcs, corners, [0]]).astype(np.uint32)
-    end = len(ids) - 1
-    return np.array([(0, len(lines), end - len(corners), 1), (end, end, end, 1)], dtype=CELL), ids
+def _one_cell(lines: int, arcs: int, corners: int) -> NDArray[Any]:
+    """List everything in one cell."""
+    end = lines + arcs + corners
+    return np.array([(0, lines, lines + arcs, 1), (end, end, end, 1)], dtype=CELL)
 
 
-def _arcs(lines: FloatArray, bulges: FloatArray) -> tuple[FloatArray, IntArray, FloatArray]:
-    """Make arcs of edges with a bulge: (columns of ``Arc``, number of each edge's arc or -1, angle of each edge).
+def _arcs(lines: FloatArray, bulges: FloatArray) -> tuple[FloatArray, IntArray]:
+    """Make arcs of edges with a bulge: (columns of ``Arc``, number of each edge's arc or -1).
 
     With chord d, its left normal m and bulge b = tan(angle / 4) the centre lies at (a + b) / 2 + m d (1 - b^2) / (4 b)
     and R = d (1 + b^2) / (4 |b|) (as in DXF). An arc that bows less than 2^-44 of its chord is the chord.
@@ -138,7 +154,6 @@ def _arcs(lines: FloatArray, bulges: FloatArray) -> tuple[FloatArray, IntArray, 
     length = lines[:, 6]
     is_arc = (np.abs(bulges) > FLAT) & (length > 0.0)
     number = np.where(is_arc, np.cumsum(is_arc) - 1, -1).astype(np.int64)
-    angles = np.where(is_arc, 4.0 * np.arctan(bulges), 0.0)
     chord, b = lines[is_arc], bulges[is_arc]
     start, end = chord[:, 0:2], chord[:, 2:4]
     off = (chord[:, 6] * (1.0 - b * b) / (4.0 * b))[:, None]
@@ -154,7 +169,7 @@ def _arcs(lines: FloatArray, bulges: FloatArray) -> tuple[FloatArray, IntArray, 
         np.sign(b)[:, None],
         (np.abs(b) > 1.0)[:, None].astype(np.float64),
     ]
-    return np.hstack(columns), number, angles
+    return np.hstack(columns), number
 
 
 def _lines(start: FloatArray, end: FloatArray) -> FloatArray:
@@ -169,30 +184,43 @@ def _lines(start: FloatArray, end: FloatArray) -> FloatArray:
     return lines
 
 
-def _fans(walls: Walls, vertices: FloatArray, lines: FloatArray, angles: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give for each vertex where a disc can touch it: the angles between the normals of its edges, (start, how far).
+def _fans(
+    vertices: FloatArray, lines: FloatArray, bulges: FloatArray, starts: IntArray, ends: IntArray
+) -> tuple[FloatArray, FloatArray]:
+    """Give for each vertex where a disc can touch it: from one normal of its edges to the other.
 
     Where the wall turns left the fan opens to its right, and the other way round; a free end has half a circle, a
-    vertex at an edge without length a whole one.
+    vertex at an edge without length all of it, a smooth one nothing (from the same direction to the same).
 
     Returns:
-        The fans (V, 2), and columns of ``Corner``.
+        Columns of ``Fan`` (V, 5), and of ``Corner`` (V, 4).
     """
-    count = len(vertices)
-    chord = np.arctan2(lines[:, 4], -lines[:, 5])
-    arriving, leaving = np.full(count, np.nan), np.full(count, np.nan)
-    arriving[walls.edge_ends], leaving[walls.edge_starts] = chord + angles / 2, chord - angles / 2
-    end, start = np.isnan(leaving), np.isnan(arriving)
-    turn = np.remainder(leaving - arriving + np.pi, 2 * np.pi) - np.pi
-    right = np.where(turn >= 0.0, arriving - np.pi / 2, leaving + np.pi / 2)
-    first = np.where(end, arriving - np.pi / 2, np.where(start, leaving + np.pi / 2, right))
-    span = np.where(end | start, np.pi, np.abs(turn))
-    bare = np.zeros(count, dtype=np.bool_)
+    arriving, leaving = np.zeros((2, len(vertices), 2))
+    arriving[ends], leaving[starts] = _end_normals(lines, bulges)
+    corners = np.hstack([vertices, arriving + leaving])
+    first, last = np.ones((2, len(vertices)), dtype=np.bool_)
+    first[ends], last[starts] = False, False
+    arriving[first], leaving[last] = -leaving[first], -arriving[last]
+    cross = arriving[:, 0] * leaving[:, 1] - arriving[:, 1] * leaving[:, 0]
+    dot = arriving[:, 0] * leaving[:, 0] + arriving[:, 1] * leaving[:, 1]
+    left, smooth = (cross >= 0.0)[:, None], (np.abs(cross) <= SMOOTH) & (dot > 0.0)
+    fans = np.zeros((len(vertices), len(Fan._fields)))
+    fans[:, 0:2], fans[:, 2:4] = np.where(left, arriving, -leaving), np.where(left, leaving, -arriving)
+    fans[smooth] = 1.0, 0.0, 1.0, 0.0, 0.0
     none = lines[:, 6] == 0.0
-    bare[walls.edge_starts[none]] = bare[walls.edge_ends[none]] = True
-    fans = np.stack([np.where(bare, 0.0, first), np.where(bare, 2 * np.pi, span)], axis=1)
-    outward = [np.where(np.isnan(a), 0.0, f(np.nan_to_num(a))) for f in (np.sin, np.cos) for a in (arriving, leaving)]
-    return fans, np.stack([vertices[:, 0], vertices[:, 1], outward[0] + outward[1], -outward[2] - outward[3]], axis=1)
+    fans[np.concatenate([starts[none], ends[none]])] = 1.0, 0.0, 1.0, 0.0, 1.0
+    return fans, corners
+
+
+def _end_normals(lines: FloatArray, bulges: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give the outward normals at the end and at the start of each edge: an arc's are its chord's, turned."""
+    normals = lines[:, 4:6]
+    if not bulges.any():
+        return normals, normals
+    b = np.where(np.abs(bulges) > FLAT, bulges, 0.0)[:, None]  # tan of half the angle between arc and chord
+    along, across = (1.0 - b * b) / (1.0 + b * b) * normals, 2.0 * b / (1.0 + b * b) * normals
+    turned = np.stack([-across[:, 1], across[:, 0]], axis=1)
+    return along + turned, along - turned
 
 
 def _restitution(scene: Scene) -> FloatArray | None:
@@ -221,17 +249,3 @@ def _one_sided(scene: Scene) -> IntArray | None:
 
 def _records(columns: FloatArray, dtype: np.dtype[Any]) -> NDArray[Any]:
     return np.ascontiguousarray(columns).view(dtype).reshape(-1)
-
-
-def _as_lists(model: Model) -> Model:
-    def convert(value: Any) -> Any:
-        if isinstance(value, np.ndarray):
-            if value.dtype.names is not None:
-                record: Any = {LINE: Line, ARC: Arc, CORNER: Corner, CELL: Cell}[value.dtype]
-                return list(map(record._make, value.tolist()))
-            return value.tolist()
-        if isinstance(value, tuple):
-            return type(value)(*(convert(item) for item in value))
-        return value
-
-    return convert(model)  # type: ignore[no-any-return]

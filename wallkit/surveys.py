@@ -72,7 +72,7 @@ def prepare(scene: Scene, *, check: bool = True) -> Prepared:
     Raises:
         SceneError: the scene cannot be simulated.
     """
-    modelled = Modelled(scene)
+    modelled = Modelled(scene, machine_code=True)
     if check and not _surely_clear(scene, modelled):
         check_starts(scene)
     order = None if modelled.model.grid is None else _neighbours_together(np.asarray(scene.balls.position))

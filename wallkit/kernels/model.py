@@ -92,10 +92,57 @@ class Cell(NamedTuple):
     link: int
 
 
+class Fan(NamedTuple):
+    """The directions in which a disc can touch a vertex: from u counter-clockwise to w; ``wide`` is 1 for all."""
+
+    ux: float
+    uy: float
+    wx: float
+    wy: float
+    wide: float
+
+
+class Block(NamedTuple):
+    """Square cells, row by row from the cell ``first`` on, and what is to be entered in them.
+
+    That is ids from ``start`` to ``end``: lines, then arcs (from ``arcs`` on), then corners (from ``corners`` on).
+    """
+
+    x0: float
+    y0: float
+    side: float
+    reach: float
+    """So much to each side is entered too."""
+    columns: int
+    rows: int
+    first: int
+    start: int
+    arcs: int
+    corners: int
+    end: int
+    most: int
+    """Entries it may come to; with more it is given up."""
+
+
 LINE = np.dtype([(name, np.float64) for name in Line._fields])
 ARC = np.dtype([(name, np.float64) for name in Arc._fields])
 CORNER = np.dtype([(name, np.float64) for name in Corner._fields])
 CELL = np.dtype([("first", np.uint32), ("arcs", np.uint32), ("corners", np.uint32), ("link", np.int32)])
+FAN = np.dtype([(name, np.float64) for name in Fan._fields])
+BLOCK = np.dtype([(name, np.float64 if place < 4 else np.int64) for place, name in enumerate(Block._fields)])
+_RECORDS: dict[Any, Any] = {LINE: Line, ARC: Arc, CORNER: Corner, CELL: Cell, FAN: Fan, BLOCK: Block}
+
+
+def in_lists(value: Any) -> Any:
+    """Give lists of Python floats, and of named tuples, for arrays: several times faster to interpret."""
+    if isinstance(value, np.ndarray):
+        if value.dtype.names is None:
+            return value.tolist()
+        return list(map(_RECORDS[value.dtype]._make, value.tolist()))
+    if isinstance(value, tuple):
+        items = (in_lists(item) for item in value)
+        return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
+    return value
 
 
 class Grid(NamedTuple):

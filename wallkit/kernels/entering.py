@@ -1,0 +1,213 @@
+"""Which cells an edge or a corner goes into: those crossed by the places of a centre at a contact, widened.
+
+The places are two lines beside an edge, two arcs beside an arc, and the arc around a corner. Arcs are cut into chords.
+Entries are written into flat numbers, four a cell as in ``Cell``, twice: first they are only counted, then, when
+``lay_out`` has made places of the counts, the ids are written too. So nothing is sorted, and ids come cell by cell in
+the order in which they are given.
+"""
+
+from __future__ import annotations
+
+import math
+
+from wallkit.kernels.jit import kernel, rare_kernel
+
+BOW = 1.0 / 8.0
+"""Chords miss their arc by at most this part of a cell, and what they miss it by widens them."""
+MOST_CHORDS = 1024
+"""Of a part of an arc; in cells so small that they bow more, they are the wider."""
+OF_LINES, OF_ARCS, OF_CORNERS = 1, 2, 4
+"""Where in a cell's numbers the entries of a kind are counted. When all are written each of them has come to the end of
+its kind, which is where the next one begins: ``arcs``, ``corners``, and ``first`` of the next cell."""
+LATEST = 3
+"""Where in a cell's numbers the latest entry stands, so that none is entered twice; later its ``link``."""
+
+
+@kernel
+def enter(blocks, source, lines, arcs, arc_of_edge, corners, fans, distance, numbers, ids, entered):
+    """Enter edges and corners into the cells of blocks; with no ``ids`` they are only counted.
+
+    Blocks speak of ids of ``source``; lines, arcs, their numbers and corners are those of ``Model``, and ``fans`` has
+    a ``Fan`` for each vertex. ``distance`` is that of a centre at a contact. Written are ``numbers``, four a cell and
+    four more at the end, ``ids``, and how many are ``entered`` by block: more than ``most`` where it was given up.
+    """
+    for b in range(len(blocks)):
+        block = blocks[b]
+        count = 0
+        for k in range(block.start, block.end):
+            if count > block.most:
+                break
+            if k < block.arcs:
+                count += _enter_line(block, lines[source[k]], distance, k, source[k], numbers, ids)
+            elif k >= block.corners:
+                corner, fan = corners[source[k]], fans[source[k]]
+                count += _arc(block, corner.x, corner.y, distance, fan.ux, fan.uy, fan.wx, fan.wy, fan.wide,
+                              OF_CORNERS, k, source[k], numbers, ids)  # fmt: skip
+            elif arcs is not None:
+                count += _enter_arc(block, arcs[arc_of_edge[source[k]]], distance, k, source[k], numbers, ids)
+        entered[b] = count
+
+
+@kernel
+def _enter_line(block, line, distance, item, entry, numbers, ids):
+    """Enter the lines at a distance beside an edge; the functions below give how many cells were new to it."""
+    sx, sy = distance * line.nx, distance * line.ny
+    count = _line(block, line.ax + sx, line.ay + sy, line.bx + sx, line.by + sy, block.reach,
+                  OF_LINES, item, entry, numbers, ids)  # fmt: skip
+    if distance > 0.0:
+        count += _line(block, line.ax - sx, line.ay - sy, line.bx - sx, line.by - sy, block.reach,
+                       OF_LINES, item, entry, numbers, ids)  # fmt: skip
+    return count
+
+
+@kernel
+def _enter_arc(block, arc, distance, item, entry, numbers, ids):
+    """Enter the arcs at a distance outside and inside an arc."""
+    x, y, per = arc.ax - arc.sx, arc.ay - arc.sy, 1.0 / arc.radius
+    ux, uy, wx, wy = arc.sx * per, arc.sy * per, arc.fx * per, arc.fy * per
+    count = _arc(block, x, y, arc.radius + distance, ux, uy, wx, wy, arc.wide, OF_ARCS, item, entry, numbers, ids)
+    if distance > 0.0:
+        count += _arc(block, x, y, arc.radius - distance, ux, uy, wx, wy, arc.wide, OF_ARCS, item, entry, numbers, ids)
+    return count
+
+
+@rare_kernel
+def _arc(block, x, y, radius, ux, uy, wx, wy, wide, kind, item, entry, numbers, ids):
+    """Enter an arc about (x, y), from the direction u counter-clockwise to w, in parts of less than 120 degrees."""
+    if wide == 0.0 and ux * wx + uy * wy > -0.5:
+        return _chords(block, x, y, radius, ux, uy, wx, wy, kind, item, entry, numbers, ids)
+    mx, my = _half_way(ux, uy, wx, wy, wide)
+    if wide == 0.0:
+        count = _chords(block, x, y, radius, ux, uy, mx, my, kind, item, entry, numbers, ids)
+        return count + _chords(block, x, y, radius, mx, my, wx, wy, kind, item, entry, numbers, ids)
+    hx, hy = _half_way(ux, uy, mx, my, 0.0)
+    count = _chords(block, x, y, radius, ux, uy, hx, hy, kind, item, entry, numbers, ids)
+    count += _chords(block, x, y, radius, hx, hy, mx, my, kind, item, entry, numbers, ids)
+    hx, hy = _half_way(mx, my, wx, wy, 0.0)
+    count += _chords(block, x, y, radius, mx, my, hx, hy, kind, item, entry, numbers, ids)
+    return count + _chords(block, x, y, radius, hx, hy, wx, wy, kind, item, entry, numbers, ids)
+
+
+@kernel
+def _half_way(ux, uy, wx, wy, wide):
+    """Direction half way from u counter-clockwise to w: along their sum, or beside their difference."""
+    if ux * wx + uy * wy <= 0.0:
+        mx, my = wy - uy, ux - wx
+    else:
+        mx, my = ux + wx, uy + wy
+        if wide != 0.0:
+            mx, my = -mx, -my
+    length = math.sqrt(mx * mx + my * my)
+    return mx / length, my / length
+
+
+@rare_kernel
+def _chords(block, x, y, radius, ux, uy, wx, wy, kind, item, entry, numbers, ids):
+    """Enter an arc of less than 120 degrees in chords: halved until they bow little enough, then turned on and on.
+
+    Cosines and sines of halves need square roots alone, which are the same everywhere. Turning on gathers up to two
+    roundings a chord, and the centre of a flat arc is far away: both are parts of the radius, and widen the chords.
+    """
+    cosine, sine = min(ux * wx + uy * wy, 1.0), ux * wy - uy * wx
+    half = math.sqrt(0.5 + 0.5 * cosine)
+    size = abs(radius)
+    bow = size * (0.5 - 0.5 * cosine) / (1.0 + half)
+    count = 1
+    while bow > BOW * block.side and count < MOST_CHORDS:
+        cosine, sine, count = half, sine / (2.0 * half), 2 * count
+        half = math.sqrt(0.5 + 0.5 * cosine)
+        bow = size * (0.5 - 0.5 * cosine) / (1.0 + half)
+    reach = block.reach + bow + size * (count + 1) * 2.0**-51
+    ax, ay, entries = x + radius * ux, y + radius * uy, 0
+    for _chord in range(count):
+        ux, uy = ux * cosine - uy * sine, ux * sine + uy * cosine
+        bx, by = x + radius * ux, y + radius * uy
+        entries += _line(block, ax, ay, bx, by, reach, kind, item, entry, numbers, ids)
+        ax, ay = bx, by
+    return entries
+
+
+@rare_kernel
+def _line(block, ax, ay, bx, by, reach, kind, item, entry, numbers, ids):
+    """Enter a line, and all within reach of it along x and y: column by column, the rows that it covers there."""
+    per_side = 1.0 / block.side
+    ax, ay, bx, by, reach = (
+        (ax - block.x0) * per_side, (ay - block.y0) * per_side,
+        (bx - block.x0) * per_side, (by - block.y0) * per_side, reach * per_side,
+    )  # fmt: skip
+    left, right, low, high = min(ax, bx) - reach, max(ax, bx) + reach, min(ay, by), max(ay, by)
+    if right < 0.0 or left >= block.columns or high + reach < 0.0 or low - reach >= block.rows:
+        return 0
+    count = 0
+    first, last = int(max(left, 0.0)), int(min(right, block.columns - 0.5))
+    slope = (by - ay) / (bx - ax) if bx != ax else 0.0
+    for column in range(first, last + 1):
+        bottom, top = low, high
+        if first < last and bx != ax:
+            here, there = ay + (column - reach - ax) * slope, ay + (column + 1 + reach - ax) * slope
+            bottom, top = max(low, min(here, there, high)), min(high, max(here, there, low))
+        bottom, top = bottom - reach, top + reach
+        if top < 0.0 or bottom >= block.rows:
+            continue
+        cell = block.first + column + block.columns * int(max(bottom, 0.0))
+        for _row in range(int(min(top, block.rows - 0.5)) - int(max(bottom, 0.0)) + 1):
+            at = 4 * cell
+            cell += block.columns
+            if numbers[at + LATEST] == item + 1:
+                continue
+            numbers[at + LATEST] = item + 1
+            if len(ids) > 0:
+                ids[numbers[at + kind]] = entry
+            numbers[at + kind] += 1
+            count += 1
+    return count
+
+
+@kernel
+def lay_out(numbers):
+    """Make of the counts of each cell where its entries of each kind begin; give how many there are in all."""
+    total = 0
+    for at in range(0, len(numbers) - 4, 4):
+        lines, arcs, corners = numbers[at + OF_LINES], numbers[at + OF_ARCS], numbers[at + OF_CORNERS]
+        numbers[at + OF_LINES] = total
+        numbers[at + OF_ARCS] = total + lines
+        numbers[at + OF_CORNERS] = total + lines + arcs
+        numbers[at + LATEST] = 0
+        total += int(lines) + int(arcs) + int(corners)
+    return total
+
+
+@kernel
+def clear(blocks, numbers, endless):
+    """Link each cell that lists nothing to the nearest one that does: how many king's moves it is away, at least 1.
+
+    Two passes over each block, forth and back, as for any distance of moves. What lies around a block is not known and
+    counts as listing something, unless the block is ``endless``: there is nothing beyond the whole grid.
+    """
+    for b in range(len(blocks)):
+        block = blocks[b]
+        columns, rows, outside = block.columns, block.rows, 1 << 30 if endless else 0
+        for row in range(rows):
+            for column in range(columns):
+                at = 4 * (block.first + row * columns + column)
+                moves = 0
+                if numbers[at + 4] == numbers[at]:
+                    back, below = numbers[at - 4 + LATEST] if column > 0 else outside, outside
+                    if row > 0:
+                        below = numbers[at - 4 * columns + LATEST]
+                        below = min(below, numbers[at - 4 * columns - 4 + LATEST] if column > 0 else outside)
+                        below = min(below, numbers[at - 4 * columns + 4 + LATEST] if column < columns - 1 else outside)
+                    moves = min(back, below) + 1
+                numbers[at + LATEST] = moves
+        for row in range(rows - 1, -1, -1):
+            for column in range(columns - 1, -1, -1):
+                at = 4 * (block.first + row * columns + column)
+                moves = numbers[at + LATEST]
+                if moves > 1:
+                    ahead, above = numbers[at + 4 + LATEST] if column < columns - 1 else outside, outside
+                    if row < rows - 1:
+                        above = numbers[at + 4 * columns + LATEST]
+                        above = min(above, numbers[at + 4 * columns - 4 + LATEST] if column > 0 else outside)
+                        above = min(above, numbers[at + 4 * columns + 4 + LATEST] if column < columns - 1 else outside)
+                    moves = min(moves, min(ahead, above) + 1)
+                numbers[at + LATEST] = moves
