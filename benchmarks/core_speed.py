@@ -1,17 +1,23 @@
 """Speed of the bounce core beside a plain event loop in C (``events.c``), both on one thread, in one run.
 
     python benchmarks/core_speed.py [scene ...]
+    python benchmarks/core_speed.py --threads [scene ...]
 
 Each scene has 10,000 balls at 50 units/s for 20 s, discs of radius 5 and points. The C loop asks every edge each time:
 it is a yardstick for box, star and wedge; with many edges it only shows what an index is worth (fewer balls there).
 It knows one vertex an edge, so closed outlines only: in the maze discs would sink in at free ends and never get out.
 Compiling is not counted. The first figure and ratio are of a prepared scene (``wallkit.prepare``), "whole" counts
 preparing and the look for overlaps at the start in each survey.
+
+With ``--threads`` there is no C: one thread against one a core, by the clock on the wall, of a prepared scene, for 20 s
+and for 200 s (a tenth of the balls with an index). The best of some thirty turns each, taken in turn: other work on the
+machine disturbs two threads more than one.
 """
 
 from __future__ import annotations
 
 import math
+import os
 import shutil
 import subprocess
 import sys
@@ -96,8 +102,39 @@ def in_wallkit(scene):
     return best, totals.bounces.sum()
 
 
-def main():
-    names = sys.argv[1:] or ["box", "star", "wedge", "curve1000", "curve10000", "maze10k"]
+def by_the_wall(scene, until, threads):
+    """Seconds of a survey."""
+    began = time.perf_counter()
+    wallkit.survey(scene, until=until, threads=threads)
+    return time.perf_counter() - began
+
+
+def compare_threads(names):
+    cores = os.cpu_count()
+    for name, radius, walls, position, velocity in cases(names):
+        fewer = len(position) if len(walls.edge_starts) < 100 else len(position) // 10
+        for until, count in ((SECONDS, len(position)), (10 * SECONDS, fewer)):
+            scene = wallkit.prepare(wallkit.Scene(walls, wallkit.Balls(position[:count], velocity[:count], radius)))
+            wallkit.survey(scene, until=0.1)
+            turns = [(by_the_wall(scene, until, 1), by_the_wall(scene, until, cores)) for _ in range(30)]
+            one, many = (1e3 * min(times) for times in zip(*turns, strict=True))
+            print(
+                f"{name:11s} r = {radius:g}  {count} balls, {until:g} s: 1 thread {one:.2f} ms, "
+                f"{cores} threads {many:.2f} ms, ratio {one / many:.2f}",
+                flush=True,
+            )
+
+
+def cases(names):
+    for name in names or ["box", "star", "wedge", "curve1000", "curve10000", "maze10k"]:
+        lines = rings(name)
+        walls = wallkit.Walls.from_polylines(lines, closed=[True] + [False] * (len(lines) - 1))
+        for radius in (5.0, 0.0):
+            position, velocity = starts(lines, radius if name != "wedge" else 5.0, 10_000)
+            yield name, radius, walls, position, velocity
+
+
+def compare_with_c(names):
     compiler = shutil.which("cc") or shutil.which("gcc")
     with tempfile.TemporaryDirectory() as folder:
         program = str(Path(folder) / "events")
@@ -105,26 +142,26 @@ def main():
             source = str(Path(__file__).with_name("events.c"))
             flags = ["-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math"]
             subprocess.run([compiler, *flags, source, "-o", program, "-lm"], check=True)
-        for name in names:
-            lines = rings(name)
-            closed = [True] + [False] * (len(lines) - 1)
-            walls = wallkit.Walls.from_polylines(lines, closed=closed)
-            for radius in (5.0, 0.0):
-                count = 10_000
-                position, velocity = starts(lines, radius if name != "wedge" else 5.0, count)
-                scene = wallkit.Scene(walls, wallkit.Balls(position, velocity, radius))
-                few = wallkit.Scene(walls, wallkit.Balls(position[:600], velocity[:600], radius))
-                wallkit.survey(few, until=0.1, threads=1)
-                whole, bounces = in_wallkit(scene)
-                best, bounces = in_wallkit(wallkit.prepare(scene))
-                beside = ""
-                if compiler and len(lines) == 1:
-                    some = count if len(walls.edge_starts) < 100 else 100
-                    plain, theirs = in_c(program, lines, position[:some], velocity[:some], radius)
-                    ratios = f"ratio {best / plain:.2f}, whole {whole / plain:.2f}"
-                    beside = f"   C {plain / 1e6:8.3f} M/s ({theirs} bounces)   {ratios}"
-                ours = f"{best / 1e6:7.2f} M bounces/s, whole {whole / 1e6:7.2f}"
-                print(f"{name:11s} r = {radius:g}  {ours} ({bounces}){beside}", flush=True)
+        for name, radius, walls, position, velocity in cases(names):
+            scene = wallkit.Scene(walls, wallkit.Balls(position, velocity, radius))
+            few = wallkit.Scene(walls, wallkit.Balls(position[:600], velocity[:600], radius))
+            wallkit.survey(few, until=0.1, threads=1)
+            whole, bounces = in_wallkit(scene)
+            best, bounces = in_wallkit(wallkit.prepare(scene))
+            beside = ""
+            if compiler and len(walls) == 1:
+                some = len(position) if len(walls.edge_starts) < 100 else 100
+                plain, theirs = in_c(program, rings(name), position[:some], velocity[:some], radius)
+                ratios = f"ratio {best / plain:.2f}, whole {whole / plain:.2f}"
+                beside = f"   C {plain / 1e6:8.3f} M/s ({theirs} bounces)   {ratios}"
+            ours = f"{best / 1e6:7.2f} M bounces/s, whole {whole / 1e6:7.2f}"
+            print(f"{name:11s} r = {radius:g}  {ours} ({bounces}){beside}", flush=True)
+
+
+def main():
+    names = [word for word in sys.argv[1:] if word != "--threads"]
+    compare = compare_threads if "--threads" in sys.argv else compare_with_c
+    compare(names)
 
 
 if __name__ == "__main__":

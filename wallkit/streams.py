@@ -59,7 +59,7 @@ def survey_stream(
         until: as for ``survey``.
         bounces: as for ``survey``.
         threads: as for ``survey``.
-        chunk: balls at a time, at some 200 bytes each.
+        chunk: balls at a time, at some 100 bytes each.
     """
     for first in range(0, count, chunk):
         balls = draw(first, min(chunk, count - first))

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
-from concurrent.futures import Executor, ThreadPoolExecutor
+from collections import deque
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,15 +17,20 @@ from wallkit.kernels.flight import begin_all, end_all, fly_all
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start, fly_in_step
 from wallkit.kernels.model import STATE_SIZE, Model
+from wallkit.kernels.queue import Queue
 from wallkit.kernels.room import all_clear
 from wallkit.modelling import Modelled
 from wallkit.scene import FloatArray, Scene
 from wallkit.simulation import START, initial_states, limits
+from wallkit.threads import in_threads
 
 WORTH_LOCKSTEP = 100
 """Balls from which on lockstep pays: a pass over all lanes takes as long as some hundred bounces one by one."""
-LEAST, MOST = 1024, 65_536
-"""Balls a task: enough to forget the cost of a task, few enough to share the work out evenly."""
+LEAST, MOST = 128, 8192
+"""Balls that a thread takes on at once."""
+AT_ONCE = 65_536
+"""Balls flown in step before threads look whether the survey was interrupted."""
+Work = Callable[[], NDArray[np.int64]]
 
 
 @dataclass(eq=False)
@@ -134,18 +141,12 @@ def survey(
     limit_time, limit_bounces = limits(until, bounces)
     ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
     scene, modelled = ready.scene, ready.modelled
+    cores = os.cpu_count() or 1
+    threads = max(1, min(cores if threads is None else threads, len(modelled.radii) // LEAST))
     outcome = _room_for(len(modelled.radii))
-    threads = threads if threads is not None else os.cpu_count() or 1
-    shares = 1 if threads <= 1 and executor is None else 8 * max(threads, 2)
-    chunk = min(max(-(-len(modelled.radii) // shares), LEAST), MOST)
-    work = _in_step if suits_lockstep(modelled.model, modelled.radii) else _one_by_one
-
-    def fly_chunk(first: int) -> NDArray[np.int64]:
-        part = slice(first, min(first + chunk, len(modelled.radii)))
-        return work(ready, part, limit_time, limit_bounces, outcome)
-
-    starts = range(0, len(modelled.radii), chunk)
-    hits = sum(_map(fly_chunk, starts, threads, executor), np.zeros(len(scene.walls), dtype=np.int64))
+    fly = _fly_in_step if suits_lockstep(modelled.model, modelled.radii) else _fly_one_by_one
+    with fly(ready, limit_time, limit_bounces, outcome, threads) as work:
+        hits = sum(in_threads(work, threads, executor), np.zeros(len(scene.walls), dtype=np.int64))
     return Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending)
 
 
@@ -159,11 +160,11 @@ def _room_for(count: int) -> Outcome:
     )
 
 
-def _in_step(ready: Prepared, part: slice, until: float, limit: int, outcome: Outcome) -> NDArray[np.int64]:
-    """Fly some balls in lockstep: bounces by wall."""
-    modelled, balls = ready.modelled, ready.scene.balls
-    model = modelled.model
-    hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
+@contextmanager
+def _fly_in_step(ready: Prepared, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
+    """Give what a thread does to fly balls in lockstep, until none is left: bounces by wall."""
+    modelled, model, balls = ready.modelled, ready.modelled.model, ready.scene.balls
+    radius = float(modelled.radii[0]) or None
     start = Start(
         position=np.asarray(balls.position),
         velocity=np.asarray(balls.velocity),
@@ -171,29 +172,63 @@ def _in_step(ready: Prepared, part: slice, until: float, limit: int, outcome: Ou
         extent=model.extent,
         box=modelled.box,
     )
-    radius = float(modelled.radii[0]) or None
-    scratch = Scratch(
+    counter = np.zeros(1, dtype=np.int64)
+
+    def work() -> NDArray[np.int64]:
+        hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
+        queue, scratch = Queue(counter, np.zeros(2, dtype=np.int64)), _scratch(len(model.ids))
+        for stop in (*range(AT_ONCE, len(balls), AT_ONCE), len(balls)):
+            compiled(fly_in_step)(model, radius, start, queue, stop, until, limit, hits, outcome, scratch)
+        return hits
+
+    try:
+        yield work
+    finally:
+        counter[0] = len(balls)  # if this thread was interrupted, the others stop soon
+
+
+def _scratch(rows: int) -> Scratch:
+    return Scratch(
         lanes=np.empty(SCRATCH),
         balls=np.empty(LANES, dtype=np.uint32),
         ended=np.empty(LANES + 1, dtype=np.uint32),
         met=np.empty(LANES, dtype=np.uint32),
-        rows=np.zeros((len(model.ids), ROW_SIZE)),
+        rows=np.zeros((rows, ROW_SIZE)),
     )
-    compiled(fly_in_step)(model, radius, start, part.start, part.stop, until, limit, hits, outcome, scratch)
-    return hits
 
 
-def _one_by_one(ready: Prepared, part: slice, until: float, limit: int, outcome: Outcome) -> NDArray[np.int64]:
-    """Fly some balls, in their order, one after the other: bounces by wall."""
+@contextmanager
+def _fly_one_by_one(ready: Prepared, until: float, limit: int, outcome: Outcome, threads: int) -> Iterator[Work]:
+    """Give what a thread does to fly balls one after the other, part by part, until none is left: bounces by wall."""
     modelled, model = ready.modelled, ready.modelled.model
-    hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
-    balls = np.arange(part.start, part.stop) if ready.order is None else ready.order[part]
-    states, counts = _begin(ready, balls)
-    radii = modelled.radii[balls]
-    compiled(fly_all)(model, model.gravity, radii, states, counts, until, limit, hits, np.empty(0), 1)
+    order = np.arange(len(modelled.radii)) if ready.order is None else ready.order
     x0, y0 = modelled.origin.tolist()
-    compiled(end_all)(states, counts, radii, x0, y0, modelled.box, balls, outcome)
-    return hits
+    left = iter(_parts(len(order), threads))
+
+    def work() -> NDArray[np.int64]:
+        hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
+        for part in left:
+            balls = order[part]
+            radii = modelled.radii[balls]
+            states, counts = _begin(ready, balls)
+            compiled(fly_all)(model, model.gravity, radii, states, counts, until, limit, hits, np.empty(0), 1)
+            compiled(end_all)(states, counts, radii, x0, y0, modelled.box, balls, outcome)
+        return hits
+
+    try:
+        yield work
+    finally:
+        deque(left, maxlen=0)  # if this thread was interrupted, the others find no further part
+
+
+def _parts(count: int, threads: int) -> list[slice]:
+    """Divide balls into parts, ever smaller ones, so that threads end together."""
+    parts, first = [], 0
+    while first < count:
+        size = min(max((count - first) // (4 * threads), LEAST), MOST)
+        parts.append(slice(first, min(first + size, count)))
+        first += size
+    return parts
 
 
 def suits_lockstep(model: Model, radii: FloatArray) -> bool:
@@ -204,15 +239,6 @@ def suits_lockstep(model: Model, radii: FloatArray) -> bool:
     if len(radii) < WORTH_LOCKSTEP or not few:
         return False
     return all(feature is None for feature in features) and bool((radii == radii[0]).all())
-
-
-def _map(task: Any, starts: range, threads: int, executor: Executor | None) -> list[NDArray[np.int64]]:
-    if executor is not None:
-        return list(executor.map(task, starts))
-    if threads <= 1 or len(starts) <= 1:
-        return [task(first) for first in starts]
-    with ThreadPoolExecutor(threads) as pool:
-        return list(pool.map(task, starts))
 
 
 def _begin(ready: Prepared, balls: NDArray[np.int64]) -> tuple[FloatArray, NDArray[np.int64]]:

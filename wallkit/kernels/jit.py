@@ -33,6 +33,13 @@ def rare_kernel(function: Function) -> Function:
     return function
 
 
+def claim(counter: Any, count: int) -> int:
+    """Take the next ``count`` numbers of a counter in an array, which threads may share: the first of them."""
+    first = int(counter[0])
+    counter[0] += count
+    return first
+
+
 @cache
 def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     """Give the machine-code twin of a kernel; the first call of a new signature compiles, or loads from disk.
@@ -46,6 +53,7 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     from numba.extending import register_jitable
 
     _register_all(register_jitable)
+    _register_claim()
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False}
     theirs = getattr(config, "CACHE_DIR", "")
     setattr(config, "CACHE_DIR", str(_cache_folder()))  # noqa: B010 - numba makes its settings at run time
@@ -63,6 +71,31 @@ def _register_all(register: Callable[..., Any]) -> None:
         register(forceinline=True, _nrt=False)(_marked.pop())
     while _rare:
         register(_nrt=False)(_rare.pop())
+
+
+@cache
+def _register_claim() -> None:
+    """Let machine code count without a gap between reading and writing: no two threads take the same number."""
+    from numba import types
+    from numba.extending import intrinsic, overload
+    from numba.np.arrayobj import make_array
+
+    @intrinsic
+    def fetch_and_add(_context: Any, counter: Any, _count: Any) -> Any:
+        def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+            place = make_array(signature.args[0])(context, builder, values[0]).data
+            return builder.atomic_rmw("add", place, values[1], "monotonic")
+
+        return types.int64(counter, types.int64), emit
+
+    options: Any = {"forceinline": True, "_nrt": False}
+
+    @overload(claim, jit_options=options)
+    def _claim(counter: Any, count: int) -> Any:
+        def at_once(counter: Any, count: int) -> int:
+            return fetch_and_add(counter, count)  # type: ignore[call-arg]
+
+        return at_once
 
 
 def _cache_folder() -> Path:

@@ -26,6 +26,7 @@ from wallkit.kernels.model import (
     RUNNING,
     TIME_REACHED,
 )
+from wallkit.kernels.queue import NO_BALL, next_ball
 
 LANES = 128
 MOST_EDGES = 20
@@ -87,14 +88,14 @@ class Scratch(NamedTuple):
 
 
 @kernel
-def fly_in_step(model, radius, start, first, stop, until, limit, hits, outcome, scratch):
-    """Fly balls of one radius, from first to stop; as ``flight.fly`` does, where few lines and nothing else act.
+def fly_in_step(model, radius, start, queue, stop, until, limit, hits, outcome, scratch):
+    """Fly balls of one radius until none is left; as ``flight.fly`` does, where few lines and nothing else act.
 
     Args:
         model: the scene; no grid, arcs, gravity, restitution or one-sided walls.
         radius: of all balls; None for points.
         start: the balls, see ``Start``.
-        first: number of the first ball.
+        queue: which are to fly, see ``Queue``.
         stop: number of the ball after the last.
         until: time at which to stop, or inf.
         limit: number of bounces at which to stop.
@@ -105,10 +106,9 @@ def fly_in_step(model, radius, start, first, stop, until, limit, hits, outcome, 
     s, balls, ended, met, rows = scratch.lanes, scratch.balls, scratch.ended, scratch.met, scratch.rows
     _list_rows(model, rows)
     _clear(s)
-    flying, upcoming = 0, first
-    while flying < LANES and upcoming < stop:
-        flying += _load(s, flying, balls, radius, start, upcoming, until, limit, hits, outcome)
-        upcoming += 1
+    flying = 0
+    while flying < LANES and _board(s, flying, balls, radius, start, queue, stop, until, limit, hits, outcome):
+        flying += 1
     while flying > 0:
         _ask(model, radius, s, until, flying)
         _look_up(s, met, rows)
@@ -117,12 +117,8 @@ def fly_in_step(model, radius, start, first, stop, until, limit, hits, outcome, 
         for j in range(_list_ended(s, ended, flying) - 1, -1, -1):
             i = ended[j]
             _store(s, i, balls[i], radius, start, hits, outcome)
-            loaded = 0
-            while loaded == 0 and upcoming < stop:
-                loaded = _load(s, i, balls, radius, start, upcoming, until, limit, hits, outcome)
-                upcoming += 1
-            if loaded == 0:  # no ball is left for this lane: the last one moves here
-                flying -= 1
+            if not _board(s, i, balls, radius, start, queue, stop, until, limit, hits, outcome):
+                flying -= 1  # no ball is left for this lane: the last one moves here
                 for k in range(0, SCRATCH, LANES):
                     s[k + i] = s[k + flying]
                 balls[i] = balls[flying]
@@ -368,25 +364,35 @@ def _list_ended(s, ended, flying):
 
 
 @kernel
-def _load(s, i, balls, radius, start, ball, until, limit, hits, outcome):
-    """Give a lane a ball: 1, or 0 if it has ended before it began."""
+def _board(s, i, balls, radius, start, queue, stop, until, limit, hits, outcome):
+    """Give a lane the next ball that flies at all: False if there is none."""
+    ball = next_ball(queue, stop)
+    while ball != NO_BALL:
+        balls[i] = ball
+        _load(s, i, radius, start, ball)
+        if s[ENERGY + i] > 0.0 and limit > 0:
+            s[BEST + i] = until
+            return True
+        s[ENDING + i] = float(AT_REST) if s[ENERGY + i] <= 0.0 else float(BOUNCE_LIMIT)
+        _store(s, i, ball, radius, start, hits, outcome)
+        ball = next_ball(queue, stop)
+    return False
+
+
+@kernel
+def _load(s, i, radius, start, ball):
+    """Put a ball, at time 0, into a lane."""
     x, y = start.position[ball, 0] - start.origin[0], start.position[ball, 1] - start.origin[1]
     vx, vy = start.velocity[ball, 0], start.velocity[ball, 1]
     energy = vx * vx + vy * vy
-    s[X + i], s[Y + i], s[VX + i], s[VY + i], s[TIME + i], s[LOST + i] = x, y, vx, vy, 0.0, 0.0
-    s[ENERGY + i] = energy
-    s[TOLERANCE + i] = tolerance_of(x, y, start.extent)
-    s[LAST + i], s[BOUNCES + i], s[STILL + i], s[BEST + i], s[ROW + i], s[ASK + i] = NONE, 0.0, 0.0, until, NONE, 0.0
+    s[X + i], s[Y + i], s[VX + i], s[VY + i] = x, y, vx, vy
+    s[TIME + i], s[LOST + i], s[BOUNCES + i], s[STILL + i], s[ASK + i] = 0.0, 0.0, 0.0, 0.0, 0.0
+    s[ENERGY + i], s[TOLERANCE + i] = energy, tolerance_of(x, y, start.extent)
+    s[LAST + i], s[ROW + i] = NONE, NONE
     if radius is None:
         s[FROM_X + i], s[FROM_Y + i], s[FROM_VX + i], s[FROM_VY + i] = x, y, vx, vy
     else:
         s[ROOM + i] = radius * math.sqrt(energy) * WIDER
-    balls[i] = ball
-    if energy > 0.0 and limit > 0:
-        return 1
-    s[ENDING + i] = float(AT_REST) if energy <= 0.0 else float(BOUNCE_LIMIT)
-    _store(s, i, ball, radius, start, hits, outcome)
-    return 0
 
 
 @kernel
