@@ -103,6 +103,8 @@ class Modelled:
 def _box(walls: Walls) -> tuple[float, float, float, float]:
     """Box around the vertices, widened by what the arcs bow at most: half a chord times the bulge, or the circle."""
     x0, y0, x1, y1 = walls.box()
+    if not walls.has_arcs:
+        return x0, y0, x1, y1
     chord = np.hypot(*(walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]).T)
     bulge = np.abs(walls.bulges[walls.edge_starts])
     bow = float((chord * bulge * np.where(bulge > 1.0, 1.0, 0.5)).max(initial=0.0))

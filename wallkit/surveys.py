@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
@@ -22,7 +21,7 @@ from wallkit.kernels.room import all_clear
 from wallkit.modelling import Modelled
 from wallkit.scene import FloatArray, Scene
 from wallkit.simulation import START, initial_states, limits
-from wallkit.threads import in_threads
+from wallkit.threads import cores, in_threads
 
 WORTH_LOCKSTEP = 100
 """Balls from which on lockstep pays: a pass over all lanes takes as long as some hundred bounces one by one."""
@@ -94,7 +93,7 @@ def _surely_clear(scene: Scene, modelled: Modelled) -> bool:
     if not radii.any():
         return True
     origin = tuple(modelled.origin.tolist())
-    return bool(compiled(all_clear)(model, origin, np.ravel(scene.balls.position), radii))
+    return bool(compiled(all_clear)(model.lines, model.extent, origin, np.ravel(scene.balls.position), radii))
 
 
 def _neighbours_together(position: FloatArray) -> NDArray[np.int64]:
@@ -141,8 +140,7 @@ def survey(
     limit_time, limit_bounces = limits(until, bounces)
     ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
     scene, modelled = ready.scene, ready.modelled
-    cores = os.cpu_count() or 1
-    threads = max(1, min(cores if threads is None else threads, len(modelled.radii) // LEAST))
+    threads = max(1, min(cores() if threads is None else threads, len(modelled.radii) // LEAST))
     outcome = _room_for(len(modelled.radii))
     fly = _fly_in_step if suits_lockstep(modelled.model, modelled.radii) else _fly_one_by_one
     with fly(ready, limit_time, limit_bounces, outcome, threads) as work:

@@ -27,6 +27,12 @@ def in_threads(work: Callable[[], Result], threads: int, executor: Executor | No
 
 
 @cache
+def cores() -> int:
+    """Processors of this machine: asked once, for the answer takes a while."""
+    return os.cpu_count() or 1
+
+
+@cache
 def _helpers() -> ThreadPoolExecutor:
     """Threads that stay: to start some takes as long as a small survey. They are made when they are needed."""
     return ThreadPoolExecutor(max_workers=1024, thread_name_prefix="wallkit")

@@ -31,7 +31,7 @@ def test_the_quick_look_misses_nothing(offset):
     for ball in position:
         scene = Scene(walls, Balls(ball[None], np.ones((1, 2)), 2.0))
         modelled = Modelled(scene)
-        quick = all_clear(modelled.lists, tuple(modelled.origin), ball, modelled.radii)
+        quick = all_clear(modelled.lists.lines, modelled.model.extent, tuple(modelled.origin), ball, modelled.radii)
         assert not (quick and _overlaps(scene))
         clear, found = clear + quick, found + _overlaps(scene)
     assert clear + found == 400

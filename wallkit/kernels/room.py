@@ -9,18 +9,19 @@ MARGIN = 2.0**-30
 
 
 @kernel
-def all_clear(model, origin, position, radii):
+def all_clear(lines, extent, origin, position, radii):
     """Tell whether every ball surely keeps off every edge.
 
     Args:
-        model: the scene, without arcs; an edge without length is as good as touched.
+        lines: all edges; one without length is as good as touched.
+        extent: of the scene, see ``Model``.
         origin: (x0, y0) of the local coordinates.
         position: (2 n,), x and y in turn, in the scene's coordinates.
         radii: (n,).
     """
     x0, y0 = origin
-    for k in range(len(model.lines)):
-        line = model.lines[k]
+    for k in range(len(lines)):
+        line = lines[k]
         ax, ay, nx, ny, length = line.ax, line.ay, line.nx, line.ny, line.length
         near = 0
         for i in range(len(radii)):
@@ -29,7 +30,7 @@ def all_clear(model, origin, position, radii):
             along = ey * nx - ex * ny
             before = -along if along < 0.0 else 0.0
             beyond = along - length if along > length else before
-            reach = radii[i] + MARGIN * (radii[i] + model.extent)
+            reach = radii[i] + MARGIN * (radii[i] + extent)
             near += 0 if off * off + beyond * beyond > reach * reach else 1
         if near > 0:
             return False
