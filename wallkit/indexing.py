@@ -172,7 +172,7 @@ def _first_level(work: _Work, model: Model, box: FloatArray) -> _Level:
         low, high = box[0] - beyond, box[1] + beyond
         columns, rows = (int(n) + 1 for n in np.floor((high - low) / side))
         span, most = (first, arcs, corners, len(model.ids) - 1), work.budget // 2
-        block = Block(low[0], low[1], side, work.reach(side), columns, rows, 0, *span, most)
+        block = Block(low[0], low[1], side, 1.0 / side, work.reach(side), columns, rows, 0, *span, most)
         blocks = np.array([block], dtype=BLOCK)
         numbers, entered = work.count(blocks, model.ids)
         if entered[0] <= most:
@@ -220,6 +220,7 @@ def _parts(work: _Work, level: _Level, cells: IntArray, finest: float) -> NDArra
     blocks = np.zeros(len(cells), dtype=BLOCK)
     blocks["x0"], blocks["y0"] = (parents[o] + at * parents["side"] for o, at in (("x0", column), ("y0", row)))
     blocks["side"] = np.ldexp(parents["side"], -bits)
+    blocks["per_side"] = 1.0 / blocks["side"]
     blocks["reach"] = work.reach(blocks["side"])
     blocks["columns"] = blocks["rows"] = 1 << bits
     blocks["first"] = _starts(1 << 2 * bits)

@@ -14,6 +14,8 @@ from wallkit.kernels.jit import kernel, rare_kernel
 
 BOW = 1.0 / 8.0
 """Chords miss their arc by at most this part of a cell, and what they miss it by widens them."""
+SMALL = 1.0 / 4.0
+"""An arc of at most this radius, in cells, crosses most of the cells that its box does."""
 MOST_CHORDS = 1024
 """Of a part of an arc; in cells so small that they bow more, they are the wider."""
 OF_LINES, OF_ARCS, OF_CORNERS = 1, 2, 4
@@ -73,10 +75,19 @@ def _enter_arc(block, arc, distance, item, entry, numbers, ids):
 
 @rare_kernel
 def _arc(block, x, y, radius, ux, uy, wx, wy, wide, kind, item, entry, numbers, ids):
-    """Enter an arc about (x, y), from the direction u counter-clockwise to w, in parts of less than 120 degrees."""
-    if wide == 0.0 and ux * wx + uy * wy > -0.5:
+    """Enter an arc about (x, y), from the direction u counter-clockwise to w: its box, or parts below 120 degrees."""
+    small = abs(radius) <= SMALL * block.side
+    if wide == 0.0 and not small and ux * wx + uy * wy > -0.5:
         return _chords(block, x, y, radius, ux, uy, wx, wy, kind, item, entry, numbers, ids)
     mx, my = _half_way(ux, uy, wx, wy, wide)
+    if small:
+        edge = mx * ux + my * uy  # directions as near to the middle are in the arc
+        left, right = -1.0 if -mx >= edge else min(ux, wx), 1.0 if mx >= edge else max(ux, wx)
+        low, high = -1.0 if -my >= edge else min(uy, wy), 1.0 if my >= edge else max(uy, wy)
+        if radius < 0.0:
+            left, right, low, high = right, left, high, low
+        return _box(block, x + radius * left, x + radius * right, y + radius * low, y + radius * high,
+                    kind, item, entry, numbers, ids)  # fmt: skip
     if wide == 0.0:
         count = _chords(block, x, y, radius, ux, uy, mx, my, kind, item, entry, numbers, ids)
         return count + _chords(block, x, y, radius, mx, my, wx, wy, kind, item, entry, numbers, ids)
@@ -128,9 +139,23 @@ def _chords(block, x, y, radius, ux, uy, wx, wy, kind, item, entry, numbers, ids
 
 
 @rare_kernel
+def _box(block, left, right, low, high, kind, item, entry, numbers, ids):
+    """Enter a box, and what is within reach of it."""
+    per_side, reach = block.per_side, block.reach
+    left, right = (left - reach - block.x0) * per_side, (right + reach - block.x0) * per_side
+    low, high = (low - reach - block.y0) * per_side, (high + reach - block.y0) * per_side
+    if right < 0.0 or left >= block.columns or high < 0.0 or low >= block.rows:
+        return 0
+    count = 0
+    for column in range(int(max(left, 0.0)), int(min(right, block.columns - 0.5)) + 1):
+        count += _rows(block, column, low, high, kind, item, entry, numbers, ids)
+    return count
+
+
+@rare_kernel
 def _line(block, ax, ay, bx, by, reach, kind, item, entry, numbers, ids):
     """Enter a line, and all within reach of it along x and y: column by column, the rows that it covers there."""
-    per_side = 1.0 / block.side
+    per_side = block.per_side
     ax, ay, bx, by, reach = (
         (ax - block.x0) * per_side, (ay - block.y0) * per_side,
         (bx - block.x0) * per_side, (by - block.y0) * per_side, reach * per_side,
@@ -138,28 +163,34 @@ def _line(block, ax, ay, bx, by, reach, kind, item, entry, numbers, ids):
     left, right, low, high = min(ax, bx) - reach, max(ax, bx) + reach, min(ay, by), max(ay, by)
     if right < 0.0 or left >= block.columns or high + reach < 0.0 or low - reach >= block.rows:
         return 0
-    count = 0
     first, last = int(max(left, 0.0)), int(min(right, block.columns - 0.5))
-    slope = (by - ay) / (bx - ax) if bx != ax else 0.0
+    if first == last or ax == bx:
+        bottom, top, count = low - reach, high + reach, 0
+        for column in range(first, last + 1):
+            count += _rows(block, column, bottom, top, kind, item, entry, numbers, ids)
+        return count
+    slope, count = (by - ay) / (bx - ax), 0
     for column in range(first, last + 1):
-        bottom, top = low, high
-        if first < last and bx != ax:
-            here, there = ay + (column - reach - ax) * slope, ay + (column + 1 + reach - ax) * slope
-            bottom, top = max(low, min(here, there, high)), min(high, max(here, there, low))
-        bottom, top = bottom - reach, top + reach
-        if top < 0.0 or bottom >= block.rows:
-            continue
-        cell = block.first + column + block.columns * int(max(bottom, 0.0))
-        for _row in range(int(min(top, block.rows - 0.5)) - int(max(bottom, 0.0)) + 1):
-            at = 4 * cell
-            cell += block.columns
-            if numbers[at + LATEST] == item + 1:
-                continue
+        here, there = ay + (column - reach - ax) * slope, ay + (column + 1 + reach - ax) * slope
+        bottom, top = max(low, min(here, there, high)) - reach, min(high, max(here, there, low)) + reach
+        if top >= 0.0 and bottom < block.rows:
+            count += _rows(block, column, bottom, top, kind, item, entry, numbers, ids)
+    return count
+
+
+@kernel
+def _rows(block, column, bottom, top, kind, item, entry, numbers, ids):
+    """Enter what a column holds between two heights, given in cells; one of them at least is in the block."""
+    lowest, count = int(max(bottom, 0.0)), 0
+    at = 4 * (block.first + column + block.columns * lowest)
+    for _row in range(lowest, int(min(top, block.rows - 0.5)) + 1):
+        if numbers[at + LATEST] != item + 1:
             numbers[at + LATEST] = item + 1
             if len(ids) > 0:
                 ids[numbers[at + kind]] = entry
             numbers[at + kind] += 1
             count += 1
+        at += 4 * block.columns
     return count
 
 

@@ -111,6 +111,8 @@ class Block(NamedTuple):
     x0: float
     y0: float
     side: float
+    per_side: float
+    """1 / side."""
     reach: float
     """So much to each side is entered too."""
     columns: int
@@ -129,7 +131,7 @@ ARC = np.dtype([(name, np.float64) for name in Arc._fields])
 CORNER = np.dtype([(name, np.float64) for name in Corner._fields])
 CELL = np.dtype([("first", np.uint32), ("arcs", np.uint32), ("corners", np.uint32), ("link", np.int32)])
 FAN = np.dtype([(name, np.float64) for name in Fan._fields])
-BLOCK = np.dtype([(name, np.float64 if place < 4 else np.int64) for place, name in enumerate(Block._fields)])
+BLOCK = np.dtype([(name, np.float64 if place < 5 else np.int64) for place, name in enumerate(Block._fields)])
 _RECORDS: dict[Any, Any] = {LINE: Line, ARC: Arc, CORNER: Corner, CELL: Cell, FAN: Fan, BLOCK: Block}
 
 
