@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from copy import copy
 from itertools import repeat
 from operator import is_
 from typing import Any
@@ -14,7 +15,7 @@ from wallkit.damping import damping_of
 from wallkit.edges import arcs_of, corners_of, lines_of, no_corners
 from wallkit.indexing import build_grid
 from wallkit.kernels.model import CELL, Model, in_lists
-from wallkit.scene import FloatArray, Scene, SceneError
+from wallkit.scene import Balls, FloatArray, Scene, SceneError
 from wallkit.walls import Walls
 
 IntArray = NDArray[np.int64]
@@ -81,6 +82,17 @@ class Modelled:
         box = np.array(self.box).reshape(2, 2) - self.origin
         grid, cells, ids = build_grid(model, corners.fans, box, (least, radius), farthest, machine_code=machine_code)
         return model._replace(ids=ids, cells=cells, grid=grid)
+
+    def with_balls(self, balls: Balls) -> Modelled | None:
+        """Give the same model with other balls; None if it must be made anew, for other radii or from farther away."""
+        radii, off = np.asarray(balls.radius), np.abs(np.asarray(balls.position) - self.origin)
+        if not (len(radii) and len(self.radii) and off.max() <= self.model.extent):
+            return None
+        if (radii.min(), radii.max()) != (self.radii.min(), self.radii.max()):
+            return None
+        other = copy(self)
+        other.radii = radii
+        return other
 
     @property
     def lists(self) -> Model:

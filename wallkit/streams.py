@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from wallkit.scene import Balls, Scene
-from wallkit.surveys import Totals, survey
+from wallkit.surveys import Totals, prepare, prepare_again, survey
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,8 +59,10 @@ def survey_stream(
         until: as for ``survey``.
         bounces: as for ``survey``.
         threads: as for ``survey``.
-        chunk: balls at a time, at some 100 bytes each.
+        chunk: balls at a time, at some 200 bytes each.
     """
+    ready = None
     for first in range(0, count, chunk):
         balls = draw(first, min(chunk, count - first))
-        yield survey(replace(scene, balls=balls), until, bounces, threads=threads)
+        ready = prepare_again(ready, balls) if ready else prepare(replace(scene, balls=balls))
+        yield survey(ready, until, bounces, threads=threads)

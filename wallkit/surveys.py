@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from wallkit.kernels.model import STATE_SIZE, Model
 from wallkit.kernels.queue import Queue
 from wallkit.kernels.room import all_clear
 from wallkit.modelling import Modelled
-from wallkit.scene import FloatArray, Scene
+from wallkit.scene import Balls, FloatArray, Scene
 from wallkit.simulation import START, initial_states, limits
 from wallkit.threads import cores, in_threads
 
@@ -78,7 +78,17 @@ def prepare(scene: Scene, *, check: bool = True) -> Prepared:
     Raises:
         SceneError: the scene cannot be simulated.
     """
-    modelled = Modelled(scene, machine_code=True)
+    return _prepared(scene, Modelled(scene, machine_code=True), check=check)
+
+
+def prepare_again(ready: Prepared, balls: Balls, *, check: bool = True) -> Prepared:
+    """Prepare a scene with other balls: what was made of its walls is kept where it serves these, too."""
+    scene = replace(ready.scene, balls=balls)
+    modelled = ready.modelled.with_balls(balls) or Modelled(scene, machine_code=True)
+    return _prepared(scene, modelled, check=check)
+
+
+def _prepared(scene: Scene, modelled: Modelled, *, check: bool) -> Prepared:
     if check and not _surely_clear(scene, modelled):
         check_starts(scene)
     order = None if modelled.model.grid is None else _neighbours_together(np.asarray(scene.balls.position))

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 import wallkit
 from wallkit.clearance import clearances
 from wallkit.streams import RandomBalls, survey_stream
+from wallkit.surveys import prepare_again
 
 ROOM = wallkit.Walls.from_polylines(
     [[[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]], [[18.0, 13.0], [22.0, 13.0], [22.0, 17.0], [18.0, 17.0]]]
@@ -40,6 +41,17 @@ def test_chunks_of_a_stream_change_no_bit():
     assert [len(part.bounces) for part in parts] == [700, 700, 700, 700, 200]
     np.testing.assert_array_equal(np.concatenate([part.position for part in parts]), whole.position)
     np.testing.assert_array_equal(sum(part.hits for part in parts), whole.hits)
+
+
+def test_what_was_made_of_the_walls_serves_other_balls_of_the_same_size():
+    first, second = _pillars(1.5), _pillars(1.5, 200)
+    ready = wallkit.prepare(first)
+    again = prepare_again(ready, second.balls)
+    assert again.modelled.model is ready.modelled.model
+    np.testing.assert_array_equal(wallkit.survey(again, 9.0).position, wallkit.survey(second, 9.0).position)
+    np.testing.assert_array_equal(wallkit.survey(ready, 9.0).position, wallkit.survey(first, 9.0).position)
+    for other in (wallkit.Balls([[5.0, 5.0]], [[1.0, 0.0]], 1.0), wallkit.Balls([[-900.0, 5.0]], [[1.0, 0.0]], 1.5)):
+        assert prepare_again(ready, other).modelled.model is not ready.modelled.model
 
 
 def _pillars(radius, count=300):
