@@ -40,6 +40,29 @@ def ellipses(count: int) -> Strokes:
     return gather(subpaths)
 
 
+def flower(count: int) -> tuple[Strokes, float]:
+    """The closed line r = 200 (1 + 0.15 cos 3a + 0.07 sin 5a) as Hermite cubics, and what the least of arcs needs.
+
+    Returns:
+        The line; the integral of (sqrt(3) / 216 |dk/ds|)^(1/3) ds, which divided by the cube root of a
+        tolerance is the least number of arcs that join (docs/arcs.md).
+    """
+    a = 2 * np.pi * np.arange(count + 1) / count
+    r = 200 * (1 + 0.15 * np.cos(3 * a) + 0.07 * np.sin(5 * a))
+    first = 200 * (-0.45 * np.sin(3 * a) + 0.35 * np.cos(5 * a))
+    second = 200 * (-1.35 * np.cos(3 * a) - 1.75 * np.sin(5 * a))
+    turn = np.exp(1j * a)
+    point, velocity = r * turn, (first + 1j * r) * turn
+    point[-1] = point[0]
+    bend = (velocity.conj() * (second + 2j * first - r) * turn).imag / np.abs(velocity) ** 3
+    need = float((np.cbrt(math.sqrt(3) / 216 * np.abs(np.diff(bend))) * np.abs(np.diff(point)) ** (2 / 3)).sum())
+    arm = velocity * (2 * np.pi / count / 3)
+    corners = np.stack([point[:-1] + arm[:-1], point[1:] - arm[1:], point[1:]], axis=1)
+    rows = np.stack([corners.real, corners.imag], axis=2).reshape(count, 6).tolist()
+    begin = ("M", float(point[0].real), float(point[0].imag))
+    return gather([Subpath([begin, *(("C", *row) for row in rows)], True)]), need
+
+
 def order(few: float, many: float) -> str:
     return f"{math.log(10) / math.log(many / few):.2f}" if few and many > few else ""
 
@@ -74,7 +97,20 @@ def table(name: str, strokes: Strokes, count: int) -> None:
         )
 
 
+def flower_table(count: int) -> None:
+    strokes, need = flower(count)
+    print(f"\nA smooth closed line of {count:,} cubics\n")
+    print("| tolerance | arcs | order | least | largest distance |\n|---|---|---|---|---|")
+    arcs = 0
+    for tolerance in [0.15, 0.015, 0.0015, 0.00015, 0.000015, 0.0000015]:
+        fitted = fit_arcs(strokes, tolerance)
+        before, arcs = arcs, len(fitted.ends)
+        least = need / math.cbrt(tolerance)
+        print(f"| {tolerance:g} | {arcs} | {order(before, arcs)} | {least:.1f} | {fitted.error:.3g} |")
+
+
 if __name__ == "__main__":
     curves = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
     table("Random cubics", cubics(curves), curves)
     table("Half ellipses", ellipses(curves), curves)
+    flower_table(3000)

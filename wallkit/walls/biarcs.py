@@ -19,7 +19,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.walls.curves import ComplexArray, Curves, cross, dot, unit
+from wallkit.walls.chains import Chains, Sections
+from wallkit.walls.curves import ComplexArray, cross, dot, unit
 from wallkit.walls.strokes import FloatArray, IntArray
 
 BoolArray = NDArray[np.bool_]
@@ -40,10 +41,11 @@ _LARGEST_TURN = 0.5
 
 @dataclass(slots=True)
 class Spans:
-    """Pieces of curves, all arrays of one length; points relative to the first point of their curve.
+    """Pieces of chains, all arrays of one length; points relative to the first point of their chain.
 
     Attributes:
-        ids: the curve.
+        ids: the chain.
+        stretch: the smooth stretch, between two cusps or ends, that each is a part of.
         low: parameter of the start.
         high: parameter of the end.
         p0: start point.
@@ -53,6 +55,7 @@ class Spans:
     """
 
     ids: IntArray
+    stretch: IntArray
     low: FloatArray
     high: FloatArray
     p0: ComplexArray
@@ -73,45 +76,17 @@ class Spans:
         names = [part.name for part in fields(Spans)]
         return Spans(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
-    @staticmethod
-    def between(curves: Curves, start: Spans, end: Spans, low: FloatArray, high: FloatArray) -> Spans:
-        """Cut spans at new parameters; where one is the old end, that end's point and direction are kept.
-
-        Args:
-            curves: the curves.
-            start: the spans that each new one starts in.
-            end: the spans that each new one ends in (of the same curve).
-            low: new starts.
-            high: new ends.
-        """
-        p0, t0 = _on_curve(curves, start.ids, low)
-        p1, t1 = _on_curve(curves, end.ids, high)
-        first, last = low == start.low, high == end.high
-        return Spans(
-            start.ids,
-            low,
-            high,
-            np.where(first, start.p0, p0),
-            np.where(last, end.p1, p1),
-            np.where(first, start.t0, t0),
-            np.where(last, end.t1, t1),
-        )
-
-    def halved(self, curves: Curves) -> Spans:
-        """Cut each in two at the middle parameter; the two halves stand next to each other."""
-        middle = (self.low + self.high) / 2
-        point, direction = _on_curve(curves, self.ids, middle)
-        twice = np.repeat(np.arange(len(self)), 2)
-        halves = self.take(twice)
-        halves.high[0::2], halves.low[1::2] = middle, middle
-        halves.p1[0::2], halves.p0[1::2] = point, point
-        halves.t1[0::2], halves.t0[1::2] = direction, direction
-        return halves
-
-
-def _on_curve(curves: Curves, ids: IntArray, t: FloatArray) -> tuple[ComplexArray, ComplexArray]:
-    place, velocity = curves.motion(ids, t[:, None])
-    return place[:, 0], unit(velocity[:, 0])
+    def cut(self, chains: Chains, counts: IntArray, at: FloatArray) -> Spans:
+        """Cut each into ``counts`` (>= 1) at the parameters ``at``, one after the other."""
+        result = self.take(np.repeat(np.arange(len(self)), counts))
+        first = np.zeros(len(result), dtype=np.bool_)
+        first[np.cumsum(counts) - counts] = True
+        later, earlier = np.flatnonzero(~first), np.flatnonzero(~first) - 1
+        point, direction = chains.at(result.ids[later], at)
+        result.low[later], result.high[earlier] = at, at
+        result.p0[later], result.p1[earlier] = point, point
+        result.t0[later], result.t1[earlier] = direction, direction
+        return result
 
 
 @dataclass(slots=True)
@@ -217,36 +192,69 @@ class Fit:
         return Fit(*(np.concatenate([getattr(part, name.name) for part in parts]) for name in fields(Fit)))
 
 
-CHUNK = 1 << 15  # spans measured at once, so that the working memory stays near 50 MB
+CHUNK = 1 << 15  # sections measured at once, so that the working memory stays near 50 MB
 
 
-def measure(curves: Curves, spans: Spans, arcs: Biarcs, fractions: FloatArray) -> Fit:
-    """Measure at fixed fractions of each span's parameter range."""
-    distance, turn = np.zeros(len(spans)), np.zeros(len(spans))
-    for first in range(0, len(spans), CHUNK):
+def measure(chains: Chains, spans: Spans, arcs: Biarcs, fractions: FloatArray) -> Fit:
+    """Measure at fixed fractions of the parameter range of each part of a span that is in one curve."""
+    sections = chains.sections(spans.ids, spans.low, spans.high)
+    distance, turn = np.zeros(len(sections)), np.zeros(len(sections))
+    for first in range(0, len(sections), CHUNK):
         rows = slice(first, first + CHUNK)
-        width = (spans.high - spans.low)[rows, None]
-        off, angle = offsets(curves, spans.ids[rows], spans.low[rows, None] + width * fractions, arcs, rows)
+        low = sections.low[rows, None]
+        t = low + (sections.high[rows, None] - low) * fractions
+        off, angle = offsets(chains, sections, rows, t, arcs)
         distance[rows], turn[rows] = np.abs(off).max(axis=1), angle.max(axis=1)
-    return Fit(distance, turn, turning_within(arcs, turn))
+    return largest(sections, distance, turn, arcs)
 
 
-def turning_within(arcs: Biarcs, turn: FloatArray) -> BoolArray:
-    """Tell where arcs are sound and no direction is off by more than the largest allowed."""
-    within: BoolArray = arcs.sound & (turn <= _LARGEST_TURN)
-    return within
+def largest(sections: Sections, distance: FloatArray, turn: FloatArray, arcs: Biarcs) -> Fit:
+    """Give the largest distance and turn of each span from those of its sections."""
+    first = np.flatnonzero(sections.begins)
+    if len(first) < len(sections):
+        distance, turn = np.maximum.reduceat(distance, first), np.maximum.reduceat(turn, first)
+    sound: BoolArray = arcs.sound & (turn <= _LARGEST_TURN)
+    return Fit(distance, turn, sound)
 
 
-def offsets(curves: Curves, ids: IntArray, t: FloatArray, arcs: Biarcs, rows: slice) -> tuple[FloatArray, FloatArray]:
+def deviations(
+    chains: Chains, spans: Spans, arcs: Biarcs, fractions: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Signed distances of curve points from the arcs, at fixed fractions of the parameter range.
+
+    Returns:
+        The distances (n, k), left of the arcs positive; where on the chord, as a part of it, each point is
+        (n, k); the lengths of the chords (n, 1).
+    """
+    width = (spans.high - spans.low)[:, None]
+    u = spans.low[:, None] + width * fractions
+    place = chains.at(np.repeat(spans.ids, len(fractions)), u.ravel())[0].reshape(u.shape)
+    distance = _offset((place - arcs.joint[:, None]) * arcs.along[:, None].conj(), arcs.bend0, arcs.bend1)[0]
+    chord = (spans.p1 - spans.p0)[:, None]
+    length = np.abs(chord)
+    square = np.where(length > 0, length**2, 1.0)
+    return distance, dot(place - spans.p0[:, None], chord) / square, length
+
+
+def offsets(
+    chains: Chains, sections: Sections, rows: slice, t: FloatArray, arcs: Biarcs
+) -> tuple[FloatArray, FloatArray]:
     """Signed distances (left is positive) and angles between directions of curve points at t: (n, k) each."""
-    place, velocity = curves.motion(ids, t)
+    curve, span = sections.curves[rows], sections.rows[rows]
+    place, velocity = chains.curves.motion(curve, t)
+    joint, along = arcs.joint[span], arcs.along[span].conj()[:, None]
     # in axes with the origin at J and x along the arcs: x + i y
-    turned = (place - arcs.joint[rows, None]) * arcs.along[rows, None].conj()
-    velocity = velocity * arcs.along[rows, None].conj()
-    x, y = turned.real, turned.imag
-    bend = np.where(x < 0, arcs.bend0[rows, None], arcs.bend1[rows, None])
-    f = bend * (x * x + y * y) / 2 - y
-    distance = -2 * f / (1 + np.sqrt(np.maximum(1 + 2 * bend * f, 0.0)))
+    turned = (place + (chains.shifts[curve] - joint)[:, None]) * along
+    velocity = velocity * along
+    distance, bend = _offset(turned, arcs.bend0[span], arcs.bend1[span])
     # The arc's direction at the foot is i times its normal there, n - k Q, so 1 - k y + i k x in these axes.
-    fx, fy, vx, vy = 1 - bend * y, bend * x, velocity.real, velocity.imag
+    fx, fy, vx, vy = 1 - bend * turned.imag, bend * turned.real, velocity.real, velocity.imag
     return distance, np.abs(np.arctan2(fx * vy - fy * vx, fx * vx + fy * vy))
+
+
+def _offset(turned: ComplexArray, bend0: FloatArray, bend1: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Signed distances of points (n, k) in axes at J along the arcs, and the curvature of the arc on their side."""
+    x, y = turned.real, turned.imag
+    bend = np.where(x < 0, bend0[:, None], bend1[:, None])
+    f = bend * (x * x + y * y) / 2 - y
+    return -2 * f / (1 + np.sqrt(np.maximum(1 + 2 * bend * f, 0.0))), bend

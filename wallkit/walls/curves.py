@@ -37,6 +37,11 @@ class Curves(Protocol):
         """(n,) about the extent of each, to judge rounding by."""
         ...
 
+    @property
+    def lengths(self) -> FloatArray:
+        """(n,) about the length of each, good enough to compare curves."""
+        ...
+
     def motion(self, ids: IntArray, t: FloatArray) -> tuple[ComplexArray, ComplexArray]:
         """Points and velocities (first derivatives by t) of curves ``ids`` (n,) at ``t`` (n, k): (n, k) each."""
         ...
@@ -108,6 +113,12 @@ class Cubics:
         """(n,) the largest distance of a control point from the first."""
         size: FloatArray = np.abs(self.control).max(axis=1)
         return size
+
+    @property
+    def lengths(self) -> FloatArray:
+        """(n,) the mean of chord and control polygon."""
+        length: FloatArray = (np.abs(np.diff(self.control, axis=1)).sum(axis=1) + np.abs(self.last)) / 2
+        return length
 
     def _powers(self, ids: IntArray) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
         p = self.control[ids]
@@ -199,6 +210,12 @@ class Ellipses:
         """(n,) the larger half axis."""
         size: FloatArray = np.maximum(*self.arcs.radii)
         return size
+
+    @property
+    def lengths(self) -> FloatArray:
+        """(n,) the turn times the quadratic mean of the half axes."""
+        length: FloatArray = np.abs(self.arcs.turn) * np.hypot(*self.arcs.radii) / math.sqrt(2)
+        return length
 
     def _turned(self, ids: IntArray, t: FloatArray) -> tuple[ComplexArray, ComplexArray, FloatArray, FloatArray]:
         """The half axes turned to the start, and angle and turn from there."""

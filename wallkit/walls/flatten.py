@@ -26,7 +26,7 @@ _DEEPEST = 40  # halvings: t is then below 1e-12, and rounding, not the curve, i
 
 @dataclass(slots=True)
 class Pieces:
-    """Edges of many segments: segment ``i`` has ``counts[i]`` edges, at least one.
+    """Edges of many segments: segment ``i`` has ``counts[i]`` edges; none where those of a later one cover it.
 
     Attributes:
         counts: (N,) int64.
