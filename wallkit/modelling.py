@@ -33,17 +33,20 @@ class Modelled:
         box: (x_min, y_min, x_max, y_max) that no wall reaches beyond, in the scene's coordinates.
     """
 
-    def __init__(self, scene: Scene, *, index: str = "auto", machine_code: bool = False) -> None:
+    def __init__(
+        self, scene: Scene, *, index: str = "auto", machine_code: bool = False, origin: FloatArray | None = None
+    ) -> None:
         """Model a scene.
 
         Args:
             scene: walls, balls, and what acts.
             index: ``"grid"``, ``"none"``, or ``"auto"``: a grid where there are many edges.
             machine_code: whether flights will be compiled anyway; then the index is made by compiled kernels too.
+            origin: (2,) of the local coordinates, where they are those of other walls; None for their own.
         """
         self.box = _box(scene.walls)
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
-        self.origin = local_origin(scene.walls.vertices)
+        self.origin = local_origin(scene.walls.vertices) if origin is None else origin
         self.model = self._made(scene, index, machine_code)
         self._lists: Model | None = None
 

@@ -9,11 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.damping import free_time, slowed
-from wallkit.kernels.flight import normal_of
-from wallkit.kernels.model import FREE, NO_HIT
-from wallkit.kernels.motion import advance
-from wallkit.kernels.pull import first_contact, move
+from wallkit.kernels.crossing import next_crossing, outward
+from wallkit.kernels.model import NO_HIT
 from wallkit.modelling import Modelled
 from wallkit.run import CONTACT, Kind, Run
 from wallkit.scene import Balls, Scene
@@ -60,12 +57,17 @@ def sensors_of(scene: Scene) -> Sensors | None:
     return Sensors(scene, scene.sensors) if scene.sensors is not None and len(scene.sensors) else None
 
 
+def modelled_sensors(scene: Scene, walls: Walls, origin: NDArray[np.float64] | None = None) -> Modelled:
+    """What the kernels see of a scene's sensors; in coordinates local to ``origin``, None for their own."""
+    none = Balls(np.empty((0, 2)), np.empty((0, 2)))
+    return Modelled(replace(scene, walls=walls, balls=none, gravity=None), origin=origin)
+
+
 class Sensors:
     """Sensors in the form in which kernels see walls, asked flight by flight."""
 
     def __init__(self, scene: Scene, walls: Walls) -> None:
-        none = Balls(np.empty((0, 2)), np.empty((0, 2)))
-        self._modelled = Modelled(replace(scene, walls=walls, balls=none, gravity=None))
+        self._modelled = modelled_sensors(scene, walls)
         self._wall, self._edge = self._modelled.index_of_edge(Scene(walls))
 
     def crossings(
@@ -85,30 +87,14 @@ class Sensors:
         x, y = x - ox, y - oy
         gravity = pull.tolist() if pull.any() else None
         tolerance = 2.0**-47 * max(model.extent, abs(x), abs(y))
-        time, lost, last = since, 0.0, NO_HIT
+        time, lost, edge = since, 0.0, NO_HIT
         while vx or vy or gravity:
-            energy, remaining = vx * vx + vy * vy, (until - time) - lost
-            best = free_time(model.damping, energy, remaining)
-            t, feature, _touched = first_contact(
-                model, gravity, 0.0, x, y, vx, vy, energy, last, NO_HIT, FREE, tolerance, best
+            x, y, vx, vy, time, lost, edge = next_crossing(
+                model, gravity, x, y, vx, vy, time, lost, until, edge, tolerance
             )
-            if feature == NO_HIT:
+            if edge == NO_HIT:
                 return
-            passed, kept = slowed(model.damping, energy, t, remaining)
-            x, y, vx, vy = move(model, gravity, NO_HIT, FREE, x, y, vx, vy, t)
-            vx, vy = kept * vx, kept * vy
-            time, lost = advance(time, lost, passed)
-            nx, ny = self._outward(feature, x, y)
+            nx, ny = outward(model, edge, x, y)
             kind = Kind.ENTER if vx * nx + vy * ny < 0.0 else Kind.EXIT
             place = (x + ox, y + oy)
-            yield time + lost, ball, *place, vx, vy, *place, nx, ny, self._wall[feature], self._edge[feature], kind
-            last = feature
-
-    def _outward(self, edge: int, x: float, y: float) -> tuple[float, float]:
-        """Unit normal of an edge at a place on it."""
-        model = self._modelled.lists
-        nx, ny, twice, _wall = normal_of(model, edge, x, y)
-        unit = (0.5 * twice) ** 0.5
-        if model.arcs is not None and model.arc_of_edge[edge] >= 0:
-            unit *= model.arcs[model.arc_of_edge[edge]].turn
-        return nx * unit, ny * unit
+            yield time + lost, ball, *place, vx, vy, *place, nx, ny, self._wall[edge], self._edge[edge], kind

@@ -12,19 +12,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.clearance import check_starts
+from wallkit.kernels.crossing import fly_sensed
 from wallkit.kernels.flight import begin_all, end_all, fly_all
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start, fly_in_step
-from wallkit.kernels.model import STATE_SIZE, Model
+from wallkit.kernels.model import LOG_STRIDE, STATE_SIZE, Model
 from wallkit.kernels.queue import Queue
 from wallkit.kernels.room import all_clear
 from wallkit.modelling import Modelled
 from wallkit.scene import Balls, FloatArray, Scene
+from wallkit.sensing import modelled_sensors
 from wallkit.simulation import START, initial_states, limits
 from wallkit.threads import cores, in_threads
 
 WORTH_LOCKSTEP = 100
 """Balls from which on lockstep pays: a pass over all lanes takes as long as some hundred bounces one by one."""
+LOGGED = 256
+"""Contacts of a ball that are kept at a time where sensors are asked for each flight."""
 LEAST, MOST = 128, 8192
 """Balls that a thread takes on at once."""
 AT_ONCE = 65_536
@@ -43,6 +47,8 @@ class Totals:
         time: (n,) when it ended.
         hits: (W,) int64, bounces of all balls by wall.
         ending: (n,) uint8, see :class:`wallkit.run.Ending`.
+        crossings: (S, 2) int64, how often balls entered each sensor of the scene, and left it: crossed it against and
+            along its outward normal.
     """
 
     bounces: NDArray[np.int64]
@@ -51,6 +57,7 @@ class Totals:
     time: FloatArray
     hits: NDArray[np.int64]
     ending: NDArray[np.uint8]
+    crossings: NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,11 +68,13 @@ class Prepared:
         scene: what it was made of; what is changed in it later is not seen.
         modelled: what the kernels see of it.
         order: (n,) in which the balls are flown, None for as they come.
+        sensors: what the kernels see of the sensors, None where there are none.
     """
 
     scene: Scene
     modelled: Modelled
     order: NDArray[np.int64] | None
+    sensors: Model | None = None
 
 
 def prepare(scene: Scene, *, check: bool = True) -> Prepared:
@@ -92,7 +101,10 @@ def _prepared(scene: Scene, modelled: Modelled, *, check: bool) -> Prepared:
     if check and not _surely_clear(scene, modelled):
         check_starts(scene)
     order = None if modelled.model.grid is None else _neighbours_together(np.asarray(scene.balls.position))
-    return Prepared(scene, modelled, order)
+    sensors = None
+    if scene.sensors is not None and len(scene.sensors):
+        sensors = modelled_sensors(scene, scene.sensors, modelled.origin).model
+    return Prepared(scene, modelled, order, sensors)
 
 
 def _surely_clear(scene: Scene, modelled: Modelled) -> bool:
@@ -152,10 +164,18 @@ def survey(
     scene, modelled = ready.scene, ready.modelled
     threads = max(1, min(cores() if threads is None else threads, len(modelled.radii) // LEAST))
     outcome = _room_for(len(modelled.radii))
-    fly = _fly_in_step if suits_lockstep(modelled.model, modelled.radii) else _fly_one_by_one
+    in_step = ready.sensors is None and suits_lockstep(modelled.model, modelled.radii)
+    fly = _fly_in_step if in_step else _fly_one_by_one
     with fly(ready, limit_time, limit_bounces, outcome, threads) as work:
-        hits = sum(in_threads(work, threads, executor), np.zeros(len(scene.walls), dtype=np.int64))
-    return Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending)
+        found = sum(in_threads(work, threads, executor), _nothing_found(ready))
+    hits, crossings = found[: len(scene.walls)], found[len(scene.walls) :].reshape(-1, 2)
+    return Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings)
+
+
+def _nothing_found(ready: Prepared) -> NDArray[np.int64]:
+    """(W + 2 S,) of 0: bounces by wall, then for each sensor how often it was entered, and left."""
+    sensors = ready.scene.sensors if ready.sensors is not None else None
+    return np.zeros(len(ready.scene.walls) + 2 * len(sensors or ()), dtype=np.int64)
 
 
 def _room_for(count: int) -> Outcome:
@@ -207,26 +227,40 @@ def _scratch(rows: int) -> Scratch:
 
 @contextmanager
 def _fly_one_by_one(ready: Prepared, until: float, limit: int, outcome: Outcome, threads: int) -> Iterator[Work]:
-    """Give what a thread does to fly balls one after the other, part by part, until none is left: bounces by wall."""
-    modelled, model = ready.modelled, ready.modelled.model
+    """Give what a thread does to fly balls one after the other, part by part: bounces by wall, crossings by sensor."""
+    modelled = ready.modelled
     order = np.arange(len(modelled.radii)) if ready.order is None else ready.order
     x0, y0 = modelled.origin.tolist()
     left = iter(_parts(len(order), threads))
 
     def work() -> NDArray[np.int64]:
-        hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
+        found = _nothing_found(ready)
         for part in left:
             balls = order[part]
             radii = modelled.radii[balls]
             states, counts = _begin(ready, balls)
-            compiled(fly_all)(model, model.gravity, radii, states, counts, until, limit, hits, np.empty(0), 1)
+            _fly(ready, radii, states, counts, until, limit, found)
             compiled(end_all)(states, counts, radii, x0, y0, modelled.box, balls, outcome)
-        return hits
+        return found
 
     try:
         yield work
     finally:
         deque(left, maxlen=0)  # if this thread was interrupted, the others find no further part
+
+
+def _fly(
+    ready: Prepared, radii: FloatArray, states: FloatArray, counts: NDArray[np.int64], until: float, limit: int,
+    found: NDArray[np.int64],
+) -> None:  # fmt: skip
+    model, walls = ready.modelled.model, len(ready.scene.walls)
+    if ready.sensors is None:
+        compiled(fly_all)(model, model.gravity, radii, states, counts, until, limit, found, np.empty(0), 1)
+        return
+    pull, log = None if model.gravity is None else np.empty(2), np.empty(LOGGED * LOG_STRIDE)
+    compiled(fly_sensed)(
+        model, model.gravity, pull, ready.sensors, walls, radii, states, counts, until, limit, found, log, LOGGED
+    )
 
 
 def _parts(count: int, threads: int) -> list[slice]:

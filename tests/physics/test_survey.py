@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import wallkit
 from wallkit.clearance import clearances
+from wallkit.run import Kind
 from wallkit.streams import RandomBalls, survey_stream
 from wallkit.surveys import prepare_again
 
@@ -104,3 +105,42 @@ def test_room_at_the_start_is_what_shapely_measures(seed, count, reach, offset):
     np.testing.assert_allclose(found[inside], expected[inside], atol=1e-9, rtol=0)  # coordinates up to 1e6
     assert np.isinf(found[expected > reach * (1.0 + 1e-9)]).all()
     assert ((edge >= 0) == np.isfinite(found)).all()
+
+
+@pytest.mark.parametrize(
+    "acts",
+    [{}, {"gravity": (1.0, -9.81)}, {"rolling_friction": 0.3}, {"drag": 0.1}],
+    ids=lambda acts: next(iter(acts), ""),
+)
+@pytest.mark.parametrize(("radius", "bulge"), [(0.0, 0.3), (0.5, 0.0)])
+def test_a_survey_counts_the_crossings_of_a_run(acts, radius, bulge):
+    sensors = wallkit.Walls.from_polylines(
+        [[[10.0, 0.0], [10.0, 30.0]], [[23.0, 8.0], [33.0, 8.0], [33.0, 18.0], [23.0, 18.0]]],
+        closed=[False, True],
+        bulges=[[0.0, 0.0], [bulge] * 4],
+    )
+    steel = wallkit.Material(0.95, 1.0)
+    walls = wallkit.Walls.from_polylines([[[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]]], material=steel)
+    balls = RandomBalls((2.0, 2.0, 38.0, 28.0), speed=9.0, radius=radius, seed=4)(0, 150)
+    scene = wallkit.Scene(walls, balls, sensors=sensors, **acts)
+    contacts = wallkit.simulate(scene, until=20.0, mode="compiled").contacts
+    expected = [
+        [np.count_nonzero((contacts["kind"] == kind) & (contacts["wall"] == wall)) for kind in (Kind.ENTER, Kind.EXIT)]
+        for wall in (0, 1)
+    ]
+    totals = wallkit.survey(scene, until=20.0, threads=2)
+    assert totals.crossings.tolist() == expected
+    assert totals.crossings.min() > 20
+    plain = wallkit.survey(wallkit.Scene(walls, balls, **acts), until=20.0)
+    assert plain.crossings.shape == (0, 2)
+    for name in ("position", "velocity", "time", "bounces", "hits", "ending"):
+        np.testing.assert_array_equal(getattr(totals, name), getattr(plain, name))
+
+
+def test_a_long_run_loses_no_crossing():
+    corridor = wallkit.Walls.from_polylines([[[0.0, -9.0], [0.0, 9.0]], [[10.0, -9.0], [10.0, 9.0]]], closed=False)
+    line = wallkit.Walls.from_polylines([[[5.0, -9.0], [5.0, 9.0]]], closed=False)
+    scene = wallkit.Scene(corridor, wallkit.Balls([2.0, 0.0], [4.0, 0.0]), sensors=line)
+    totals = wallkit.survey(scene, bounces=1000)
+    assert totals.crossings.sum() == 1000  # one on the way to each bounce
+    assert np.ptp(totals.crossings) == 0

@@ -82,6 +82,7 @@ _ROWS: list[tuple[str, Callable[[], Scene], Callable[[Scene, int], int], str]] =
     ("gravity", lambda: _scene(_star(), gravity=(0.0, -1e-3)), _surveyed, ""),
     ("rolling friction", lambda: _scene(_star(), rolling_friction=1e-6), _surveyed, ""),
     ("drag", lambda: _scene(_star(), drag=1e-8), _surveyed, ""),
+    ("a sensor", _with_sensor, _surveyed, ""),
     (_RECORDING, lambda: _scene(_star()), _simulated, ""),
     ("recording, and the horizon", lambda: _scene(_star()), _with_horizon, _RECORDING),
     ("recording, and a sensor", _with_sensor, _sensed, _RECORDING),
