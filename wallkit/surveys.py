@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ from wallkit.kernels.jit import compiled
 from wallkit.kernels.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start, fly_in_step
 from wallkit.kernels.model import LOG_STRIDE, STATE_SIZE, Model
 from wallkit.kernels.queue import Queue
-from wallkit.kernels.room import all_clear
+from wallkit.kernels.room import all_clear, all_clear_in_cells
 from wallkit.modelling import Modelled
 from wallkit.scene import Balls, FloatArray, Scene
 from wallkit.sensing import modelled_sensors
@@ -108,14 +109,24 @@ def _prepared(scene: Scene, modelled: Modelled, *, check: bool) -> Prepared:
 
 
 def _surely_clear(scene: Scene, modelled: Modelled) -> bool:
-    """Tell whether a quick look shows that no ball overlaps a wall; it only pays for many balls among few lines."""
+    """Tell whether a quick look shows that no ball overlaps a wall; it does not pay for few balls among few lines."""
     model, radii = modelled.model, modelled.radii
-    if len(radii) < WORTH_LOCKSTEP or model.grid is not None or model.arcs is not None:
+    if model.arcs is not None or (len(radii) < WORTH_LOCKSTEP and model.grid is None):
         return False
     if not radii.any():
         return True
-    origin = tuple(modelled.origin.tolist())
-    return bool(compiled(all_clear)(model.lines, model.extent, origin, np.ravel(scene.balls.position), radii))
+    if model.grid is None:
+        origin = tuple(modelled.origin.tolist())
+        return bool(compiled(all_clear)(model.lines, model.extent, origin, np.ravel(scene.balls.position), radii))
+    position = np.asarray(scene.balls.position) - modelled.origin
+    return bool(compiled(all_clear_in_cells)(model.lines, model.extent, *ball_cells(position, radii)))
+
+
+def ball_cells(position: FloatArray, radii: FloatArray) -> tuple[Any, ...]:
+    """Give ``all_clear_in_cells`` what it needs of balls at (n, 2) local positions, and room to work in."""
+    x, y = position.T
+    box = float(x.min()), float(y.min()), float(x.max() - x.min()), float(y.max() - y.min())
+    return np.ravel(position), radii, box, np.zeros(2 * len(x) + 3, dtype=np.int64), np.empty(3 * len(x))
 
 
 def _neighbours_together(position: FloatArray) -> NDArray[np.int64]:

@@ -5,8 +5,9 @@ import pytest
 
 from wallkit import Balls, Scene, SceneError, Walls, prepare
 from wallkit.clearance import check_starts
-from wallkit.kernels.room import all_clear
+from wallkit.kernels.room import all_clear, all_clear_in_cells
 from wallkit.modelling import Modelled
+from wallkit.surveys import ball_cells
 
 WALLS = Walls.from_polylines(
     [[[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]], [[18.0, 13.0], [22.0, 16.0]], [[30.0, 5.0], [30.0, 5.0]]],
@@ -36,6 +37,25 @@ def test_the_quick_look_misses_nothing(offset):
         clear, found = clear + quick, found + _overlaps(scene)
     assert clear + found == 400
     assert min(clear, found) > 50
+
+
+@pytest.mark.parametrize("offset", [0.0, 1e7])
+@pytest.mark.parametrize("count", [1, 3, 40])
+def test_the_quick_look_among_many_edges_misses_nothing(offset, count):
+    random = np.random.default_rng(count)
+    middle, arm = random.uniform(0.0, 100.0, (60, 2)), random.normal(0.0, 3.0, (60, 2))
+    walls = Walls.from_polylines(list(np.stack([middle - arm, middle + arm], axis=1) + offset), closed=False)
+    clear, found = 0, 0
+    for _ in range(200):
+        position = random.uniform(-20.0, 120.0, (count, 2)) + offset
+        radii = random.uniform(0.1, 4.0, count) / count
+        scene = Scene(walls, Balls(position, np.ones((count, 2)), radii))
+        modelled = Modelled(scene, index="none")
+        given = (np.asarray(item).tolist() for item in ball_cells(position - modelled.origin, radii))
+        quick = all_clear_in_cells(modelled.lists.lines, modelled.model.extent, *given)
+        assert quick == (not _overlaps(scene))
+        clear, found = clear + quick, found + (not quick)
+    assert min(clear, found) > 10
 
 
 def test_a_survey_refuses_overlaps_and_lets_contact_be():

@@ -1,6 +1,8 @@
-"""Room at the start, for many balls among few lines: a quick look that finds in nearly all scenes that all is well."""
+"""Room at the start, for balls among lines: a quick look that finds in nearly all scenes that all is well."""
 
 from __future__ import annotations
+
+import math
 
 from wallkit.kernels.jit import kernel
 
@@ -35,3 +37,71 @@ def all_clear(lines, extent, origin, position, radii):
         if near > 0:
             return False
     return True
+
+
+@kernel
+def all_clear_in_cells(lines, extent, position, radii, box, ends, sorted_balls):
+    """Tell the same where there are many edges: each asks only the balls in the cells about it.
+
+    Args:
+        lines: all edges; one without length is as good as touched.
+        extent: of the scene, see ``Model``.
+        position: (2 n,), x and y in turn, in local coordinates.
+        radii: (n,).
+        box: (x, y, width, height) of the positions.
+        ends: (2 n + 3,) whole numbers, 0, to work with: cells are no more than 2 n + 1.
+        sorted_balls: (3 n,) floats to work with.
+    """
+    left, low, width, height = box
+    largest = 0.0
+    for i in range(len(radii)):
+        largest = max(largest, radii[i])
+    reach = largest + MARGIN * (largest + extent)
+    side = max(max(math.sqrt(width * height / len(radii)), (width + height) / len(radii)), reach)
+    columns, rows = int(width / side) + 1, int(height / side) + 1
+    _sort(position, radii, left, low, side, columns, columns * rows, ends, sorted_balls)
+    for k in range(len(lines)):
+        line = lines[k]
+        first, last = (min(line.ax, line.bx) - reach - left) / side, (max(line.ax, line.bx) + reach - left) / side
+        bottom, top = (min(line.ay, line.by) - reach - low) / side, (max(line.ay, line.by) + reach - low) / side
+        if last < 0.0 or first >= columns or top < 0.0 or bottom >= rows:
+            continue
+        first_column, last_column = int(max(first, 0.0)), int(min(last, columns - 0.5))
+        for row in range(int(max(bottom, 0.0)), int(min(top, rows - 0.5)) + 1):
+            cell = row * columns
+            if _any_near(line, extent, sorted_balls, ends[cell + first_column], ends[cell + last_column + 1]):
+                return False
+    return True
+
+
+@kernel
+def _sort(position, radii, left, low, side, columns, cells, ends, sorted_balls):
+    """Sort balls by cell, counting first: those of cell c come from ends[c] to ends[c + 1]."""
+    for i in range(len(radii)):
+        ends[_cell(position, i, left, low, side, columns) + 2] += 1
+    for cell in range(cells):
+        ends[cell + 2] += ends[cell + 1]
+    for i in range(len(radii)):
+        cell = _cell(position, i, left, low, side, columns)
+        at = 3 * ends[cell + 1]
+        sorted_balls[at], sorted_balls[at + 1] = position[2 * i], position[2 * i + 1]
+        sorted_balls[at + 2] = radii[i]
+        ends[cell + 1] += 1
+
+
+@kernel
+def _cell(position, i, left, low, side, columns):
+    return int((position[2 * i + 1] - low) / side) * columns + int((position[2 * i] - left) / side)
+
+
+@kernel
+def _any_near(line, extent, balls, start, stop):
+    """Tell whether an edge may touch one of the balls from start to stop."""
+    for i in range(start, stop):
+        ex, ey = balls[3 * i] - line.ax, balls[3 * i + 1] - line.ay
+        off, along = ex * line.nx + ey * line.ny, ey * line.nx - ex * line.ny
+        beyond = max(max(-along, along - line.length), 0.0)
+        reach = balls[3 * i + 2] + MARGIN * (balls[3 * i + 2] + extent)
+        if not off * off + beyond * beyond > reach * reach:
+            return True
+    return False
