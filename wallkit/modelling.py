@@ -131,9 +131,9 @@ def local_origin(vertices: FloatArray) -> FloatArray:
     origin = np.zeros(2)
     if len(vertices) == 0:
         return origin
-    low = np.array([vertices[:, axis].min() for axis in (0, 1)])  # a column at a time is quicker than along an axis
-    high = np.array([vertices[:, axis].max() for axis in (0, 1)])
-    size = float((high - low).max())
+    x, y = vertices.T
+    low = np.array([x.min(), y.min()])
+    size = float(max(x.max() - low[0], y.max() - low[1]))
     if size <= 0.0 or not math.isfinite(size):
         return origin
     step = 2.0 ** (math.frexp(size)[1] + 2)

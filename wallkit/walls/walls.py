@@ -252,8 +252,8 @@ class Walls(Pictured):
         """Give (x_min, y_min, x_max, y_max) of the vertices (arcs may bow beyond); zeros without any."""
         if not len(self.vertices):
             return 0.0, 0.0, 0.0, 0.0
-        low, high = self.vertices.min(axis=0), self.vertices.max(axis=0)
-        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+        x, y = self.vertices.T  # a column at a time is many times quicker than along an axis of two
+        return float(x.min()), float(y.min()), float(x.max()), float(y.max())
 
 
 def _normals(a: FloatArray, b: FloatArray) -> FloatArray:
