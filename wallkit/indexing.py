@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.entering import LATEST, clear, enter, lay_out
+from wallkit.kernels.entering import LATEST, clear, clear_ahead, enter, lay_out
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.model import BLOCK, CELL, Block, Grid, Model, in_lists
 from wallkit.scene import FloatArray
@@ -30,8 +30,12 @@ ROUNDING = 2.0**-39
 under gravity may be off (``FALLING_TOLERANCE``)."""
 SMALLEST = 2.0**-28
 """Side of the smallest cells, in parts of the largest coordinate: what ROUNDING adds to them is 2^-11 of their side."""
-SPACING = 0.8
-"""Side of the cells before any is divided, in units of sqrt(area / edges); measured, flat between 0.5 and 1.2."""
+FINE, COARSE, PER_EDGE = 0.2, 0.6, 0.8
+"""Side of the cells before any is divided, measured: 0.8 of the mean length of an edge, so that a cell that lists
+something lists one or two. In units of sqrt(area / edges) it is at least 0.2 (25 cells an edge; more fall out of the
+cache), and at most 0.6 (where edges are long and many meet)."""
+MOST_CELLS = 2.0**20
+"""Beyond this many there are at most five an edge."""
 CROWDED = 16
 """A cell with more entries is divided."""
 MOST_BITS = 7
@@ -67,7 +71,8 @@ def build_grid(
     extent: float,
     *,
     machine_code: bool = False,
-) -> tuple[Grid, NDArray[Any], NDArray[np.uint32]]:
+    fine: bool = False,
+) -> tuple[Grid, NDArray[Any], NDArray[np.uint32], NDArray[np.uint8]]:
     """Sort edges and corners into cells.
 
     Args:
@@ -77,13 +82,14 @@ def build_grid(
         radii: smallest and largest distance of a centre at a contact.
         extent: largest absolute coordinate of a centre.
         machine_code: use compiled kernels for a small scene too; the same cells come of both.
+        fine: make small cells, where many flights are to come: there are more to make, and fewer entries to look at.
 
     Returns:
-        The grid, its cells (``CELL``), and the ids that they list.
+        The grid, its cells (``CELL``), the ids that they list, and the clearings (see ``Model``).
     """
     work = _Work(model, fans, radii, extent, machine_code or len(model.ids) > COMPILING_PAYS)
     finest = SMALLEST * extent
-    level: _Level | None = _first_level(work, model, box)
+    level: _Level | None = _first_level(work, model, box, fine)
     levels = []
     while level is not None:
         levels.append(level)
@@ -93,7 +99,7 @@ def build_grid(
     shift = int(math.log2(top["side"] / unit))
     ids = np.concatenate([*(level.ids for level in levels), np.zeros(1, dtype=np.uint32)])
     grid = Grid(float(top["x0"]), float(top["y0"]), unit, 1.0 / unit, shift, int(top["columns"]), int(top["rows"]))
-    return grid, _joined(levels), ids
+    return grid, _joined(levels), ids, work.clearings(levels[0])
 
 
 def _joined(levels: list[_Level]) -> NDArray[Any]:
@@ -148,6 +154,21 @@ class _Work:
         table = np.asarray(numbers, dtype=np.int32).reshape(-1, 4)
         return _Level(blocks, table, np.asarray(ids, dtype=np.uint32))
 
+    def clearings(self, top: _Level) -> NDArray[np.uint8]:
+        """Find the clearings ahead of each cell of the first level, each way."""
+        columns, rows = int(top.blocks["columns"][0]), int(top.blocks["rows"][0])
+        squares: Any = np.zeros(4 * columns * rows, dtype=np.uint8)
+        if not self.machine_code:
+            squares = squares.tolist()
+        self._run(
+            clear_ahead,
+            top.numbers.ravel() if self.machine_code else top.numbers.ravel().tolist(),
+            columns,
+            rows,
+            squares,
+        )
+        return np.asarray(squares, dtype=np.uint8)
+
     def _enter(self, blocks: NDArray[Any], source: NDArray[np.uint32], numbers: Any, ids: Any) -> IntArray:
         entered: Any = np.zeros(len(blocks), dtype=np.int64)
         if not self.machine_code:
@@ -162,11 +183,11 @@ class _Work:
         return (compiled(kernel) if self.machine_code else kernel)(*arguments)
 
 
-def _first_level(work: _Work, model: Model, box: FloatArray) -> _Level:
+def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Level:
     """Enter all that the model's one cell lists; where that comes to too many entries, into larger cells."""
     first, arcs, corners, _link = model.cells[0].tolist()
     width, height = (box[1] - box[0]).tolist()
-    side = _side(width, height, corners)
+    side = _side(width, height, corners, _mean_length(model), fine)
     while True:
         beyond = work.distance + work.reach(side)
         low, high = box[0] - beyond, box[1] + beyond
@@ -181,9 +202,17 @@ def _first_level(work: _Work, model: Model, box: FloatArray) -> _Level:
         side *= 2.0
 
 
-def _side(width: float, height: float, count: int) -> float:
-    longest = max(width, height)
-    return max(SPACING * math.sqrt(width * height / count), longest / (4.0 * count + 64.0), longest * 2.0**-20)
+def _side(width: float, height: float, count: int, length: float, fine: bool) -> float:
+    longest, even = max(width, height), math.sqrt(width * height / count)
+    side = max(FINE * even, min(COARSE * even, PER_EDGE * length)) if fine else COARSE * even
+    least = math.sqrt(width * height / max(MOST_CELLS, 5.0 * count))
+    return max(side, least, longest / (4.0 * count + 64.0), longest * 2.0**-20)
+
+
+def _mean_length(model: Model) -> float:
+    """Mean length of edges, of arcs that of their chords."""
+    lengths = model.lines["length"]
+    return float(lengths.sum()) / max(int(np.count_nonzero(lengths)), 1)
 
 
 def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:

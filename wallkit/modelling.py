@@ -34,7 +34,13 @@ class Modelled:
     """
 
     def __init__(
-        self, scene: Scene, *, index: str = "auto", machine_code: bool = False, origin: FloatArray | None = None
+        self,
+        scene: Scene,
+        *,
+        index: str = "auto",
+        machine_code: bool = False,
+        fine: bool = False,
+        origin: FloatArray | None = None,
     ) -> None:
         """Model a scene.
 
@@ -42,15 +48,16 @@ class Modelled:
             scene: walls, balls, and what acts.
             index: ``"grid"``, ``"none"``, or ``"auto"``: a grid where there are many edges.
             machine_code: whether flights will be compiled anyway; then the index is made by compiled kernels too.
+            fine: whether there will be many flights, see ``build_grid``.
             origin: (2,) of the local coordinates, where they are those of other walls; None for their own.
         """
         self.box = _box(scene.walls)
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
         self.origin = local_origin(scene.walls.vertices) if origin is None else origin
-        self.model = self._made(scene, index, machine_code)
+        self.model = self._made(scene, index, machine_code, fine)
         self._lists: Model | None = None
 
-    def _made(self, scene: Scene, index: str, machine_code: bool) -> Model:
+    def _made(self, scene: Scene, index: str, machine_code: bool, fine: bool) -> Model:
         walls, radius = scene.walls, float(self.radii.max(initial=0.0))
         vertices, starts, ends = walls.vertices - self.origin, walls.edge_starts, walls.edge_ends
         lines, bulges = lines_of(vertices, starts, ends), walls.bulges[starts]
@@ -63,6 +70,7 @@ class Modelled:
             ids=ids,
             cells=_one_cell(*map(len, kinds)),
             grid=None,
+            clearings=None,
             lines=lines,
             arcs=arcs if len(arcs) else None,
             arc_of_edge=arc_of_edge,
@@ -83,8 +91,10 @@ class Modelled:
             least = 0.0  # a disc may stand across a wall that it came through
         farthest = float(np.abs(np.asarray(scene.balls.position) - self.origin).max(initial=model.extent))
         box = np.array(self.box).reshape(2, 2) - self.origin
-        grid, cells, ids = build_grid(model, corners.fans, box, (least, radius), farthest, machine_code=machine_code)
-        return model._replace(ids=ids, cells=cells, grid=grid)
+        grid, cells, ids, clearings = build_grid(
+            model, corners.fans, box, (least, radius), farthest, machine_code=machine_code, fine=fine
+        )
+        return model._replace(ids=ids, cells=cells, grid=grid, clearings=clearings)
 
     def with_balls(self, balls: Balls) -> Modelled | None:
         """Give the same model with other balls; None if it must be made anew, for other radii or from farther away."""

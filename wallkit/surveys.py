@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -20,12 +20,17 @@ from wallkit.kernels.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outco
 from wallkit.kernels.model import LOG_STRIDE, STATE_SIZE, Model
 from wallkit.kernels.queue import Queue
 from wallkit.kernels.room import all_clear, all_clear_in_cells
+from wallkit.kernels.wave_impact import FLOATS
+from wallkit.kernels.wave_impact import LANES as WAVE
+from wallkit.kernels.wavefront import COUNTS, INTEGERS, WaveScratch, fly_wave
 from wallkit.modelling import Modelled
 from wallkit.scene import Balls, FloatArray, Scene
 from wallkit.sensing import modelled_sensors
 from wallkit.simulation import START, initial_states, limits
 from wallkit.threads import cores, in_threads
 
+WORTH_A_WAVE = 2 * WAVE
+"""Balls from which on a wave pays: it must stay full for a while."""
 WORTH_LOCKSTEP = 100
 """Balls from which on lockstep pays: a pass over all lanes takes as long as some hundred bounces one by one."""
 LOGGED = 256
@@ -33,8 +38,9 @@ LOGGED = 256
 LEAST, MOST = 128, 8192
 """Balls that a thread takes on at once."""
 AT_ONCE = 65_536
-"""Balls flown in step before threads look whether the survey was interrupted."""
+"""Balls flown in step or as a wave before threads look whether the survey was interrupted."""
 Work = Callable[[], NDArray[np.int64]]
+Flying = Callable[["Prepared", float, int, Outcome, int], AbstractContextManager[Work]]
 
 
 @dataclass(eq=False)
@@ -88,13 +94,13 @@ def prepare(scene: Scene, *, check: bool = True) -> Prepared:
     Raises:
         SceneError: the scene cannot be simulated.
     """
-    return _prepared(scene, Modelled(scene, machine_code=True), check=check)
+    return _prepared(scene, Modelled(scene, machine_code=True, fine=True), check=check)
 
 
 def prepare_again(ready: Prepared, balls: Balls, *, check: bool = True) -> Prepared:
     """Prepare a scene with other balls: what was made of its walls is kept where it serves these, too."""
     scene = replace(ready.scene, balls=balls)
-    modelled = ready.modelled.with_balls(balls) or Modelled(scene, machine_code=True)
+    modelled = ready.modelled.with_balls(balls) or Modelled(scene, machine_code=True, fine=True)
     return _prepared(scene, modelled, check=check)
 
 
@@ -175,8 +181,7 @@ def survey(
     scene, modelled = ready.scene, ready.modelled
     threads = max(1, min(cores() if threads is None else threads, len(modelled.radii) // LEAST))
     outcome = _room_for(len(modelled.radii))
-    in_step = ready.sensors is None and suits_lockstep(modelled.model, modelled.radii)
-    fly = _fly_in_step if in_step else _fly_one_by_one
+    fly = _fly_one_by_one if ready.sensors is not None else _way_to_fly(modelled.model, modelled.radii)
     with fly(ready, limit_time, limit_bounces, outcome, threads) as work:
         found = sum(in_threads(work, threads, executor), _nothing_found(ready))
     hits, crossings = found[: len(scene.walls)], found[len(scene.walls) :].reshape(-1, 2)
@@ -202,28 +207,54 @@ def _room_for(count: int) -> Outcome:
 @contextmanager
 def _fly_in_step(ready: Prepared, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
     """Give what a thread does to fly balls in lockstep, until none is left: bounces by wall."""
-    modelled, model, balls = ready.modelled, ready.modelled.model, ready.scene.balls
-    radius = float(modelled.radii[0]) or None
-    start = Start(
-        position=np.asarray(balls.position),
-        velocity=np.asarray(balls.velocity),
-        origin=tuple(modelled.origin.tolist()),
-        extent=model.extent,
-        box=modelled.box,
-    )
+    model, start, count = ready.modelled.model, _start(ready), len(ready.modelled.radii)
+    radius = float(ready.modelled.radii[0]) or None
     counter = np.zeros(1, dtype=np.int64)
 
     def work() -> NDArray[np.int64]:
         hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
         queue, scratch = Queue(counter, np.zeros(2, dtype=np.int64)), _scratch(len(model.ids))
-        for stop in (*range(AT_ONCE, len(balls), AT_ONCE), len(balls)):
+        for stop in (*range(AT_ONCE, count, AT_ONCE), count):
             compiled(fly_in_step)(model, radius, start, queue, stop, until, limit, hits, outcome, scratch)
         return hits
 
     try:
         yield work
     finally:
-        counter[0] = len(balls)  # if this thread was interrupted, the others stop soon
+        counter[0] = count  # if this thread was interrupted, the others stop soon
+
+
+@contextmanager
+def _fly_as_waves(ready: Prepared, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
+    """Give what a thread does to fly balls as a wave through the grid, until none is left: bounces by wall."""
+    model, start, count = ready.modelled.model, _start(ready), len(ready.modelled.radii)
+    radius = float(ready.modelled.radii[0]) or None
+    order = np.arange(count) if ready.order is None else ready.order
+    counter = np.zeros(1, dtype=np.int64)
+
+    def work() -> NDArray[np.int64]:
+        hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
+        queue = Queue(counter, np.zeros(2, dtype=np.int64))
+        scratch = WaveScratch(np.empty(FLOATS), np.empty(INTEGERS, dtype=np.int64), np.empty(COUNTS, dtype=np.uint32))
+        for stop in (*range(AT_ONCE, count, AT_ONCE), count):
+            compiled(fly_wave)(model, radius, start, order, queue, stop, until, limit, hits, outcome, scratch)
+        return hits
+
+    try:
+        yield work
+    finally:
+        counter[0] = count  # if this thread was interrupted, the others stop soon
+
+
+def _start(ready: Prepared) -> Start:
+    balls, modelled = ready.scene.balls, ready.modelled
+    return Start(
+        position=np.asarray(balls.position),
+        velocity=np.asarray(balls.velocity),
+        origin=tuple(modelled.origin.tolist()),
+        extent=modelled.model.extent,
+        box=modelled.box,
+    )
 
 
 def _scratch(rows: int) -> Scratch:
@@ -282,6 +313,20 @@ def _parts(count: int, threads: int) -> list[slice]:
         parts.append(slice(first, min(first + size, count)))
         first += size
     return parts
+
+
+def _way_to_fly(model: Model, radii: FloatArray) -> Flying:
+    if suits_lockstep(model, radii):
+        return _fly_in_step
+    return _fly_as_waves if suits_wave(model, radii) else _fly_one_by_one
+
+
+def suits_wave(model: Model, radii: FloatArray) -> bool:
+    """An index, one radius, two-sided walls, and nothing else that acts but restitution."""
+    features = (model.gravity, model.damping, model.one_sided)
+    if model.grid is None or len(radii) < WORTH_A_WAVE:
+        return False
+    return all(feature is None for feature in features) and bool((radii == radii[0]).all())
 
 
 def suits_lockstep(model: Model, radii: FloatArray) -> bool:

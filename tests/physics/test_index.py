@@ -23,8 +23,10 @@ def ring(centre, radius, count, jag=0.0, seed=0):
     return np.asarray(centre) + away[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-def modelled(walls, radius=0.0, *, index="grid", machine_code=False):
-    return Modelled(Scene(walls, Balls([[1.0, 1.0]], [[1.0, 1.0]], radius)), index=index, machine_code=machine_code)
+def modelled(walls, radius=0.0, *, index="grid", machine_code=False, fine=False):
+    return Modelled(
+        Scene(walls, Balls([[1.0, 1.0]], [[1.0, 1.0]], radius)), index=index, machine_code=machine_code, fine=fine
+    )
 
 
 def entries(model):
@@ -110,6 +112,32 @@ def test_nothing_is_listed_in_a_clearing(drawn, radius):
             assert cells[c].link == 1
 
 
+@settings(max_examples=20, deadline=None)
+@given(spots, st.sampled_from([0.0, 5.0]), st.booleans())
+def test_a_clearing_ahead_is_the_largest_empty_square(drawn, radius, fine):
+    model = modelled(clustered(drawn), radius, machine_code=True, fine=fine).model
+    columns, rows = model.grid.columns, model.grid.rows
+    listed = np.diff(model.cells["first"].astype(np.int64))[: columns * rows]
+    taken = (listed > 0) | (model.cells["link"][: columns * rows] <= 0)
+    below = np.zeros((rows + 1, columns + 1), dtype=np.int64)  # how many are taken below and to the left
+    below[1:, 1:] = taken.reshape(rows, columns).cumsum(axis=0).cumsum(axis=1)
+
+    def free(left, right, low, high):
+        left, right, low, high = max(left, 0), min(right, columns), max(low, 0), min(high, rows)
+        return below[high, right] - below[high, left] - below[low, right] + below[low, left] == 0
+
+    random = np.random.default_rng(1)
+    for way, column, row in zip(*(random.integers(0, n, 300) for n in (4, columns, rows)), strict=True):
+        side = int(model.clearings[(way * rows + row) * columns + column])
+
+        def square(size, way=way, column=column, row=row):
+            left, low = (column + 1 - size if way & 1 else column), (row + 1 - size if way & 2 else row)
+            return left, left + size, low, low + size
+
+        assert side == 0 or free(*square(side))
+        assert side == 255 or not free(*square(side + 1)) or side + 1 > max(columns, rows)
+
+
 def test_an_empty_room_around_a_spot_is_one_clearing():
     model = modelled(Walls.from_polylines([ROOM, ring((200.0, 150.0), 1.0, 1000)])).model
     half = min(model.grid.columns, model.grid.rows) // 2
@@ -152,11 +180,12 @@ def test_the_same_bits_as_without_an_index(drawn, radius, bulge, gravity):
 
 def test_interpreted_and_compiled_kernels_make_the_same_index():
     walls = clustered([(100.0, 100.0, 0.02, 60, 0.3), (200.0, 90.0, 20.0, 40, 0.0)], 0.4)
-    for radius in (0.0, 5.0):
-        one, other = (modelled(walls, radius, machine_code=code).model for code in (False, True))
+    for radius, fine in ((0.0, False), (5.0, False), (5.0, True)):
+        one, other = (modelled(walls, radius, machine_code=code, fine=fine).model for code in (False, True))
         assert one.grid == other.grid
         assert one.cells.tobytes() == other.cells.tobytes()
         assert one.ids.tobytes() == other.ids.tobytes()
+        assert one.clearings.tobytes() == other.clearings.tobytes()
 
 
 @pytest.mark.parametrize("radius", [0.0, 1e-6, 1e-3])

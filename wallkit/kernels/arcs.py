@@ -94,16 +94,17 @@ def _cuts(arc, wx, wy, x, y, vx, vy):
 @kernel
 def holds(arc, ex, ey, slack):
     """Tell whether the arc lies in the direction e from its centre, give or take a length at its ends."""
-    past_a = arc.sx * ey - arc.sy * ex
-    before_b = ex * arc.fy - ey * arc.fx
-    least = -slack * arc.radius
-    if arc.wide > 0.0:
-        return past_a >= least or before_b >= least
-    return (
-        past_a >= least
-        and before_b >= least
-        and (slack == 0.0 or ex * (arc.sx + arc.fx) + ey * (arc.sy + arc.fy) >= least)
-    )
+    return spans(arc.sx, arc.sy, arc.fx, arc.fy, arc.radius, arc.wide, ex, ey, slack)
+
+
+@kernel
+def spans(sx, sy, fx, fy, radius, wide, ex, ey, slack):
+    """``holds`` of an arc from s to f about its centre; without branches."""
+    least = -slack * radius
+    past_a = sx * ey - sy * ex >= least
+    before_b = ex * fy - ey * fx >= least
+    ahead = (slack == 0.0) | (ex * (sx + fx) + ey * (sy + fy) >= least)
+    return ((past_a | before_b) & (wide > 0.0)) | (past_a & before_b & ahead & (wide <= 0.0))
 
 
 @kernel

@@ -21,6 +21,7 @@ MOST_CHORDS = 1024
 OF_LINES, OF_ARCS, OF_CORNERS = 1, 2, 4
 """Where in a cell's numbers the entries of a kind are counted. When all are written each of them has come to the end of
 its kind, which is where the next one begins: ``arcs``, ``corners``, and ``first`` of the next cell."""
+WIDEST = 255
 LATEST = 3
 """Where in a cell's numbers the latest entry stands, so that none is entered twice; later its ``link``."""
 
@@ -242,3 +243,31 @@ def clear(blocks, numbers, endless):
                         above = min(above, numbers[at + 4 * columns + 4 + LATEST] if column < columns - 1 else outside)
                     moves = min(moves, min(ahead, above) + 1)
                 numbers[at + LATEST] = moves
+
+
+@kernel
+def clear_ahead(numbers, columns, rows, squares):
+    """Find the largest empty square that begins with each cell, each way; see ``Model.clearings``.
+
+    Its side is 0 at a cell that lists something, else one more than the least of the sides of the next cell along, the
+    one above and the one beside both. There is nothing beyond the border, and WIDEST is all that a byte holds.
+    """
+    for way in range(4):
+        step, rise = 1 - 2 * (way & 1), 1 - (way & 2)
+        for j in range(rows):
+            row = rows - 1 - j if rise > 0 else j
+            for i in range(columns):
+                column = columns - 1 - i if step > 0 else i
+                cell = row * columns + column
+                at = way * columns * rows + cell
+                side = 0
+                if numbers[4 * cell + 4] == numbers[4 * cell]:
+                    side = WIDEST - 1
+                    if i > 0:
+                        side = min(side, int(squares[at + step]))
+                    if j > 0:
+                        side = min(side, int(squares[at + rise * columns]))
+                    if i > 0 and j > 0:
+                        side = min(side, int(squares[at + rise * columns + step]))
+                    side += 1
+                squares[at] = side

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.arcs import holds
-from wallkit.kernels.grid import clearing, leaf, place
+from wallkit.kernels.grid import around, leaf, place
 from wallkit.kernels.impact import behind, precedes
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
@@ -227,8 +227,8 @@ def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolera
         if now == 0.0:
             touched += more
         link = int(model.cells[c].link)
-        left, right = clearing(grid, link, shift, column, columns)
-        low, high = clearing(grid, link, shift, row, rows)
+        left, right = around(link, shift, column, columns)
+        low, high = around(link, shift, row, rows)
         next_column, time_x = _leaving(grid.x0, grid.unit, left, right, columns, x, vx, gx, now)
         next_row, time_y = _leaving(grid.y0, grid.unit, low, high, rows, y, vy, gy, now)
         passed = min(time_x, time_y)

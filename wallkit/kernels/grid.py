@@ -8,6 +8,9 @@ from wallkit.kernels.arcs import scan_arcs_disc, scan_arcs_point
 from wallkit.kernels.impact import scan_corners, scan_disc, scan_point
 from wallkit.kernels.jit import kernel
 
+SLOWEST = 2.0**-900
+"""Units per second; a flight that went on at it would not pass a unit."""
+
 
 @kernel
 def scan(model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature):
@@ -53,7 +56,8 @@ def home(model, grid, x, y):
     """Give the number of the cell that lists what a point at (x, y) touches."""
     if grid is None:
         return 0
-    return leaf(model.cells, grid, *place(grid, x, y))[0]
+    column, row = place(grid, x, y)
+    return leaf(model.cells, grid, column, row)[0]
 
 
 @kernel
@@ -67,11 +71,16 @@ def place(grid, x, y):
 
 @kernel
 def _unit(offset, count):
-    if offset <= 0.0:
-        return 0
-    if offset >= count:
-        return count - 1
-    return int(offset)
+    """Keep an offset in units within the grid, nothing at all (0 times inf) too; without branches."""
+    offset = offset if offset > 0.0 else 0.0
+    last = count - 1.0
+    return int(offset if offset < last else last)
+
+
+@kernel
+def inside(grid, column, row):
+    """Tell whether a place in units is within the grid."""
+    return (column >= 0) & (column < grid.columns << grid.shift) & (row >= 0) & (row < grid.rows << grid.shift)
 
 
 @kernel
@@ -88,7 +97,21 @@ def leaf(cells, grid, column, row):
 
 
 @kernel
-def clearing(grid, link, shift, number, count):
+def way_of(grid, per_u, per_w):
+    """Where in ``Model.clearings`` the squares begin that lie the way of a flight."""
+    return (int(per_u <= 0.0) + 2 * int(per_w <= 0.0)) * grid.columns * grid.rows
+
+
+@kernel
+def clearing(model, grid, way, column, row):
+    """The empty square ahead of a place in units, or its cell: (side in cells, and as ``leaf`` shift and cell)."""
+    side = int(model.clearings[way + (row >> grid.shift) * grid.columns + (column >> grid.shift)])
+    c, shift = leaf(model.cells, grid, column, row)
+    return side if side > 0 else int(model.cells[c].link), shift, c
+
+
+@kernel
+def around(link, shift, number, count):
     """Where the empty square around a cell, or the cell itself, begins and ends along one axis, in units.
 
     ``number`` is a column or row in the cell, ``count`` how many units there are.
@@ -99,65 +122,60 @@ def clearing(grid, link, shift, number, count):
 
 
 @kernel
+def per_speed(u):
+    """1 / u; almost no speed is taken for almost none to the left, so that it stays finite."""
+    return 1.0 / u if abs(u) > SLOWEST else -1.0 / SLOWEST
+
+
+@kernel
+def ahead(grid, side, shift, column, row, px, py, u, w, per_u, per_w):
+    """When a ball leaves a square, and where to: (time, column, row).
+
+    All in units: the ball is at p and flies with (u, w), of which the inverses are ``per_speed``; the square begins
+    with the cell of side 2^shift at (column, row) and is ``side`` of them wide, the way of the flight.
+
+    Beyond the border that it passes the column (or row) is a whole number, not a rounded one, so the walk never stands
+    still. The rounding of the other coordinate may choose the wrong one of two neighbours only where the path
+    passes their common border within rounding, and entries reach into their neighbours by far more (see
+    ``wallkit.indexing``).
+    """
+    right, up = int(per_u > 0.0), int(per_w > 0.0)  # in sums instead of branches, which no processor could foresee
+    border_x = ((column >> shift) + 1 - right + (2 * right - 1) * side) << shift
+    border_y = ((row >> shift) + 1 - up + (2 * up - 1) * side) << shift
+    exit_x, exit_y = (border_x - px) * per_u, (border_y - py) * per_w
+    sideways = int(exit_x < exit_y)
+    time = exit_x if exit_x < exit_y else exit_y
+    there_x = _unit(px + time * u, grid.columns << grid.shift)
+    there_y = _unit(py + time * w, grid.rows << grid.shift)
+    beyond_x = border_x - 1 + right
+    beyond_y = border_y - 1 + up
+    return time, there_x + sideways * (beyond_x - there_x), beyond_y + sideways * (there_y - beyond_y)
+
+
+@kernel
 def _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, feature):
     """Walk the cells along the flight, in order, until the best contact lies within what was walked.
 
-    Where a cell is left it is left for good: the column (or row) beyond its border is a whole number, not a rounded
-    one, and the other coordinate is kept within the cell. Its rounding may choose the wrong one of two neighbours only
-    where the path passes their common border within rounding, and entries reach into their neighbours by far
-    more (see ``wallkit.indexing``).
+    The cells at the border reach on without end, for balls that come from outside.
     """
     touched = 0
-    enter, leave = _clip(grid, x, y, vx, vy)
-    if enter > leave or enter > best:
-        return best, feature, touched
-    column, row = place(grid, x + enter * vx, y + enter * vy)
-    columns, rows = grid.columns << grid.shift, grid.rows << grid.shift
-    per_vx = 1.0 / vx if vx != 0.0 else math.inf
-    per_vy = 1.0 / vy if vy != 0.0 else math.inf
-    while 0 <= column < columns and 0 <= row < rows:
-        c, shift = leaf(model.cells, grid, column, row)
+    px, py, u, w = in_units(grid, x, y, vx, vy)
+    per_u, per_w = per_speed(u), per_speed(w)
+    way = way_of(grid, per_u, per_w)
+    column, row = place(grid, x, y)
+    time = -math.inf
+    while best > time and inside(grid, column, row):
+        side, shift, c = clearing(model, grid, way, column, row)
         best, feature, more = scan(
             model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature,
         )  # fmt: skip
         touched += more
-        link = int(model.cells[c].link)
-        left, right = clearing(grid, link, shift, column, columns)
-        low, high = clearing(grid, link, shift, row, rows)
-        exit_x = _leaving(grid.x0, grid.unit, right if vx > 0.0 else left, x, per_vx)
-        exit_y = _leaving(grid.y0, grid.unit, high if vy > 0.0 else low, y, per_vy)
-        if best <= min(exit_x, exit_y):
-            break
-        if exit_x < exit_y:
-            column = right if vx > 0.0 else left - 1
-            row = min(max(_unit((y + exit_x * vy - grid.y0) * grid.per_unit, rows), low), high - 1)
-        else:
-            row = high if vy > 0.0 else low - 1
-            column = min(max(_unit((x + exit_y * vx - grid.x0) * grid.per_unit, columns), left), right - 1)
+        time, column, row = ahead(grid, side, shift, column, row, px, py, u, w, per_u, per_w)
     return best, feature, touched
 
 
 @kernel
-def _leaving(origin, unit, border, p, per_v):
-    """Time at which a coordinate comes to a border, given in units."""
-    if abs(per_v) == math.inf:
-        return math.inf
-    return (origin + border * unit - p) * per_v
-
-
-@kernel
-def _clip(grid, x, y, vx, vy):
-    """Times at which the flight enters and leaves the grid's box; enter > leave if it misses it."""
-    enter_x, leave_x = _slab(grid.x0, grid.x0 + grid.unit * (grid.columns << grid.shift), x, vx)
-    enter_y, leave_y = _slab(grid.y0, grid.y0 + grid.unit * (grid.rows << grid.shift), y, vy)
-    return max(enter_x, enter_y, 0.0), min(leave_x, leave_y)
-
-
-@kernel
-def _slab(low, high, p, v):
-    """Times at which one coordinate enters and leaves an interval."""
-    if v == 0.0:
-        return (-math.inf, math.inf) if low <= p <= high else (math.inf, -math.inf)
-    first = (low - p) / v
-    second = (high - p) / v
-    return (first, second) if first < second else (second, first)
+def in_units(grid, x, y, vx, vy):
+    """Place and velocity in units from the grid's corner."""
+    per_unit = grid.per_unit
+    return (x - grid.x0) * per_unit, (y - grid.y0) * per_unit, vx * per_unit, vy * per_unit

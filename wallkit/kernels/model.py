@@ -175,6 +175,10 @@ class Model(NamedTuple):
     """``Cell``, and one more whose ``first`` ends the last; without a grid one cell lists all."""
     grid: Any
     """``Grid``, or None."""
+    clearings: Any
+    """For each way (right and up, left and up, right and down, left and down) and cell that is not part of another:
+    side of the largest square of cells that begins with it, goes that way, and lists nothing; 0 where it lists
+    something."""
     lines: Any
     """``Line`` by edge; the chord of an arc."""
     arcs: Any

@@ -1,0 +1,367 @@
+"""Many balls on their way through the grid: a wave of them, each stage for all of them together.
+
+A ball alone waits: for memory, for roots and quotients, and for the processor to find out which way a branch goes.
+Here every ball of a wave is one step further with every turn of the loop: all fetch what they look at next, all ask it
+for the time of impact, all find out when they leave their cell. The arithmetic has no branches and runs over flat
+arrays of floats, LANES for each number of a ball, so that vector instructions do it; what is fetched for one ball does
+not wait for another. Balls that cross into a cell, or turn at a wall, are listed and handled one by one; one that has
+ended makes room for another.
+
+The formulas are those of ``impact``, ``arcs`` and ``motion``, term by term: the same bits come out.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from wallkit.kernels.corner import settle
+from wallkit.kernels.flight import absorbs, ending_without, has_left, normal_of, passes, still_limit, tolerance_of
+from wallkit.kernels.grid import clearing, in_units, per_speed, place, way_of
+from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.model import (
+    ABSORBED,
+    AMBIGUOUS,
+    AT_REST,
+    BOUNCE_LIMIT,
+    COLLAPSE,
+    COLLAPSES,
+    LEFT_SCENE,
+    NO_HIT,
+    RUNNING,
+    TIME_REACHED,
+)
+from wallkit.kernels.motion import advance, reflect
+from wallkit.kernels.queue import NO_BALL, next_ball
+from wallkit.kernels.wave_impact import (
+    BEST,
+    BORDER_X,
+    BORDER_Y,
+    COLUMN,
+    DOES,
+    E0,
+    E1,
+    E2,
+    E3,
+    E4,
+    E5,
+    E6,
+    E7,
+    E8,
+    E9,
+    ENERGY,
+    FEATURE,
+    FLIES,
+    FLOATS,
+    FROM_VX,
+    FROM_VY,
+    FROM_X,
+    FROM_Y,
+    ID,
+    KIND,
+    LANES,
+    LAST,
+    LOST,
+    MORE,
+    NONE,
+    PER_U,
+    PER_W,
+    PX,
+    PY,
+    ROW,
+    TIME,
+    TOLERANCE,
+    TOUCHED,
+    VX,
+    VY,
+    U,
+    W,
+    X,
+    Y,
+    meet_arcs_disc,
+    meet_arcs_point,
+    meet_corners,
+    meet_lines_disc,
+    meet_lines_point,
+)  # fmt: skip
+
+NEXT, ARCS, CORNERS, END, LINE_LIST, ARC_LIST, CORNER_LIST, CROSSING, TURNING = (LANES * number for number in range(9))
+COUNTS = 9 * LANES
+BALL, BOUNCES, STILL, WAY = (LANES * number for number in range(4))
+INTEGERS = 4 * LANES
+LOOKS, CROSSES, TURNS = 0.0, 1.0, 2.0
+"""What a ball does next."""
+
+
+class WaveScratch(NamedTuple):
+    """Memory to work in: contents do not matter."""
+
+    floats: Any
+    """FLOATS floats, see ``wave_impact``."""
+    integers: Any
+    """INTEGERS signed integers."""
+    counts: Any
+    """COUNTS unsigned integers, which need no look whether they count from the end."""
+
+
+@kernel
+def _fetch(model, s, q):
+    """Find what every ball looks at next, and list it by kind: (lines, arcs, corners)."""
+    lines, arcs, corners = 0, 0, 0
+    for i in range(LANES):
+        k, end = q[NEXT + i], q[END + i]
+        is_line = int(k < q[ARCS + i])
+        is_arc = int(k < q[CORNERS + i]) - is_line
+        is_corner = int(k < end) - is_arc - is_line
+        q[LINE_LIST + lines] = i
+        q[ARC_LIST + arcs] = i
+        q[CORNER_LIST + corners] = i
+        lines += is_line
+        arcs += is_arc
+        corners += is_corner
+        s[ID + i] = float(model.ids[k])
+        s[KIND + i] = float(is_line + 2 * is_arc + 3 * is_corner)
+        s[MORE + i] = float(int(k + 1 < end))
+        q[NEXT + i] = k + int(k < end)
+    return lines, arcs, corners
+
+
+@kernel
+def _fetch_lines(model, s, q, count):
+    for k in range(count):
+        i = q[LINE_LIST + k]
+        line = model.lines[int(s[ID + i])]
+        s[E0 + i], s[E1 + i], s[E2 + i], s[E3 + i] = line.ax, line.ay, line.bx, line.by
+        s[E4 + i], s[E5 + i], s[E6 + i] = line.nx, line.ny, line.length
+
+
+@kernel
+def _fetch_corners(model, s, q, count):
+    for k in range(count):
+        i = q[CORNER_LIST + k]
+        corner = model.corners[int(s[ID + i])]
+        s[E0 + i], s[E1 + i] = corner.x, corner.y
+
+
+@kernel
+def _fetch_arcs(model, arcs, s, q, count):
+    if arcs is None:
+        return
+    for k in range(count):
+        i = q[ARC_LIST + k]
+        arc = arcs[model.arc_of_edge[int(s[ID + i])]]
+        s[E0 + i], s[E1 + i], s[E2 + i], s[E3 + i] = arc.ax, arc.ay, arc.bx, arc.by
+        s[E4 + i], s[E5 + i], s[E6 + i], s[E7 + i] = arc.sx, arc.sy, arc.fx, arc.fy
+        s[E8 + i], s[E9 + i] = arc.radius, arc.wide
+
+
+@kernel
+def _decide(s, grid):
+    """Find when every ball leaves its cell, and what it does next: look on, cross into the next cell, or turn.
+
+    As ``grid.ahead`` does, with the borders of the cell (or clearing) as they are.
+    """
+    columns, rows = float(grid.columns << grid.shift), float(grid.rows << grid.shift)
+    for i in range(LANES):
+        px, py, u, w, per_u, per_w = s[PX + i], s[PY + i], s[U + i], s[W + i], s[PER_U + i], s[PER_W + i]
+        border_x, border_y = s[BORDER_X + i], s[BORDER_Y + i]
+        exit_x, exit_y = (border_x - px) * per_u, (border_y - py) * per_w
+        sideways = exit_x < exit_y
+        time = exit_x if sideways else exit_y
+        there_x, there_y = px + time * u, py + time * w
+        there_x = there_x if there_x > 0.0 else 0.0
+        there_y = there_y if there_y > 0.0 else 0.0
+        there_x = there_x if there_x < columns - 1.0 else columns - 1.0
+        there_y = there_y if there_y < rows - 1.0 else rows - 1.0
+        column = (border_x if per_u > 0.0 else border_x - 1.0) if sideways else there_x
+        row = there_y if sideways else (border_y if per_w > 0.0 else border_y - 1.0)
+        outside = (column < 0.0) | (column >= columns) | (row < 0.0) | (row >= rows)
+        s[COLUMN + i], s[ROW + i] = column, row
+        does = TURNS if outside | (s[BEST + i] <= time) else CROSSES
+        s[DOES + i] = does if (s[MORE + i] == 0.0) & (s[FLIES + i] == 1.0) else LOOKS
+
+
+@kernel
+def _list(s, q):
+    """List the balls that cross into a cell, and those that turn: (how many cross, how many turn)."""
+    crossing, turning = 0, 0
+    for i in range(LANES):
+        q[CROSSING + crossing] = i
+        q[TURNING + turning] = i
+        crossing += int(s[DOES + i] == CROSSES)
+        turning += int(s[DOES + i] == TURNS)
+    return crossing, turning
+
+
+@kernel
+def _cross(model, s, n, q, i):
+    """Enter the cell, or the clearing, at the column and row of a ball."""
+    grid, cells = model.grid, model.cells
+    column, row = int(s[COLUMN + i]), int(s[ROW + i])
+    side, shift, cell = clearing(model, grid, n[WAY + i], column, row)
+    q[NEXT + i], q[ARCS + i], q[CORNERS + i] = cells[cell].first, cells[cell].arcs, cells[cell].corners
+    q[END + i] = cells[cell + 1].first
+    right, up = int(s[PER_U + i] > 0.0), int(s[PER_W + i] > 0.0)
+    s[BORDER_X + i] = float(((column >> shift) + 1 - right + (2 * right - 1) * side) << shift)
+    s[BORDER_Y + i] = float(((row >> shift) + 1 - up + (2 * up - 1) * side) << shift)
+
+
+@kernel
+def _set_out(model, s, n, q, i, until):
+    """Begin a flight: nothing met so far, in the cell where the ball is."""
+    grid = model.grid
+    s[BEST + i] = (until - s[TIME + i]) - s[LOST + i]
+    s[FEATURE + i] = NONE
+    s[TOUCHED + i] = 0.0
+    px, py, u, w = in_units(grid, s[X + i], s[Y + i], s[VX + i], s[VY + i])
+    per_u, per_w = per_speed(u), per_speed(w)
+    s[PX + i], s[PY + i], s[U + i], s[W + i], s[PER_U + i], s[PER_W + i] = px, py, u, w, per_u, per_w
+    n[WAY + i] = way_of(grid, per_u, per_w)
+    column, row = place(grid, s[X + i], s[Y + i])
+    s[COLUMN + i], s[ROW + i] = float(column), float(row)
+    _cross(model, s, n, q, i)
+
+
+@kernel
+def _turn(model, radius, s, n, i, until, limit, hits):
+    """Take a ball to what it meets and turn it there, as ``flight.fly`` does: an ending, or RUNNING."""
+    x, y, vx, vy, time, lost = s[X + i], s[Y + i], s[VX + i], s[VY + i], s[TIME + i], s[LOST + i]
+    t, feature = s[BEST + i], int(s[FEATURE + i])
+    if radius is None:
+        if s[TOUCHED + i] > 0.0 and s[LAST + i] >= 0.0:
+            met = _settle(model, s, n, i)
+            if met != NO_HIT:
+                t, feature = 0.0, met
+    if feature in (NO_HIT, AMBIGUOUS, COLLAPSES):
+        return ending_without(None, feature, until)
+    n[STILL + i] = 0 if passes(time, t, t, vx, vy, s[TOLERANCE + i]) else n[STILL + i] + 1
+    if n[STILL + i] > still_limit(model.restitution):
+        return COLLAPSE
+    if t > 0.0:
+        s[FROM_X + i], s[FROM_Y + i], s[FROM_VX + i], s[FROM_VY + i] = x, y, vx, vy
+        x, y = x + t * vx, y + t * vy
+        time, lost = advance(time, lost, t)
+    nx, ny, twice, wall = normal_of(model, feature, x, y)
+    vx, vy, energy = reflect(model.restitution, wall, nx, ny, twice, vx, vy, s[ENERGY + i])
+    s[X + i], s[Y + i], s[VX + i], s[VY + i], s[TIME + i], s[LOST + i] = x, y, vx, vy, time, lost
+    s[ENERGY + i], s[LAST + i] = energy, float(feature)
+    n[BOUNCES + i] += 1
+    hits[wall] += 1
+    if absorbs(model.restitution, wall):
+        return ABSORBED
+    if energy <= 0.0:
+        return AT_REST
+    return BOUNCE_LIMIT if n[BOUNCES + i] >= limit else RUNNING
+
+
+@rare_kernel
+def _settle(model, s, n, i):
+    """Settle a point in a corner, as ``flight.fly`` does."""
+    return settle(
+        model, int(s[LAST + i]), s[X + i], s[Y + i], s[VX + i], s[VY + i],
+        s[FROM_X + i], s[FROM_Y + i], s[FROM_VX + i], s[FROM_VY + i], s[TOLERANCE + i], n[STILL + i],
+    )  # fmt: skip
+
+
+@kernel
+def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outcome, scratch):
+    """Fly balls of one radius until none is left; as ``flight.fly`` does.
+
+    Args:
+        model: the scene; with a grid, without gravity, damping or one-sided walls.
+        radius: of all balls; None for points.
+        start: the balls, see ``Start``.
+        order: of the balls, best neighbours one after the other.
+        queue: which places in the order are to fly, see ``Queue``.
+        stop: the place after the last.
+        until: time at which to stop, or inf.
+        limit: number of bounces at which to stop.
+        hits: bounces by wall, added to.
+        outcome: written for these balls, see ``Outcome``.
+        scratch: see ``WaveScratch``.
+    """
+    s, n, q = scratch.floats, scratch.integers, scratch.counts
+    for k in range(FLOATS):
+        s[k] = 0.0
+    for k in range(COUNTS):
+        q[k] = 0
+    flying = 0
+    for i in range(LANES):
+        s[ENERGY + i] = 1.0
+        flying += _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, outcome)
+    while flying > 0:
+        _meet(model, radius, s, q)
+        _decide(s, model.grid)
+        crossing, turning = _list(s, q)
+        for k in range(crossing):
+            _cross(model, s, n, q, q[CROSSING + k])
+        for k in range(turning):
+            i = q[TURNING + k]
+            ending = _turn(model, radius, s, n, i, until, limit, hits)
+            if ending == RUNNING:
+                _set_out(model, s, n, q, i, until)
+                continue
+            _store(radius, s, n, i, start, until, ending, outcome)
+            flying += _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, outcome) - 1
+
+
+@kernel
+def _meet(model, radius, s, q):
+    """Let every ball look at the next line, arc or corner of its cell."""
+    lines, arcs, corners = _fetch(model, s, q)
+    if lines > 0:
+        _fetch_lines(model, s, q, lines)
+        if radius is None:
+            meet_lines_point(s)
+        else:
+            meet_lines_disc(s, radius)
+    if arcs > 0:
+        _fetch_arcs(model, model.arcs, s, q, arcs)
+        if radius is None:
+            meet_arcs_point(s)
+        else:
+            meet_arcs_disc(s, radius)
+    if corners > 0:
+        if radius is not None:
+            _fetch_corners(model, s, q, corners)
+            meet_corners(s, radius)
+
+
+@kernel
+def _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, outcome):
+    """Give a lane the next ball that flies at all, if there is one: 1 or 0."""
+    while True:
+        upcoming = next_ball(queue, stop)
+        if upcoming == NO_BALL:
+            break
+        ball = order[upcoming]
+        x, y = start.position[ball, 0] - start.origin[0], start.position[ball, 1] - start.origin[1]
+        vx, vy = start.velocity[ball, 0], start.velocity[ball, 1]
+        energy = vx * vx + vy * vy
+        s[X + i], s[Y + i], s[VX + i], s[VY + i], s[TIME + i], s[LOST + i] = x, y, vx, vy, 0.0, 0.0
+        s[FROM_X + i], s[FROM_Y + i], s[FROM_VX + i], s[FROM_VY + i] = x, y, vx, vy
+        s[TOLERANCE + i] = tolerance_of(x, y, start.extent)
+        s[LAST + i], n[BOUNCES + i], n[STILL + i], n[BALL + i] = NONE, 0, 0, ball
+        if energy > 0.0 and limit > 0:
+            s[ENERGY + i], s[FLIES + i] = energy, 1.0
+            _set_out(model, s, n, q, i, until)
+            return 1
+        _store(radius, s, n, i, start, until, AT_REST if energy <= 0.0 else BOUNCE_LIMIT, outcome)
+    s[FLIES + i] = 0.0
+    q[NEXT + i], q[ARCS + i], q[CORNERS + i], q[END + i] = 0, 0, 0, 0
+    return 0
+
+
+@kernel
+def _store(radius, s, n, i, start, until, ending, outcome):
+    """Write where a ball has ended, flown on to the end time if that is why."""
+    ball = n[BALL + i]
+    x, y, vx, vy, time = s[X + i], s[Y + i], s[VX + i], s[VY + i], s[TIME + i] + s[LOST + i]
+    if ending == TIME_REACHED and s[BEST + i] > 0.0:
+        x, y, time = x + s[BEST + i] * vx, y + s[BEST + i] * vy, until
+    x, y = x + start.origin[0], y + start.origin[1]
+    outcome.position[ball, 0], outcome.position[ball, 1] = x, y
+    outcome.velocity[ball, 0], outcome.velocity[ball, 1] = vx, vy
+    outcome.time[ball] = time
+    outcome.bounces[ball] = n[BOUNCES + i]
+    gone = ending == TIME_REACHED and has_left(start.box, 0.0 if radius is None else radius, x, y, vx, vy)
+    outcome.ending[ball] = LEFT_SCENE if gone else ending
