@@ -240,11 +240,11 @@ def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:
 
 
 def _parts(work: _Work, level: _Level, cells: IntArray, finest: float) -> NDArray[Any]:
-    """Make a block of each cell, with about as many parts as it has entries."""
+    """Make a block of each cell, with a quarter as many parts as it has entries, or as many."""
     parents, numbers = level.block_of(cells), level.numbers
     entries = numbers[cells + 1, 0] - numbers[cells, 0]
     room = np.floor(np.log2(parents["side"] / finest))
-    bits = np.clip(np.rint(np.log2(entries) / 2), 1, np.minimum(room, MOST_BITS)).astype(np.int64)
+    bits = np.clip(np.floor(np.log2(entries) / 2), 1, np.minimum(room, MOST_BITS)).astype(np.int64)
     row, column = np.divmod(cells - parents["first"], parents["columns"])
     blocks = np.zeros(len(cells), dtype=BLOCK)
     blocks["x0"], blocks["y0"] = (parents[o] + at * parents["side"] for o, at in (("x0", column), ("y0", row)))
