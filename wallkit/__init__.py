@@ -25,10 +25,11 @@ if TYPE_CHECKING:
     from importers.problems import Problem
     from importers.read import read_drawing, read_drawing_text
     from importers.svg.from_svgpathtools import drawing_from_svgpathtools
+    from wallkit.preparing import Prepared, prepare
     from wallkit.run import Ending, Kind, Run
     from wallkit.scene import Balls, Scene, SceneError
     from wallkit.simulation import simulate
-    from wallkit.surveys import Prepared, Totals, prepare, survey
+    from wallkit.surveys import Totals, survey
     from wallkit.walls import Material, Wall, Walls
     from wallkit.walls.build import import_walls
     from wallkit.world import World
@@ -43,7 +44,8 @@ _HOMES = {
     "wallkit.run": ("Ending", "Kind", "Run"),
     "wallkit.scene": ("Balls", "Scene", "SceneError"),
     "wallkit.simulation": ("simulate",),
-    "wallkit.surveys": ("Prepared", "Totals", "prepare", "survey"),
+    "wallkit.preparing": ("Prepared", "prepare"),
+    "wallkit.surveys": ("Totals", "survey"),
     "wallkit.walls": ("Material", "Wall", "Walls"),
     "wallkit.walls.build": ("import_walls",),
     "wallkit.world": ("World",),

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from wallkit.preparing import prepare, prepare_again
 from wallkit.scene import Balls, Scene
-from wallkit.surveys import Totals, prepare, prepare_again, survey
+from wallkit.surveys import Totals, survey
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from wallkit import Balls, Scene, Walls, survey
 from wallkit.indexing import AT_LEAST, CROWDED, GROWTH
 from wallkit.kernels.grid import home, leaf
 from wallkit.modelling import Modelled
-from wallkit.surveys import Prepared
+from wallkit.preparing import Prepared
 
 ROOM = np.array([[0.0, 0.0], [400.0, 0.0], [400.0, 300.0], [0.0, 300.0]])
 

@@ -7,8 +7,9 @@ import pytest
 
 from wallkit import Balls, Ending, Scene, Walls, survey
 from wallkit.accuracy import scenes
+from wallkit.flying import WORTH_LOCKSTEP, suits_lockstep
 from wallkit.kernels.lockstep import LANES
-from wallkit.surveys import WORTH_LOCKSTEP, prepare, suits_lockstep
+from wallkit.preparing import prepare
 
 BOX = [[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]]
 ROOM = Walls.from_polylines(

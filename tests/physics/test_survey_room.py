@@ -7,7 +7,7 @@ from wallkit import Balls, Scene, SceneError, Walls, prepare
 from wallkit.clearance import check_starts
 from wallkit.kernels.room import all_clear, all_clear_in_cells
 from wallkit.modelling import Modelled
-from wallkit.surveys import ball_cells
+from wallkit.preparing import ball_cells
 
 WALLS = Walls.from_polylines(
     [[[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]], [[18.0, 13.0], [22.0, 16.0]], [[30.0, 5.0], [30.0, 5.0]]],

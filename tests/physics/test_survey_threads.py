@@ -10,8 +10,8 @@ import pytest
 
 from wallkit import Balls, Scene, Walls, survey
 from wallkit.accuracy import scenes
+from wallkit.flying import AT_ONCE
 from wallkit.kernels.queue import BLOCK, NO_BALL, Queue, next_ball
-from wallkit.surveys import AT_ONCE
 from wallkit.threads import in_threads
 
 

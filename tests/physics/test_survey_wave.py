@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wallkit import Balls, Ending, Material, Scene, Walls, survey
-from wallkit.surveys import WORTH_A_WAVE, prepare, suits_wave
+from wallkit.flying import WORTH_A_WAVE, suits_wave
+from wallkit.preparing import prepare
 
 COUNT = 3 * WORTH_A_WAVE + 7
 
