@@ -34,8 +34,8 @@ FINE, COARSE, PER_EDGE = 0.2, 0.6, 0.8
 """Side of the cells before any is divided, measured: 0.8 of the mean length of an edge, so that a cell that lists
 something lists one or two. In units of sqrt(area / edges) it is at least 0.2 (25 cells an edge; more fall out of the
 cache), and at most 0.6 (where edges are long and many meet)."""
-MOST_CELLS = 2.0**20
-"""Beyond this many there are at most five an edge."""
+MOST_CELLS = 2.0**18
+"""Beyond this many, which a cache may hold, there are at most two an edge: no slower to fly among, quicker to make."""
 CROWDED = 16
 """A cell with more entries is divided."""
 MOST_BITS = 7
@@ -205,7 +205,7 @@ def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Lev
 def _side(width: float, height: float, count: int, length: float, fine: bool) -> float:
     longest, even = max(width, height), math.sqrt(width * height / count)
     side = max(FINE * even, min(COARSE * even, PER_EDGE * length)) if fine else COARSE * even
-    least = math.sqrt(width * height / max(MOST_CELLS, 5.0 * count))
+    least = math.sqrt(width * height / max(MOST_CELLS, 2.0 * count))
     return max(side, least, longest / (4.0 * count + 64.0), longest * 2.0**-20)
 
 
