@@ -21,6 +21,9 @@ from wallkit.walls import Walls
 IntArray = NDArray[np.int64]
 BRUTE_FORCE = 16
 """Up to this many edges looking at all of them beats any index."""
+FAR = 2.0**20
+"""Extents from which a ball may come if there is to be an index: the rounding of its place (2^-50 of the way) is then
+below a part in 2^30 of the scene. For one from farther away all edges are asked."""
 
 
 class Modelled:
@@ -90,6 +93,8 @@ class Modelled:
         if model.one_sided is not None:
             least = 0.0  # a disc may stand across a wall that it came through
         farthest = float(np.abs(np.asarray(scene.balls.position) - self.origin).max(initial=model.extent))
+        if farthest > FAR * model.extent:
+            return model
         box = np.array(self.box).reshape(2, 2) - self.origin
         grid, cells, ids, clearings = build_grid(
             model, corners.fans, box, (least, radius), farthest, machine_code=machine_code, fine=fine

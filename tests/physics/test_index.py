@@ -224,3 +224,16 @@ def test_a_large_ball_over_tiny_edges_keeps_to_the_budget():
     bare, model = (modelled(walls, 5.0, index=index, machine_code=True).model for index in ("none", "grid"))
     assert len(model.ids) <= GROWTH * len(bare.ids) + AT_LEAST
     assert np.median(entries(model)) <= CROWDED
+
+
+@pytest.mark.parametrize("far", [1e6, 1e12, 1e150, 1e308])
+@pytest.mark.parametrize("bulge", [0.0, 0.4])
+def test_balls_may_come_from_anywhere(far, bulge):
+    walls = clustered([(100.0, 100.0, 0.02, 60, 0.3), (200.0, 90.0, 20.0, 40, 0.0)], bulge)
+    position = far * np.array([[1.0, 1.0], [-1.0, 0.5], [0.0, -1.0], [1e-9, 1.0]])
+    velocity = -position / np.abs(position).max(axis=1, keepdims=True)
+    for radius in (0.0, 1.0):
+        scene = Scene(walls, Balls(position, velocity, radius))
+        with_index, without = totals(scene, "grid"), totals(scene, "none")
+        for name in ("bounces", "position", "velocity", "time", "hits", "ending"):
+            assert getattr(with_index, name).tobytes() == getattr(without, name).tobytes(), name
