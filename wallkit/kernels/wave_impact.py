@@ -18,11 +18,11 @@ LANES = 32
 """So few that a wave stays in the nearest cache, beside what it looks at."""
 (
     X, Y, VX, VY, TIME, LOST, ENERGY, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE,
-    LAST, BEST, FEATURE, TOUCHED, ID, KIND, FLIES, MORE,
-    PX, PY, U, W, PER_U, PER_W, BORDER_X, BORDER_Y, COLUMN, ROW, DOES,
+    LAST, BEST, FEATURE, TOUCHED, ID, KIND, FLIES,
+    PX, PY, U, W, PER_U, PER_W, BORDER_X, BORDER_Y, COLUMN, ROW,
     E0, E1, E2, E3, E4, E5, E6, E7, E8, E9,
-) = (LANES * number for number in range(41))  # fmt: skip
-FLOATS = 41 * LANES
+) = (LANES * number for number in range(39))  # fmt: skip
+FLOATS = 39 * LANES
 NONE = float(NO_HIT)
 LINE, ARC, CORNER = 1.0, 2.0, 3.0
 """Kinds of what a ball looks at; 0 for nothing."""

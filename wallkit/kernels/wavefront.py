@@ -2,10 +2,10 @@
 
 A ball alone waits: for memory, for roots and quotients, and for the processor to find out which way a branch goes.
 Here every ball of a wave is one step further with every turn of the loop: all fetch what they look at next, all ask it
-for the time of impact, all find out when they leave their cell. The arithmetic has no branches and runs over flat
-arrays of floats, LANES for each number of a ball, so that vector instructions do it; what is fetched for one ball does
-not wait for another. Balls that cross into a cell, or turn at a wall, are listed and handled one by one; one that has
-ended makes room for another.
+for the time of impact, all find out when they leave their cell, all cross into clearings. The arithmetic has no
+branches and runs over flat arrays, LANES for each number of a ball, so that vector instructions do it; what is fetched
+for one ball does not wait for another. Balls that enter a cell which lists something, or turn at a wall, are listed and
+handled one by one; one that has ended makes room for another.
 
 The formulas are those of ``impact``, ``arcs`` and ``motion``, term by term: the same bits come out.
 """
@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from wallkit.kernels.corner import settle
 from wallkit.kernels.flight import absorbs, ending_without, has_left, normal_of, passes, still_limit, tolerance_of
-from wallkit.kernels.grid import clearing, in_units, per_speed, place, way_of
+from wallkit.kernels.grid import in_units, leaf, per_speed, place, way_of
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import (
     ABSORBED,
@@ -37,7 +37,6 @@ from wallkit.kernels.wave_impact import (
     BORDER_X,
     BORDER_Y,
     COLUMN,
-    DOES,
     E0,
     E1,
     E2,
@@ -61,7 +60,6 @@ from wallkit.kernels.wave_impact import (
     LANES,
     LAST,
     LOST,
-    MORE,
     NONE,
     PER_U,
     PER_W,
@@ -84,12 +82,13 @@ from wallkit.kernels.wave_impact import (
     meet_lines_point,
 )  # fmt: skip
 
-NEXT, ARCS, CORNERS, END, LINE_LIST, ARC_LIST, CORNER_LIST, CROSSING, TURNING = (LANES * number for number in range(9))
-COUNTS = 9 * LANES
-BALL, BOUNCES, STILL, WAY = (LANES * number for number in range(4))
-INTEGERS = 4 * LANES
-LOOKS, CROSSES, TURNS = 0.0, 1.0, 2.0
-"""What a ball does next."""
+(
+    NEXT, ARCS, CORNERS, END, WAY, AT, SIDE, SIZE, CROSSES, TURNS,
+    LINE_LIST, ARC_LIST, CORNER_LIST, ENTERING, TURNING,
+) = (LANES * number for number in range(15))  # fmt: skip
+COUNTS = 15 * LANES
+BALL, BOUNCES, STILL = (LANES * number for number in range(3))
+INTEGERS = 3 * LANES
 
 
 class WaveScratch(NamedTuple):
@@ -120,7 +119,6 @@ def _fetch(model, s, q):
         corners += is_corner
         s[ID + i] = float(model.ids[k])
         s[KIND + i] = float(is_line + 2 * is_arc + 3 * is_corner)
-        s[MORE + i] = float(int(k + 1 < end))
         q[NEXT + i] = k + int(k < end)
     return lines, arcs, corners
 
@@ -155,10 +153,11 @@ def _fetch_arcs(model, arcs, s, q, count):
 
 
 @kernel
-def _decide(s, grid):
+def _decide(s, q, grid):
     """Find when every ball leaves its cell, and what it does next: look on, cross into the next cell, or turn.
 
-    As ``grid.ahead`` does, with the borders of the cell (or clearing) as they are.
+    As ``grid.ahead`` does, with the borders of the cell (or clearing) as they are. Also where the next cell is in
+    ``Model.clearings``: some place within for balls that do not cross, too, for all of them look there.
     """
     columns, rows = float(grid.columns << grid.shift), float(grid.rows << grid.shift)
     for i in range(LANES):
@@ -172,41 +171,64 @@ def _decide(s, grid):
         there_y = there_y if there_y > 0.0 else 0.0
         there_x = there_x if there_x < columns - 1.0 else columns - 1.0
         there_y = there_y if there_y < rows - 1.0 else rows - 1.0
-        column = (border_x if per_u > 0.0 else border_x - 1.0) if sideways else there_x
-        row = there_y if sideways else (border_y if per_w > 0.0 else border_y - 1.0)
-        outside = (column < 0.0) | (column >= columns) | (row < 0.0) | (row >= rows)
-        s[COLUMN + i], s[ROW + i] = column, row
-        does = TURNS if outside | (s[BEST + i] <= time) else CROSSES
-        s[DOES + i] = does if (s[MORE + i] == 0.0) & (s[FLIES + i] == 1.0) else LOOKS
+        x = (border_x if per_u > 0.0 else border_x - 1.0) if sideways else there_x
+        y = there_y if sideways else (border_y if per_w > 0.0 else border_y - 1.0)
+        outside = (x < 0.0) | (x >= columns) | (y < 0.0) | (y >= rows)
+        turns = outside | (s[BEST + i] <= time)
+        goes = (s[FLIES + i] == 1.0) & (q[NEXT + i] >= q[END + i])
+        column, row = int(0.0 if outside else x), int(0.0 if outside else y)
+        s[COLUMN + i], s[ROW + i] = float(column), float(row)
+        q[AT + i] = q[WAY + i] + (row >> grid.shift) * grid.columns + (column >> grid.shift)
+        q[CROSSES + i] = int(goes & (not turns))
+        q[TURNS + i] = int(goes & turns)
 
 
 @kernel
-def _list(s, q):
-    """List the balls that cross into a cell, and those that turn: (how many cross, how many turn)."""
-    crossing, turning = 0, 0
+def _list_turning(q):
+    """List the balls that turn: how many."""
+    turning = 0
     for i in range(LANES):
-        q[CROSSING + crossing] = i
         q[TURNING + turning] = i
-        crossing += int(s[DOES + i] == CROSSES)
-        turning += int(s[DOES + i] == TURNS)
-    return crossing, turning
+        turning += q[TURNS + i]
+    return turning
 
 
 @kernel
-def _cross(model, s, n, q, i):
-    """Enter the cell, or the clearing, at the column and row of a ball."""
+def _list_entering(model, q):
+    """Find the clearings that balls cross into, and list those that cross into a cell instead: how many."""
+    entering, size = 0, 1 << model.grid.shift
+    for i in range(LANES):
+        side = model.clearings[q[AT + i]]
+        q[SIDE + i], q[SIZE + i] = side, size
+        q[ENTERING + entering] = i
+        entering += int(q[CROSSES + i] > side)
+    return entering
+
+
+@kernel
+def _enter(model, s, q, i):
+    """Enter the cell at the column and row of a ball."""
     grid, cells = model.grid, model.cells
-    column, row = int(s[COLUMN + i]), int(s[ROW + i])
-    side, shift, cell = clearing(model, grid, n[WAY + i], column, row)
+    cell, shift = leaf(cells, grid, int(s[COLUMN + i]), int(s[ROW + i]))
     q[NEXT + i], q[ARCS + i], q[CORNERS + i] = cells[cell].first, cells[cell].arcs, cells[cell].corners
     q[END + i] = cells[cell + 1].first
-    right, up = int(s[PER_U + i] > 0.0), int(s[PER_W + i] > 0.0)
-    s[BORDER_X + i] = float(((column >> shift) + 1 - right + (2 * right - 1) * side) << shift)
-    s[BORDER_Y + i] = float(((row >> shift) + 1 - up + (2 * up - 1) * side) << shift)
+    q[SIDE + i], q[SIZE + i] = cells[cell].link, 1 << shift
 
 
 @kernel
-def _set_out(model, s, n, q, i, until):
+def _border(s, q):
+    """Find the borders ahead of the balls that have crossed into a cell or clearing, as ``grid.ahead`` does."""
+    for i in range(LANES):
+        crosses, size, side = q[CROSSES + i] > 0, q[SIZE + i], q[SIDE + i]
+        column, row = int(s[COLUMN + i]) & -int(size), int(s[ROW + i]) & -int(size)
+        far, near = float(size * side), float(size) - float(size * side)
+        x, y = float(column) + (far if s[PER_U + i] > 0.0 else near), float(row) + (far if s[PER_W + i] > 0.0 else near)
+        s[BORDER_X + i] = x if crosses else s[BORDER_X + i]
+        s[BORDER_Y + i] = y if crosses else s[BORDER_Y + i]
+
+
+@kernel
+def _set_out(model, s, q, i, until):
     """Begin a flight: nothing met so far, in the cell where the ball is."""
     grid = model.grid
     s[BEST + i] = (until - s[TIME + i]) - s[LOST + i]
@@ -215,10 +237,12 @@ def _set_out(model, s, n, q, i, until):
     px, py, u, w = in_units(grid, s[X + i], s[Y + i], s[VX + i], s[VY + i])
     per_u, per_w = per_speed(u), per_speed(w)
     s[PX + i], s[PY + i], s[U + i], s[W + i], s[PER_U + i], s[PER_W + i] = px, py, u, w, per_u, per_w
-    n[WAY + i] = way_of(grid, per_u, per_w)
+    way = way_of(grid, per_u, per_w)
     column, row = place(grid, s[X + i], s[Y + i])
     s[COLUMN + i], s[ROW + i] = float(column), float(row)
-    _cross(model, s, n, q, i)
+    q[WAY + i] = way
+    q[AT + i] = way + (row >> grid.shift) * grid.columns + (column >> grid.shift)
+    q[CROSSES + i] = 1
 
 
 @kernel
@@ -288,20 +312,27 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
     for i in range(LANES):
         s[ENERGY + i] = 1.0
         flying += _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, outcome)
+    _cross(model, s, q)
     while flying > 0:
         _meet(model, radius, s, q)
-        _decide(s, model.grid)
-        crossing, turning = _list(s, q)
-        for k in range(crossing):
-            _cross(model, s, n, q, q[CROSSING + k])
-        for k in range(turning):
+        _decide(s, q, model.grid)
+        for k in range(_list_turning(q)):
             i = q[TURNING + k]
             ending = _turn(model, radius, s, n, i, until, limit, hits)
             if ending == RUNNING:
-                _set_out(model, s, n, q, i, until)
+                _set_out(model, s, q, i, until)
                 continue
             _store(radius, s, n, i, start, until, ending, outcome)
             flying += _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, outcome) - 1
+        _cross(model, s, q)
+
+
+@kernel
+def _cross(model, s, q):
+    """Let balls cross into clearings and cells."""
+    for k in range(_list_entering(model, q)):
+        _enter(model, s, q, q[ENTERING + k])
+    _border(s, q)
 
 
 @kernel
@@ -343,10 +374,10 @@ def _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, o
         s[LAST + i], n[BOUNCES + i], n[STILL + i], n[BALL + i] = NONE, 0, 0, ball
         if energy > 0.0 and limit > 0:
             s[ENERGY + i], s[FLIES + i] = energy, 1.0
-            _set_out(model, s, n, q, i, until)
+            _set_out(model, s, q, i, until)
             return 1
         _store(radius, s, n, i, start, until, AT_REST if energy <= 0.0 else BOUNCE_LIMIT, outcome)
-    s[FLIES + i] = 0.0
+    s[FLIES + i], q[CROSSES + i] = 0.0, 0
     q[NEXT + i], q[ARCS + i], q[CORNERS + i], q[END + i] = 0, 0, 0, 0
     return 0
 
