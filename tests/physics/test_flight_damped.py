@@ -5,7 +5,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from wallkit import Balls, Material, Scene, SceneError, Walls, World, simulate, survey
@@ -254,6 +254,7 @@ positive = st.floats(1e-6, 1e6)
 
 
 @settings(deadline=None)
+@example(drags=True, energy=1.0, much=0.5, part=5e-324, span=1.0)
 @given(st.booleans(), positive, positive, st.floats(0.0, math.nextafter(1.0, 0.0)), positive | st.just(math.inf))
 def test_the_clock_is_the_same_interpreted_and_compiled_and_right(drags, much, energy, part, span):
     damping = (0.0, much) if drags else (much, 0.0)
@@ -280,4 +281,5 @@ def test_the_clock_is_the_same_interpreted_and_compiled_and_right(drags, much, e
         doubt = 4 * 2.0**-53 / left  # what one rounding of t is worth, the closer to the stop the more
         assert abs(free - exact_free) <= 2.0**-49 * exact_free
         assert abs(kept - exact_kept) <= (doubt + 2.0**-51) * exact_kept
-        assert abs(passed - exact_passed) <= (doubt + 2.0**-50) * max(exact_passed, t)
+        least = 2.0**-1000  # products of subnormal numbers have no digits
+        assert abs(passed - exact_passed) <= (doubt + 2.0**-50) * max(exact_passed, t) + least
