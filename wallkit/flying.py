@@ -15,9 +15,9 @@ from wallkit.kernels.jit import compiled
 from wallkit.kernels.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start, fly_in_step
 from wallkit.kernels.model import LOG_STRIDE, STATE_SIZE, Model
 from wallkit.kernels.queue import Queue
-from wallkit.kernels.wave_impact import FLOATS
+from wallkit.kernels.wave_impact import COUNTS, FLOATS
 from wallkit.kernels.wave_impact import LANES as WAVE
-from wallkit.kernels.wavefront import COUNTS, INTEGERS, WaveScratch, fly_wave
+from wallkit.kernels.wavefront import INTEGERS, WaveScratch, fly_wave
 from wallkit.preparing import Prepared
 from wallkit.scene import FloatArray
 from wallkit.simulation import START, initial_states

@@ -18,14 +18,19 @@ LANES = 32
 """So few that a wave stays in the nearest cache, beside what it looks at."""
 (
     X, Y, VX, VY, TIME, LOST, ENERGY, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE,
-    LAST, BEST, FEATURE, TOUCHED, ID, KIND, FLIES,
+    LAST, BEST, FEATURE, TOUCHED, ID, FLIES,
     PX, PY, U, W, PER_U, PER_W, BORDER_X, BORDER_Y, COLUMN, ROW,
     E0, E1, E2, E3, E4, E5, E6, E7, E8, E9,
-) = (LANES * number for number in range(39))  # fmt: skip
-FLOATS = 39 * LANES
+) = (LANES * number for number in range(38))  # fmt: skip
+FLOATS = 38 * LANES
 NONE = float(NO_HIT)
-LINE, ARC, CORNER = 1.0, 2.0, 3.0
-"""Kinds of what a ball looks at; 0 for nothing."""
+(
+    NEXT, ARCS, CORNERS, END, WAY, AT, SIDE, SIZE, CROSSES, TURNS,
+    LINE_LIST, ARC_LIST, CORNER_LIST, ENTERING, TURNING,
+) = (LANES * number for number in range(15))  # fmt: skip
+COUNTS = 15 * LANES
+"""NEXT: place in ``Model.ids`` of what a ball looks at: a line before that in ARCS, an arc before that in CORNERS,
+a corner before that in END, else nothing. Whether a ball CROSSES or TURNS is 1 or 0; the lists are of lanes."""
 
 
 @kernel
@@ -35,7 +40,7 @@ def _edge_is_sooner(t, edge, best, feature):
 
 
 @kernel
-def meet_lines_point(s):
+def meet_lines_point(s, q):
     """Let every point ask its line, as ``impact.scan_point`` does."""
     for i in range(LANES):
         x, y, vx, vy = s[X + i], s[Y + i], s[VX + i], s[VY + i]
@@ -44,7 +49,7 @@ def meet_lines_point(s):
         ex, ey = s[E0 + i] - x, s[E1 + i] - y
         d = -(ex * nx + ey * ny)
         u = ex * ny - ey * nx
-        asked = (s[KIND + i] == LINE) & (s[LAST + i] != number)
+        asked = (q[NEXT + i] < q[ARCS + i]) & (s[LAST + i] != number)
         near = (abs(d) <= tolerance) & (u >= -tolerance) & (u <= length + tolerance)
         cross_a = ex * vy - ey * vx
         cross_b = (s[E2 + i] - x) * vy - (s[E3 + i] - y) * vx
@@ -62,7 +67,7 @@ def meet_lines_point(s):
 
 
 @kernel
-def meet_lines_disc(s, radius):
+def meet_lines_disc(s, q, radius):
     """Let every disc ask its line, as ``impact.scan_disc`` does."""
     for i in range(LANES):
         vx, vy, best, feature, number = s[VX + i], s[VY + i], s[BEST + i], s[FEATURE + i], s[ID + i]
@@ -77,7 +82,7 @@ def meet_lines_disc(s, radius):
         t = (d - radius) / closing
         t = 0.0 if t < 0.0 else t
         u = ey * nx - ex * ny + t * (vy * nx - vx * ny)
-        asked = (s[KIND + i] == LINE) & (s[LAST + i] != number) & (closing > 0.0)
+        asked = (q[NEXT + i] < q[ARCS + i]) & (s[LAST + i] != number) & (closing > 0.0)
         sooner = _edge_is_sooner(t, number, best, feature)
         met = asked & (u >= -slack) & (u <= s[E6 + i] + slack) & sooner
         s[BEST + i] = t if met else best
@@ -85,7 +90,7 @@ def meet_lines_disc(s, radius):
 
 
 @kernel
-def meet_corners(s, radius):
+def meet_corners(s, q, radius):
     """Let every disc ask its corner, as ``impact.scan_corners`` does."""
     square = radius * radius
     for i in range(LANES):
@@ -98,7 +103,8 @@ def meet_corners(s, radius):
         c = ex * ex + ey * ey - square
         t = c / (math.sqrt(energy * (discriminant if discriminant > 0.0 else 0.0)) - along)
         t = 0.0 if t < 0.0 else t
-        asked = (s[KIND + i] == CORNER) & (s[LAST + i] != number) & (along < 0.0) & (discriminant >= 0.0)
+        looks = (q[NEXT + i] >= q[CORNERS + i]) & (q[NEXT + i] < q[END + i])
+        asked = looks & (s[LAST + i] != number) & (along < 0.0) & (discriminant >= 0.0)
         sooner = (t < best) | ((t == best) & (feature < NONE) & (number > feature))  # as ``precedes`` says
         met = asked & sooner
         s[BEST + i] = t if met else best
@@ -106,7 +112,7 @@ def meet_corners(s, radius):
 
 
 @kernel
-def meet_arcs_point(s):
+def meet_arcs_point(s, q):
     """Let every point ask its arc, as ``arcs.scan_arcs_point`` does."""
     for i in range(LANES):
         x, y, vx, vy, energy, tolerance = s[X + i], s[Y + i], s[VX + i], s[VY + i], s[ENERGY + i], s[TOLERANCE + i]
@@ -131,7 +137,7 @@ def meet_arcs_point(s):
         )
         enters = (b_right & (not a_right)) | ((a_right == b_right) & both)
         leaves = (a_right & (not b_right)) | ((a_right == b_right) & both)
-        asked = s[KIND + i] == ARC
+        asked = (q[NEXT + i] >= q[ARCS + i]) & (q[NEXT + i] < q[CORNERS + i])
         s[TOUCHED + i] = 1.0 if asked & near & (not again) else s[TOUCHED + i]
         meets = asked & (inside | ((not on) & (along < 0.0))) & (leaves | (enters & (not inside)))
         speed = math.sqrt(energy)
@@ -149,7 +155,7 @@ def meet_arcs_point(s):
 
 
 @kernel
-def meet_arcs_disc(s, disc):
+def meet_arcs_disc(s, q, disc):
     """Let every disc ask its arc, as ``arcs.scan_arcs_disc`` does."""
     for i in range(LANES):
         vx, vy, energy = s[VX + i], s[VY + i], s[ENERGY + i]
@@ -162,7 +168,7 @@ def meet_arcs_disc(s, disc):
         along = ex * vx + ey * vy
         cross = abs(ex * vy - ey * vx)
         speed = math.sqrt(energy)
-        asked = (s[KIND + i] == ARC) & ((power < 0.0) | (along < 0.0))
+        asked = (q[NEXT + i] >= q[ARCS + i]) & (q[NEXT + i] < q[CORNERS + i]) & ((power < 0.0) | (along < 0.0))
         reach = radius + disc
         square = (reach * speed - cross) * (reach * speed + cross)
         c = power - disc * (2.0 * radius + disc)

@@ -33,10 +33,17 @@ from wallkit.kernels.model import (
 from wallkit.kernels.motion import advance, reflect
 from wallkit.kernels.queue import NO_BALL, next_ball
 from wallkit.kernels.wave_impact import (
+    ARC_LIST,
+    ARCS,
+    AT,
     BEST,
     BORDER_X,
     BORDER_Y,
     COLUMN,
+    CORNER_LIST,
+    CORNERS,
+    COUNTS,
+    CROSSES,
     E0,
     E1,
     E2,
@@ -47,7 +54,9 @@ from wallkit.kernels.wave_impact import (
     E7,
     E8,
     E9,
+    END,
     ENERGY,
+    ENTERING,
     FEATURE,
     FLIES,
     FLOATS,
@@ -56,21 +65,27 @@ from wallkit.kernels.wave_impact import (
     FROM_X,
     FROM_Y,
     ID,
-    KIND,
     LANES,
     LAST,
+    LINE_LIST,
     LOST,
+    NEXT,
     NONE,
     PER_U,
     PER_W,
     PX,
     PY,
     ROW,
+    SIDE,
+    SIZE,
     TIME,
     TOLERANCE,
     TOUCHED,
+    TURNING,
+    TURNS,
     VX,
     VY,
+    WAY,
     U,
     W,
     X,
@@ -82,11 +97,6 @@ from wallkit.kernels.wave_impact import (
     meet_lines_point,
 )  # fmt: skip
 
-(
-    NEXT, ARCS, CORNERS, END, WAY, AT, SIDE, SIZE, CROSSES, TURNS,
-    LINE_LIST, ARC_LIST, CORNER_LIST, ENTERING, TURNING,
-) = (LANES * number for number in range(15))  # fmt: skip
-COUNTS = 15 * LANES
 BALL, BOUNCES, STILL = (LANES * number for number in range(3))
 INTEGERS = 3 * LANES
 
@@ -99,35 +109,33 @@ class WaveScratch(NamedTuple):
     integers: Any
     """INTEGERS signed integers."""
     counts: Any
-    """COUNTS unsigned integers, which need no look whether they count from the end."""
+    """COUNTS unsigned integers, see ``wave_impact``, which need no look whether they count from the end."""
 
 
 @kernel
-def _fetch(model, s, q):
-    """Find what every ball looks at next, and list it by kind: (lines, arcs, corners)."""
-    lines, arcs, corners = 0, 0, 0
+def _list_looking(arcs, radius, q):
+    """List the balls that look at something, by its kind, of those there are: (at lines, at arcs, at corners)."""
+    at_line, at_arc, at_corner = 0, 0, 0
     for i in range(LANES):
-        k, end = q[NEXT + i], q[END + i]
-        is_line = int(k < q[ARCS + i])
-        is_arc = int(k < q[CORNERS + i]) - is_line
-        is_corner = int(k < end) - is_arc - is_line
-        q[LINE_LIST + lines] = i
-        q[ARC_LIST + arcs] = i
-        q[CORNER_LIST + corners] = i
-        lines += is_line
-        arcs += is_arc
-        corners += is_corner
-        s[ID + i] = float(model.ids[k])
-        s[KIND + i] = float(is_line + 2 * is_arc + 3 * is_corner)
-        q[NEXT + i] = k + int(k < end)
-    return lines, arcs, corners
+        k = q[NEXT + i]
+        q[LINE_LIST + at_line] = i
+        at_line += int(k < q[ARCS + i])
+        if arcs is not None:
+            q[ARC_LIST + at_arc] = i
+            at_arc += int((k >= q[ARCS + i]) & (k < q[CORNERS + i]))
+        if radius is not None:
+            q[CORNER_LIST + at_corner] = i
+            at_corner += int((k >= q[CORNERS + i]) & (k < q[END + i]))
+    return at_line, at_arc, at_corner
 
 
 @kernel
 def _fetch_lines(model, s, q, count):
     for k in range(count):
         i = q[LINE_LIST + k]
-        line = model.lines[int(s[ID + i])]
+        edge = model.ids[q[NEXT + i]]
+        line = model.lines[edge]
+        s[ID + i] = float(edge)
         s[E0 + i], s[E1 + i], s[E2 + i], s[E3 + i] = line.ax, line.ay, line.bx, line.by
         s[E4 + i], s[E5 + i], s[E6 + i] = line.nx, line.ny, line.length
 
@@ -136,8 +144,9 @@ def _fetch_lines(model, s, q, count):
 def _fetch_corners(model, s, q, count):
     for k in range(count):
         i = q[CORNER_LIST + k]
-        corner = model.corners[int(s[ID + i])]
-        s[E0 + i], s[E1 + i] = corner.x, corner.y
+        vertex = model.ids[q[NEXT + i]]
+        corner = model.corners[vertex]
+        s[ID + i], s[E0 + i], s[E1 + i] = float(vertex), corner.x, corner.y
 
 
 @kernel
@@ -146,7 +155,9 @@ def _fetch_arcs(model, arcs, s, q, count):
         return
     for k in range(count):
         i = q[ARC_LIST + k]
-        arc = arcs[model.arc_of_edge[int(s[ID + i])]]
+        edge = model.ids[q[NEXT + i]]
+        arc = arcs[model.arc_of_edge[edge]]
+        s[ID + i] = float(edge)
         s[E0 + i], s[E1 + i], s[E2 + i], s[E3 + i] = arc.ax, arc.ay, arc.bx, arc.by
         s[E4 + i], s[E5 + i], s[E6 + i], s[E7 + i] = arc.sx, arc.sy, arc.fx, arc.fy
         s[E8 + i], s[E9 + i] = arc.radius, arc.wide
@@ -175,7 +186,9 @@ def _decide(s, q, grid):
         y = there_y if sideways else (border_y if per_w > 0.0 else border_y - 1.0)
         outside = (x < 0.0) | (x >= columns) | (y < 0.0) | (y >= rows)
         turns = outside | (s[BEST + i] <= time)
-        goes = (s[FLIES + i] == 1.0) & (q[NEXT + i] >= q[END + i])
+        following = q[NEXT + i] + int(q[NEXT + i] < q[END + i])
+        q[NEXT + i] = following
+        goes = (s[FLIES + i] == 1.0) & (following >= q[END + i])
         column, row = int(0.0 if outside else x), int(0.0 if outside else y)
         s[COLUMN + i], s[ROW + i] = float(column), float(row)
         q[AT + i] = q[WAY + i] + (row >> grid.shift) * grid.columns + (column >> grid.shift)
@@ -209,7 +222,17 @@ def _list_entering(model, q):
 def _enter(model, s, q, i):
     """Enter the cell at the column and row of a ball."""
     grid, cells = model.grid, model.cells
-    cell, shift = leaf(cells, grid, int(s[COLUMN + i]), int(s[ROW + i]))
+    top = q[AT + i] - q[WAY + i]
+    if cells[top].link > 0:
+        _open(cells, q, i, top, grid.shift)
+    else:
+        cell, shift = leaf(cells, grid, int(s[COLUMN + i]), int(s[ROW + i]))
+        _open(cells, q, i, cell, shift)
+
+
+@kernel
+def _open(cells, q, i, cell, shift):
+    """Look at what a cell of the side 2^shift lists."""
     q[NEXT + i], q[ARCS + i], q[CORNERS + i] = cells[cell].first, cells[cell].arcs, cells[cell].corners
     q[END + i] = cells[cell + 1].first
     q[SIDE + i], q[SIZE + i] = cells[cell].link, 1 << shift
@@ -338,23 +361,23 @@ def _cross(model, s, q):
 @kernel
 def _meet(model, radius, s, q):
     """Let every ball look at the next line, arc or corner of its cell."""
-    lines, arcs, corners = _fetch(model, s, q)
-    if lines > 0:
-        _fetch_lines(model, s, q, lines)
+    at_line, at_arc, at_corner = _list_looking(model.arcs, radius, q)
+    if at_line > 0:
+        _fetch_lines(model, s, q, at_line)
         if radius is None:
-            meet_lines_point(s)
+            meet_lines_point(s, q)
         else:
-            meet_lines_disc(s, radius)
-    if arcs > 0:
-        _fetch_arcs(model, model.arcs, s, q, arcs)
+            meet_lines_disc(s, q, radius)
+    if at_arc > 0:
+        _fetch_arcs(model, model.arcs, s, q, at_arc)
         if radius is None:
-            meet_arcs_point(s)
+            meet_arcs_point(s, q)
         else:
-            meet_arcs_disc(s, radius)
-    if corners > 0:
+            meet_arcs_disc(s, q, radius)
+    if at_corner > 0:
         if radius is not None:
-            _fetch_corners(model, s, q, corners)
-            meet_corners(s, radius)
+            _fetch_corners(model, s, q, at_corner)
+            meet_corners(s, q, radius)
 
 
 @kernel
