@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,8 @@ LOGGED = 256
 """Contacts of a ball that are kept at a time where sensors are asked for each flight."""
 LEAST, MOST = 128, 8192
 """Balls that a thread takes on at once."""
+LINE = 64
+"""Bytes in a line of the cache, and in the longest vector."""
 AT_ONCE = 65_536
 """Balls flown in step or as a wave before threads look whether the survey was interrupted."""
 Work = Callable[[], NDArray[np.int64]]
@@ -73,7 +76,9 @@ def _fly_as_waves(ready: Prepared, until: float, limit: int, outcome: Outcome, _
     def work() -> NDArray[np.int64]:
         hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
         queue = Queue(counter, np.zeros(2, dtype=np.int64))
-        scratch = WaveScratch(np.empty(FLOATS), np.empty(INTEGERS, dtype=np.int64), np.empty(COUNTS, dtype=np.uint32))
+        scratch = WaveScratch(
+            _in_lines(FLOATS, np.float64), _in_lines(INTEGERS, np.int64), _in_lines(COUNTS, np.uint32)
+        )
         for stop in (*range(AT_ONCE, count, AT_ONCE), count):
             compiled(fly_wave)(model, radius, start, order, queue, stop, until, limit, hits, outcome, scratch)
         return hits
@@ -82,6 +87,14 @@ def _fly_as_waves(ready: Prepared, until: float, limit: int, outcome: Outcome, _
         yield work
     finally:
         counter[0] = count  # if this thread was interrupted, the others stop soon
+
+
+def _in_lines(count: int, kind: Any) -> NDArray[Any]:
+    """Room for numbers that begins where a line of the cache does: no vector of them then lies across two lines."""
+    size = np.dtype(kind).itemsize
+    room = np.empty(count + LINE // size, dtype=kind)
+    first = int(-room.ctypes.data % LINE) // size
+    return room[first : first + count]
 
 
 def _start(ready: Prepared) -> Start:
