@@ -110,7 +110,7 @@ def _start(ready: Prepared) -> Start:
 
 def _scratch(rows: int) -> Scratch:
     return Scratch(
-        lanes=np.empty(SCRATCH),
+        lanes=_in_lines(SCRATCH, np.float64),
         balls=np.empty(LANES, dtype=np.uint32),
         ended=np.empty(LANES + 1, dtype=np.uint32),
         met=np.empty(LANES, dtype=np.uint32),
