@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapely
 from drawn import circle, drawing, line, path, polygon, square
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from wallkit.walls import Walls
@@ -90,22 +90,39 @@ def test_a_gap_between_circles_to_a_thousandth(curves):
     assert leak.width == pytest.approx(2 * far * math.sin(math.pi / 8) - 2 * r, rel=1e-3)
 
 
-@settings(max_examples=40, deadline=None)
-@given(st.integers(0, 10_000), st.floats(0.05, 3))
-def test_what_is_connected_agrees_with_shapelys_erosion(seed, radius):
-    """Random sticks: rooms that a disc can leave are in the eroded part that is outside, and only those."""
+def random_sticks(seed):
     rng = np.random.default_rng(seed)
     sticks = [np.array([p, p + rng.normal(0, 8, 2)]) for p in rng.uniform(0, 20, (12, 2))]
-    walls = Walls.from_polylines(sticks, closed=False)
-    space = free_space(walls, narrow=1e9)
-    parts = eroded(walls, radius)
-    outside = max(parts, key=lambda part: shapely.box(*part.bounds).area)
-    for gap in space.gaps:
-        spot = shapely.Point(gap.room)
+    return Walls.from_polylines(sticks, closed=False)
+
+
+def eroded_outside(walls, radius):
+    return max(eroded(walls, radius), key=lambda part: shapely.box(*part.bounds).area)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 10_000), st.floats(0.05, 3))
+@example(3537, 2.375).via("a tip faces a wall behind the edge between two others, and is nearer to it than to both")
+def test_what_is_connected_agrees_with_shapelys_erosion(seed, radius):
+    """Random sticks: rooms that a disc can leave are in the eroded part that is outside, and only those."""
+    walls = random_sticks(seed)
+    outside = eroded_outside(walls, radius)
+    for gap in free_space(walls, narrow=1e9).gaps:
         # the erosion's corners are off by 1e-4 radii; leave alone what hangs on that
         if gap.room_radius < radius * 1.01 or abs(gap.escape - 2 * radius) < 0.01 * radius:
             continue
-        assert outside.contains(spot) == (gap.escape > 2 * radius)
+        assert outside.contains(shapely.Point(gap.room)) == (gap.escape > 2 * radius)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.integers(0, 10_000))
+@example(174).via("a foot where the triangulation itself had cut the wall")
+def test_a_disc_just_narrower_than_the_escape_gets_out_and_one_just_wider_does_not(seed):
+    walls = random_sticks(seed)
+    for gap in free_space(walls, narrow=1e9).gaps:
+        for radius in (0.4985 * gap.escape, 0.5015 * gap.escape):
+            if 0.05 < radius < gap.room_radius / 1.003:
+                assert eroded_outside(walls, radius).contains(shapely.Point(gap.room)) == (2 * radius < gap.escape)
 
 
 def as_walls(*lines, closed=False):

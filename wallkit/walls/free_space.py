@@ -1,11 +1,9 @@
 """Free space: the rooms between walls, the gaps that lead from one to another, and how wide these are.
 
 Triangles between wall vertices, wall edges among them (triangulation.py), are walked by a disc of radius r from
-edge to edge. Turning about corner c from one edge to the other it needs
-2 r < width(c), the distance from c to the nearest wall on the far side: the two far corners of the triangle, the
-far edge if that is a wall, and otherwise what lies beyond it, looked for as far as it can be nearer
-(D. Demyen, M. Buro, Efficient triangulation-based pathfinding, 2006). These widths are distances between given
-vertices and edges, not samples, so gaps between lines are exact to rounding.
+edge to edge: it gets over an edge that is longer than 2 r. What is narrow between a vertex and the middle of a wall is
+an edge, too, since the foot there is made a vertex (narrows.py). So widths are distances between given vertices and
+edges, not samples, and gaps between lines are exact to rounding.
 
 A circle in each triangle stands for the room it has; a disc gets there over an edge that is longer than its
 diameter. Uniting edges and circles from the widest way down (a maximum spanning tree) tells how rooms hang
@@ -22,6 +20,7 @@ import shapely
 from numpy.typing import NDArray
 
 from wallkit.walls.edges import Edges
+from wallkit.walls.narrows import with_feet
 from wallkit.walls.nearest import ExactEdges, nearest_pair
 from wallkit.walls.orient import is_arena
 from wallkit.walls.shapes import straightened
@@ -107,7 +106,7 @@ def free_space(walls: Walls, narrow: float = _NARROW, free: FloatArray | None = 
     if nothing or len(edges) > MOST_EDGES:
         return FreeSpace([], np.empty((0, 3)), nothing)
     a, b = _noded(edges)
-    mesh = triangulate(a, b)
+    mesh = with_feet(triangulate(a, b))
     least = walls.tolerance or 1e-6 * diagonal(vertices)
     found = _rooms(mesh, narrow, least)
     seam = 4 * SHORTEST * diagonal(vertices)
@@ -238,7 +237,7 @@ def in_material(edges: Edges, arena: bool, points: FloatArray) -> NDArray[np.boo
 
 @dataclass(slots=True)
 class _Turns:
-    """Ways about corners: from one edge of a triangle to another, how wide, and the far side's nearest point.
+    """Ways from one edge of a triangle to another, how wide, and the two ends of the narrowest spot.
 
     Nodes are edges by number, and behind them (number of edges + triangle) the circles of triangles.
     """
@@ -251,59 +250,13 @@ class _Turns:
 
 
 def _turns(mesh: Triangulation) -> _Turns:
-    """All turns between edges that are no walls."""
-    triangle = np.repeat(np.arange(len(mesh.corners)), 3)
-    at = np.tile(np.arange(3), len(mesh.corners))
-    one, two = mesh.edge[triangle, (at + 1) % 3], mesh.edge[triangle, (at + 2) % 3]
+    """The ways from one edge of a triangle to another, both no walls: as wide as the shorter is long."""
+    one, two = mesh.edge.ravel(), np.roll(mesh.edge, -1, axis=1).ravel()
     free = ~mesh.wall[one] & ~mesh.wall[two]
-    triangle, at, one, two = triangle[free], at[free], one[free], two[free]
-    corner = mesh.corners[triangle, at]
-    c = mesh.points[corner]
-    b1, b2 = (mesh.points[mesh.corners[triangle, (at + k) % 3]] for k in (1, 2))
-    d1, d2 = np.hypot(*(b1 - c).T), np.hypot(*(b2 - c).T)
-    width, far = np.minimum(d1, d2), np.where((d1 < d2)[:, None], b1, b2)
-    _look_beyond(mesh, triangle, at, corner, width, far)
-    return _Turns(one, two, width, corner, far)
-
-
-def _look_beyond(
-    mesh: Triangulation, triangle: IntArray, at: IntArray, corner: IntArray, width: FloatArray, far: FloatArray
-) -> None:
-    """Lower widths to the nearest wall across the edge opposite each corner, through edges that are no walls."""
-    row, edge, through = np.arange(len(corner)), mesh.edge[triangle, at], triangle
-    while len(row):
-        p, q = mesh.points[mesh.ends[edge, 0]], mesh.points[mesh.ends[edge, 1]]
-        foot = _foot(mesh.points[corner[row]], p, q)
-        distance = np.hypot(*(mesh.points[corner[row]] - foot).T)
-        nearer = distance < width[row]
-        inner = (foot != p).any(axis=1) & (foot != q).any(axis=1)  # else it is a vertex, and nothing beyond is nearer
-        met = nearer & (mesh.wall[edge] | ~inner)
-        order = np.argsort(-distance[met], kind="stable")  # the nearest is written last
-        hit = row[met][order]
-        width[hit], far[hit] = distance[met][order], foot[met][order]
-        row, edge, through = _across(mesh, row, edge, through, nearer & inner & ~mesh.wall[edge])
-
-
-def _across(
-    mesh: Triangulation, row: IntArray, edge: IntArray, through: IntArray, going: NDArray[np.bool_]
-) -> tuple[IntArray, IntArray, IntArray]:
-    """Step over edges into the next triangles: their two other edges."""
-    row, edge, through = row[going], edge[going], through[going]
-    side = (mesh.edge[through] == edge[:, None]).argmax(axis=1)
-    beyond = mesh.neighbours[through, side]
-    inside = beyond >= 0
-    row, edge, beyond = row[inside], edge[inside], beyond[inside]
-    entry = (mesh.edge[beyond] == edge[:, None]).argmax(axis=1)
-    following = np.concatenate([mesh.edge[beyond, (entry + 1) % 3], mesh.edge[beyond, (entry + 2) % 3]])
-    return np.tile(row, 2), following, np.tile(beyond, 2)
-
-
-def _foot(point: FloatArray, p: FloatArray, q: FloatArray) -> FloatArray:
-    """The nearest point of each segment."""
-    d = q - p
-    part = np.clip(((point - p) * d).sum(axis=1) / np.maximum((d * d).sum(axis=1), 1e-300), 0.0, 1.0)
-    foot: FloatArray = p + d * part[:, None]
-    return foot
+    one, two = one[free], two[free]
+    length = np.hypot(*(mesh.points[mesh.ends[:, 1]] - mesh.points[mesh.ends[:, 0]]).T)
+    shorter = np.where(length[one] < length[two], one, two)
+    return _Turns(one, two, length[shorter], mesh.ends[shorter, 0], mesh.points[mesh.ends[shorter, 1]])
 
 
 def _centres(mesh: Triangulation) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ MOST_POINTS = 600_000
 _ROUNDS = 40
 SHORTEST = 1e-7  # of the size of everything: shorter pieces of walls are not cut further, and may be no edges
 _SAME = 1e-11  # of the size of everything: points as near are one
-_TIES = 6  # rounds for points on one circle, whose triangles are a matter of taste
+_TIES = 20  # rounds for points on one circle, whose triangles are a matter of taste; feet make many
 _FRAME = 4.0  # the frame around everything, in diagonals: far enough to count as outside
 
 
@@ -30,6 +30,8 @@ class Triangulation:
         wall: (N,) the edge is a piece of a wall.
         outer: (N,) the edge is on the frame.
         complete: every piece of a wall is an edge, but for pieces of 2e-7 of the whole and less.
+        given: how many points, the first, are ends of given segments.
+        cut: the pieces of walls, to be cut further.
     """
 
     points: FloatArray
@@ -40,6 +42,8 @@ class Triangulation:
     wall: NDArray[np.bool_]
     outer: NDArray[np.bool_]
     complete: bool
+    given: int
+    cut: _Cut
 
 
 def triangulate(a: FloatArray, b: FloatArray) -> Triangulation:
@@ -50,8 +54,6 @@ def triangulate(a: FloatArray, b: FloatArray) -> Triangulation:
     cuts at feet would chase each other into the corner for ever (J. Ruppert, A Delaunay refinement algorithm,
     1995, on small angles).
     """
-    from scipy.spatial import Delaunay  # late: scipy is slow to import
-
     points, which = np.unique(np.concatenate([a, b]), axis=0, return_inverse=True)
     low, high = points.min(axis=0), points.max(axis=0)
     origin, size = (low + high) / 2, float(np.hypot(*(high - low))) or 1.0
@@ -60,9 +62,23 @@ def triangulate(a: FloatArray, b: FloatArray) -> Triangulation:
     points = points[kept]
     segments = np.sort(which.reshape(2, -1).T, axis=1)
     segments = np.unique(segments[segments[:, 0] != segments[:, 1]], axis=0)
-    points = points - origin
+    owner, nowhere = np.arange(len(segments)), np.full(len(points), -1)
+    return _triangulated(_Cut(points - origin, segments, owner, segments, nowhere, points, origin, size))
+
+
+def cut_further(mesh: Triangulation, edge: IntArray, at: FloatArray) -> Triangulation:
+    """Triangulate once more, with (n, 2) places ``at`` on edges that are pieces of walls among the points."""
+    work = replace(mesh.cut)
+    work.split_often(mesh.ends[edge], at - work.origin, _SAME * work.size)
+    return _triangulated(work)
+
+
+def _triangulated(work: _Cut) -> Triangulation:
+    """Triangulate pieces of segments, cut as far as need be."""
+    from scipy.spatial import Delaunay  # late: scipy is slow to import
+
+    size = work.size
     frame = _FRAME * size * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-    work = _Cut(points, segments, np.arange(len(segments)), segments, np.full(len(points), -1))
     for _ in range(_TIES):
         complete = _conform(work, SHORTEST * size, _SAME * size)
         everything = np.concatenate([work.points, frame])
@@ -83,8 +99,12 @@ def triangulate(a: FloatArray, b: FloatArray) -> Triangulation:
     outer = np.zeros(len(keys), dtype=np.bool_)
     outer[edge[neighbours < 0]] = True
     ends = np.stack(np.divmod(keys, count), axis=1)
-    complete = complete and not missing.any()
-    return Triangulation(everything + origin, corners, neighbours, edge, ends, np.isin(keys, walls), outer, complete)
+    complete, given = complete and not missing.any(), len(work.given)
+    everything += work.origin
+    everything[:given] = work.given  # to the bit
+    return Triangulation(
+        everything, corners, neighbours, edge, ends, np.isin(keys, walls), outer, complete, given, work
+    )
 
 
 def _merged(points: FloatArray, within: float) -> IntArray:
@@ -111,6 +131,9 @@ class _Cut:
         owner: (S,) the original segment that each is a piece of.
         original: (O, 2) ends of the original segments.
         of_point: (P,) the original segment that a point was put on, or -1.
+        given: (G, 2) the first of the points where they were given.
+        origin: (2,) what was taken off all points, for the sake of their digits.
+        size: of everything.
     """
 
     points: FloatArray
@@ -118,6 +141,9 @@ class _Cut:
     owner: IntArray
     original: IntArray
     of_point: IntArray
+    given: FloatArray
+    origin: FloatArray
+    size: float
 
     def split(self, where: NDArray[np.bool_], at: FloatArray, known: IntArray | None = None) -> None:
         """Cut the segments ``where`` at new points, one each, or at the points ``known`` where that is not -1."""
@@ -131,6 +157,31 @@ class _Cut:
         halves = [np.stack([cut[:, 0], number], axis=1), np.stack([number, cut[:, 1]], axis=1)]
         self.segments = np.concatenate([self.segments[~where], *halves])
         self.owner = np.concatenate([self.owner[~where], owner, owner])
+
+    def split_often(self, ends: IntArray, at: FloatArray, same: float) -> None:
+        """Cut the segments with these ends, (n, 2), at new points, any number each; points as near as same are one."""
+        keys = _keys(self.segments, len(self.points))
+        order = np.argsort(keys)
+        on = order[np.searchsorted(keys, _keys(ends, len(self.points)), sorter=order)]
+        p, q = (self.points[self.segments[:, k]] for k in (0, 1))
+        d = q - p
+        length = np.hypot(*d.T)
+        along = ((at - p[on]) * d[on]).sum(axis=1) / length[on]
+        order = np.lexsort((along, on))
+        on, at, along = on[order], at[order], along[order]
+        again = np.append(False, (on[1:] == on[:-1]) & (along[1:] - along[:-1] <= same))
+        new = ~again & (along > same) & (along < length[on] - same)
+        on, at, along = on[new], at[new], along[new]
+        rows, number = np.arange(len(self.segments)), len(self.points) + np.arange(len(on))
+        row = np.concatenate([rows, on, rows])
+        order = np.lexsort((np.concatenate([np.full(len(rows), -1.0), along, length + 1]), row))
+        row = row[order]
+        vertex = np.concatenate([self.segments[:, 0], number, self.segments[:, 1]])[order]
+        joined = row[1:] == row[:-1]
+        self.points = np.concatenate([self.points, at])
+        self.of_point = np.concatenate([self.of_point, self.owner[on]])
+        self.segments = np.stack([vertex[:-1][joined], vertex[1:][joined]], axis=1)
+        self.owner = self.owner[row[:-1][joined]]
 
 
 def _conform(work: _Cut, shortest: float, same: float) -> bool:
