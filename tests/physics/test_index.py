@@ -237,3 +237,19 @@ def test_balls_may_come_from_anywhere(far, bulge):
         with_index, without = totals(scene, "grid"), totals(scene, "none")
         for name in ("bounces", "position", "velocity", "time", "hits", "ending"):
             assert getattr(with_index, name).tobytes() == getattr(without, name).tobytes(), name
+
+
+@pytest.mark.parametrize("wave", [False, True])
+def test_no_walk_is_endless_where_paths_run_through_corners_of_cells(wave):
+    """Rounding may say that a path through a corner goes round it, back and forth: one of these did."""
+    turns = np.arange(2_000) * math.tau / 2_000
+    spokes = [np.array([(0.0, 0.0), (math.cos(t), math.sin(t))]) for t in turns]
+    walls = Walls.from_polylines([ring((0.0, 0.0), 100.0, 64), *spokes], closed=[True] + [False] * len(spokes))
+    for centre in ((0.0, 0.0), (0.3, 0.1)):
+        position = 50.0 * np.stack([np.cos(turns[:1000] * 2), np.sin(turns[:1000] * 2)], axis=1)
+        scene = Scene(walls, Balls(position, centre - position, 0.5))
+        for part in [slice(0, 1000)] if wave else [slice(first, first + 50) for first in range(0, 1000, 50)]:
+            balls = Balls(position[part], (centre - position)[part], 0.5)
+            totals = survey(Scene(scene.walls, balls), until=3.0, check=False)
+            assert (totals.bounces > 0).all()
+            assert (np.hypot(*totals.position.T) < 100.0).all()

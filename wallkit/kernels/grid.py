@@ -134,10 +134,10 @@ def ahead(grid, side, shift, column, row, px, py, u, w, per_u, per_w):
     All in units: the ball is at p and flies with (u, w), of which the inverses are ``per_speed``; the square begins
     with the cell of side 2^shift at (column, row) and is ``side`` of them wide, the way of the flight.
 
-    Beyond the border that it passes the column (or row) is a whole number, not a rounded one, so the walk never stands
-    still. The rounding of the other coordinate may choose the wrong one of two neighbours only where the path
-    passes their common border within rounding, and entries reach into their neighbours by far more (see
-    ``wallkit.indexing``).
+    Beyond the border that it passes the column (or row) is a whole number, not a rounded one, and the other never goes
+    back: so every step goes on, also where a path runs through the common corner of four cells. The rounding
+    of that other one may choose the wrong one of two neighbours only where the path passes their border within
+    rounding, and entries reach into their neighbours by far more (see ``wallkit.indexing``).
     """
     right, up = int(per_u > 0.0), int(per_w > 0.0)  # in sums instead of branches, which no processor could foresee
     border_x = ((column >> shift) + 1 - right + (2 * right - 1) * side) << shift
@@ -147,6 +147,8 @@ def ahead(grid, side, shift, column, row, px, py, u, w, per_u, per_w):
     time = exit_x if exit_x < exit_y else exit_y
     there_x = _unit(px + time * u, grid.columns << grid.shift)
     there_y = _unit(py + time * w, grid.rows << grid.shift)
+    there_x = max(there_x, column) if per_u > 0.0 else min(there_x, column)
+    there_y = max(there_y, row) if per_w > 0.0 else min(there_y, row)
     beyond_x = border_x - 1 + right
     beyond_y = border_y - 1 + up
     return time, there_x + sideways * (beyond_x - there_x), beyond_y + sideways * (there_y - beyond_y)

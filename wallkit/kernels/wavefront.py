@@ -182,6 +182,9 @@ def _decide(s, q, grid):
         there_y = there_y if there_y > 0.0 else 0.0
         there_x = there_x if there_x < columns - 1.0 else columns - 1.0
         there_y = there_y if there_y < rows - 1.0 else rows - 1.0
+        back_x, back_y = s[COLUMN + i], s[ROW + i]  # where the ball is, or, asked again, what came out before
+        there_x = back_x if (there_x < back_x) == (per_u > 0.0) else there_x
+        there_y = back_y if (there_y < back_y) == (per_w > 0.0) else there_y
         x = (border_x if per_u > 0.0 else border_x - 1.0) if sideways else there_x
         y = there_y if sideways else (border_y if per_w > 0.0 else border_y - 1.0)
         outside = (x < 0.0) | (x >= columns) | (y < 0.0) | (y >= rows)
