@@ -24,8 +24,14 @@ def play(*arguments, **options):
         stderr=subprocess.PIPE,
         text=True,
         env=environment,
+        preexec_fn=_heed_interrupts if os.name == "posix" else None,
         **options,
     )
+
+
+def _heed_interrupts():
+    """Undo what a shell does to what it starts in the background, and what is started by that."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def test_it_prints_its_address_serves_the_file_and_ends_on_an_interrupt():
