@@ -103,11 +103,9 @@ def way_of(grid, per_u, per_w):
 
 
 @kernel
-def clearing(model, grid, way, column, row):
-    """The empty square ahead of a place in units, or its cell: (side in cells, and as ``leaf`` shift and cell)."""
-    side = int(model.clearings[way + (row >> grid.shift) * grid.columns + (column >> grid.shift)])
-    c, shift = leaf(model.cells, grid, column, row)
-    return side if side > 0 else int(model.cells[c].link), shift, c
+def clearing(clearings, grid, way, column, row):
+    """Side of the empty square ahead of a place in units, in cells that are not part of another; 0 for none."""
+    return int(clearings[way + (row >> grid.shift) * grid.columns + (column >> grid.shift)])
 
 
 @kernel
@@ -167,11 +165,14 @@ def _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, fea
     column, row = place(grid, x, y)
     time = -math.inf
     while best > time and inside(grid, column, row):
-        side, shift, c = clearing(model, grid, way, column, row)
-        best, feature, more = scan(
-            model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature,
-        )  # fmt: skip
-        touched += more
+        side, shift = clearing(model.clearings, grid, way, column, row), grid.shift
+        if side == 0:
+            c, shift = leaf(model.cells, grid, column, row)
+            side = int(model.cells[c].link)
+            best, feature, more = scan(
+                model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature,
+            )  # fmt: skip
+            touched += more
         time, column, row = ahead(grid, side, shift, column, row, px, py, u, w, per_u, per_w)
     return best, feature, touched
 
