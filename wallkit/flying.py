@@ -36,6 +36,7 @@ LINE = 64
 AT_ONCE = 65_536
 """Balls flown in step or as a wave before threads look whether the survey was interrupted."""
 Work = Callable[[], NDArray[np.int64]]
+Batch = Callable[[int], Any]
 Flying = Callable[[Prepared, float, int, Outcome, int], AbstractContextManager[Work]]
 
 
@@ -48,45 +49,57 @@ def nothing_found(ready: Prepared) -> NDArray[np.int64]:
 @contextmanager
 def _fly_in_step(ready: Prepared, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
     """Give what a thread does to fly balls in lockstep, until none is left: bounces by wall."""
-    model, start, count = ready.modelled.model, _start(ready), len(ready.modelled.radii)
-    radius = float(ready.modelled.radii[0]) or None
-    counter = np.zeros(1, dtype=np.int64)
+    model, start, radius = ready.modelled.model, _start(ready), _radius(ready)
 
-    def work() -> NDArray[np.int64]:
-        hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
-        queue, scratch = Queue(counter, np.zeros(2, dtype=np.int64)), _scratch(len(model.ids))
-        for stop in (*range(AT_ONCE, count, AT_ONCE), count):
-            compiled(fly_in_step)(model, radius, start, queue, stop, until, limit, hits, outcome, scratch)
-        return hits
+    def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
+        scratch = _scratch(len(model.ids))
+        return lambda stop: compiled(fly_in_step)(
+            model, radius, start, queue, stop, until, limit, hits, outcome, scratch
+        )
 
-    try:
+    with _from_one_counter(ready, batches) as work:
         yield work
-    finally:
-        counter[0] = count  # if this thread was interrupted, the others stop soon
 
 
 @contextmanager
 def _fly_as_waves(ready: Prepared, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
     """Give what a thread does to fly balls as a wave through the grid, until none is left: bounces by wall."""
-    model, start, count = ready.modelled.model, _start(ready), len(ready.modelled.radii)
-    radius = float(ready.modelled.radii[0]) or None
-    order = np.arange(count) if ready.order is None else ready.order
-    counter = np.zeros(1, dtype=np.int64)
+    model, start, radius = ready.modelled.model, _start(ready), _radius(ready)
+    order = np.arange(len(ready.modelled.radii)) if ready.order is None else ready.order
 
-    def work() -> NDArray[np.int64]:
-        hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
-        queue = Queue(counter, np.zeros(2, dtype=np.int64))
+    def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
         scratch = WaveScratch(
             _in_lines(FLOATS, np.float64), _in_lines(INTEGERS, np.int64), _in_lines(COUNTS, np.uint32)
         )
+        return lambda stop: compiled(fly_wave)(
+            model, radius, start, order, queue, stop, until, limit, hits, outcome, scratch
+        )
+
+    with _from_one_counter(ready, batches) as work:
+        yield work
+
+
+@contextmanager
+def _from_one_counter(ready: Prepared, batches: Callable[[Queue, NDArray[np.int64]], Batch]) -> Iterator[Work]:
+    """Give what a thread does that takes its balls from a counter shared by all, batch by batch: bounces by wall."""
+    count, counter = len(ready.modelled.radii), np.zeros(1, dtype=np.int64)
+
+    def work() -> NDArray[np.int64]:
+        hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
+        fly_below = batches(Queue(counter, np.zeros(2, dtype=np.int64)), hits)
         for stop in (*range(AT_ONCE, count, AT_ONCE), count):
-            compiled(fly_wave)(model, radius, start, order, queue, stop, until, limit, hits, outcome, scratch)
+            fly_below(stop)
         return hits
 
     try:
         yield work
     finally:
         counter[0] = count  # if this thread was interrupted, the others stop soon
+
+
+def _radius(ready: Prepared) -> float | None:
+    """The one radius of all balls; None for points."""
+    return float(ready.modelled.radii[0]) or None
 
 
 def _in_lines(count: int, kind: Any) -> NDArray[Any]:
