@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from alone import assert_as_alone
 
-from wallkit import Balls, Ending, Scene, Walls, survey
+from wallkit import Balls, Ending, Scene, Walls
 from wallkit.accuracy import scenes
 from wallkit.flying import WORTH_LOCKSTEP, suits_lockstep
 from wallkit.kernels.lockstep import LANES
@@ -27,19 +28,7 @@ ROOM = Walls.from_polylines(
 def _assert_same(scene, **limits):
     """Compare a survey in lockstep with one of parts so small that each ball is flown alone; give the totals."""
     assert suits_lockstep(prepare(scene, check=False).modelled.model, np.asarray(scene.balls.radius))
-    together = survey(scene, check=False, **limits)
-    position, velocity, radius = scene.balls.position, scene.balls.velocity, scene.balls.radius
-    hits = 0
-    for first in range(0, len(position), WORTH_LOCKSTEP - 1):
-        part = slice(first, first + WORTH_LOCKSTEP - 1)
-        balls = Balls(position[part], velocity[part], radius[part])
-        alone = survey(Scene(scene.walls, balls), check=False, **limits)
-        hits = hits + alone.hits
-        for name in ("bounces", "position", "velocity", "time", "ending"):
-            np.testing.assert_array_equal(getattr(together, name)[part], getattr(alone, name), err_msg=name)
-    np.testing.assert_array_equal(together.hits, hits)
-    assert together.hits.sum() == together.bounces.sum()
-    return together
+    return assert_as_alone(scene, WORTH_LOCKSTEP - 1, **limits)
 
 
 def _ways(random, count, slowest=1.0):

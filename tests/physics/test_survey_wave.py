@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from alone import assert_as_alone
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -17,19 +18,7 @@ COUNT = 3 * WORTH_A_WAVE + 7
 def _assert_same(scene, **limits):
     """Compare a survey as a wave with one of parts so small that each ball is flown alone; give the totals."""
     assert suits_wave(prepare(scene, check=False).modelled.model, np.asarray(scene.balls.radius))
-    together = survey(scene, check=False, **limits)
-    position, velocity, radius = scene.balls.position, scene.balls.velocity, scene.balls.radius
-    hits = 0
-    for first in range(0, len(position), WORTH_A_WAVE - 1):
-        part = slice(first, first + WORTH_A_WAVE - 1)
-        balls = Balls(position[part], velocity[part], radius[part])
-        alone = survey(Scene(scene.walls, balls), check=False, **limits)
-        hits = hits + alone.hits
-        for name in ("bounces", "position", "velocity", "time", "ending"):
-            np.testing.assert_array_equal(getattr(together, name)[part], getattr(alone, name), err_msg=name)
-    np.testing.assert_array_equal(together.hits, hits)
-    assert together.hits.sum() == together.bounces.sum()
-    return together
+    return assert_as_alone(scene, WORTH_A_WAVE - 1, **limits)
 
 
 def _ways(random, count, speed=50.0):
