@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.cache_lines import on_cache_lines
 from wallkit.kernels.model import ARC, CORNER, FAN, LINE, Corner, Line
 from wallkit.scene import FloatArray
 
@@ -30,7 +31,7 @@ class Corners(NamedTuple):
 
 def lines_of(vertices: FloatArray, starts: IntArray, ends: IntArray) -> NDArray[Any]:
     """Make a ``LINE`` of each edge, given by its vertices; without a length it has no normal."""
-    lines = np.empty(len(starts), dtype=LINE)
+    lines = on_cache_lines(len(starts), LINE)
     x, y = (np.ascontiguousarray(column) for column in vertices.T)
     ax, ay, bx, by = x[starts], y[starts], x[ends], y[ends]
     dx, dy = bx - ax, by - ay

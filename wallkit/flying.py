@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.cache_lines import on_cache_lines
 from wallkit.kernels.crossing import fly_sensed
 from wallkit.kernels.flight import begin_all, end_all, fly_all
 from wallkit.kernels.jit import compiled
@@ -18,7 +19,7 @@ from wallkit.kernels.model import LOG_STRIDE, STATE_SIZE, Model
 from wallkit.kernels.queue import Queue
 from wallkit.kernels.wave_impact import COUNTS, FLOATS
 from wallkit.kernels.wave_impact import LANES as WAVE
-from wallkit.kernels.wavefront import INTEGERS, WaveScratch, fly_wave
+from wallkit.kernels.wavefront import INTEGERS, MET, WAVES, WaveScratch, fly_wave
 from wallkit.preparing import Prepared
 from wallkit.scene import FloatArray
 from wallkit.simulation import START, initial_states
@@ -31,8 +32,6 @@ LOGGED = 256
 """Contacts of a ball that are kept at a time where sensors are asked for each flight."""
 LEAST, MOST = 128, 8192
 """Balls that a thread takes on at once."""
-LINE = 64
-"""Bytes in a line of the cache, and in the longest vector."""
 AT_ONCE = 65_536
 """Balls flown in step or as a wave before threads look whether the survey was interrupted."""
 Work = Callable[[], NDArray[np.int64]]
@@ -69,7 +68,10 @@ def _fly_as_waves(ready: Prepared, until: float, limit: int, outcome: Outcome, _
 
     def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
         scratch = WaveScratch(
-            _in_lines(FLOATS, np.float64), _in_lines(INTEGERS, np.int64), _in_lines(COUNTS, np.uint32)
+            on_cache_lines(WAVES * FLOATS, np.float64).reshape(WAVES, FLOATS),
+            on_cache_lines(WAVES * INTEGERS, np.int64).reshape(WAVES, INTEGERS),
+            on_cache_lines(WAVES * COUNTS, np.uint32).reshape(WAVES, COUNTS),
+            np.empty(MET, dtype=np.int64),
         )
         return lambda stop: compiled(fly_wave)(
             model, radius, start, order, queue, stop, until, limit, hits, outcome, scratch
@@ -102,14 +104,6 @@ def _radius(ready: Prepared) -> float | None:
     return float(ready.modelled.radii[0]) or None
 
 
-def _in_lines(count: int, kind: Any) -> NDArray[Any]:
-    """Room for numbers that begins where a line of the cache does: no vector of them then lies across two lines."""
-    size = np.dtype(kind).itemsize
-    room = np.empty(count + LINE // size, dtype=kind)
-    first = int(-room.ctypes.data % LINE) // size
-    return room[first : first + count]
-
-
 def _start(ready: Prepared) -> Start:
     balls, modelled = ready.scene.balls, ready.modelled
     return Start(
@@ -123,7 +117,7 @@ def _start(ready: Prepared) -> Start:
 
 def _scratch(rows: int) -> Scratch:
     return Scratch(
-        lanes=_in_lines(SCRATCH, np.float64),
+        lanes=on_cache_lines(SCRATCH, np.float64),
         balls=np.empty(LANES, dtype=np.uint32),
         ended=np.empty(LANES + 1, dtype=np.uint32),
         met=np.empty(LANES, dtype=np.uint32),

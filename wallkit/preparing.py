@@ -16,6 +16,8 @@ from wallkit.modelling import Modelled
 from wallkit.scene import Balls, FloatArray, Scene
 from wallkit.sensing import modelled_sensors
 
+CLOSE_CELLS = 1 << 15
+"""So many are always at hand: balls are then best taken as they come, one after the other in memory."""
 WORTH_A_QUICK_LOOK = 100
 """Balls from which on a compiled look for overlaps pays among few lines."""
 
@@ -60,11 +62,16 @@ def prepare_again(ready: Prepared, balls: Balls, *, check: bool = True) -> Prepa
 def _prepared(scene: Scene, modelled: Modelled, *, check: bool) -> Prepared:
     if check and not _surely_clear(scene, modelled):
         check_starts(scene)
-    order = None if modelled.model.grid is None else _neighbours_together(np.asarray(scene.balls.position))
+    order = _neighbours_together(np.asarray(scene.balls.position)) if _is_wide(modelled.model) else None
     sensors = None
     if scene.sensors is not None and len(scene.sensors):
         sensors = modelled_sensors(scene, scene.sensors, modelled.origin).model
     return Prepared(scene, modelled, order, sensors)
+
+
+def _is_wide(model: Model) -> bool:
+    """Tell whether balls far apart would drive one another's cells out of the cache."""
+    return model.grid is not None and len(model.cells) > CLOSE_CELLS
 
 
 def _surely_clear(scene: Scene, modelled: Modelled) -> bool:

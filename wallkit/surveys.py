@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.flying import LEAST, nothing_found, way_to_fly
+from wallkit.flying import LEAST, way_to_fly
 from wallkit.kernels.lockstep import Outcome
 from wallkit.preparing import Prepared, prepare
 from wallkit.scene import FloatArray, Scene
@@ -71,7 +71,9 @@ def survey(
     threads = max(1, min(cores() if threads is None else threads, len(modelled.radii) // LEAST))
     outcome = _room_for(len(modelled.radii))
     with way_to_fly(ready)(ready, limit_time, limit_bounces, outcome, threads) as work:
-        found = sum(in_threads(work, threads, executor), nothing_found(ready))
+        found, *others = in_threads(work, threads, executor)
+    for other in others:
+        found += other
     hits, crossings = found[: len(scene.walls)], found[len(scene.walls) :].reshape(-1, 2)
     return Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings)
 

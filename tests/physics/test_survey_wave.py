@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from wallkit import Balls, Ending, Material, Scene, Walls, survey
 from wallkit.flying import WORTH_A_WAVE, suits_wave
+from wallkit.kernels.wavefront import NEAR_EDGES
 from wallkit.preparing import prepare
 
 COUNT = 3 * WORTH_A_WAVE + 7
@@ -49,6 +50,17 @@ def test_a_wave_gives_the_bits_of_one_by_one(arcs, radius, limits):
     position = random.uniform([-20.0, -20.0], [230.0, 180.0], (COUNT, 2))  # some outside, some over walls
     totals = _assert_same(Scene(walls, Balls(position, _ways(random, COUNT), radius)), **limits)
     assert limits.get("until") == 0.0 or (totals.bounces.sum() > 1000 and Ending.LEFT_SCENE in totals.ending)
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.05])
+@pytest.mark.parametrize("arcs", [False, True])
+def test_so_many_edges_that_two_waves_fly_in_turn(arcs, radius):
+    random = np.random.default_rng(12)
+    walls = _maze(random, count=33_000, arcs=arcs)
+    position = random.uniform([1.0, 1.0], [199.0, 149.0], (COUNT, 2))
+    scene = Scene(walls, Balls(position, _ways(random, COUNT), radius))
+    assert len(prepare(scene, check=False).modelled.model.lines) > NEAR_EDGES
+    assert _assert_same(scene, until=2.0).bounces.sum() > 10_000
 
 
 @pytest.mark.parametrize("radius", [0.0, 0.5])

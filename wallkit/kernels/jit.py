@@ -40,6 +40,13 @@ def claim(counter: Any, count: int) -> int:
     return first
 
 
+def prefetch(_records: Any, _place: int) -> None:
+    """Ask memory for an item of an array that is read soon, so that machine code need not wait for it then.
+
+    It changes no result, and the place may be anywhere, also beyond the array.
+    """
+
+
 @cache
 def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     """Give the machine-code twin of a kernel; the first call of a new signature compiles, or loads from disk.
@@ -54,6 +61,7 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
 
     _register_all(register_jitable)
     _register_claim()
+    _register_prefetch()
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False}
     theirs = getattr(config, "CACHE_DIR", "")
     setattr(config, "CACHE_DIR", str(_cache_folder()))  # noqa: B010 - numba makes its settings at run time
@@ -94,6 +102,38 @@ def _register_claim() -> None:
     def _claim(counter: Any, count: int) -> Any:
         def at_once(counter: Any, count: int) -> int:
             return fetch_and_add(counter, count)  # type: ignore[call-arg]
+
+        return at_once
+
+
+@cache
+def _register_prefetch() -> None:
+    """Let machine code ask memory for what it reads later."""
+    from llvmlite import ir
+    from numba import types
+    from numba.core import cgutils
+    from numba.extending import intrinsic, overload
+    from numba.np.arrayobj import make_array
+
+    @intrinsic
+    def ask(_context: Any, records: Any, _place: Any) -> Any:
+        def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+            data = make_array(signature.args[0])(context, builder, values[0]).data
+            word, byte = ir.IntType(32), ir.IntType(8).as_pointer()
+            kind = ir.FunctionType(ir.VoidType(), [byte, word, word, word])
+            function = cgutils.get_or_insert_function(builder.module, kind, "llvm.prefetch")
+            place = builder.bitcast(builder.gep(data, [values[1]]), byte)
+            builder.call(function, [place, word(0), word(3), word(1)])
+            return context.get_dummy_value()
+
+        return types.none(records, types.uint64), emit
+
+    options: Any = {"forceinline": True, "_nrt": False}
+
+    @overload(prefetch, jit_options=options)
+    def _prefetch(_records: Any, _place: int) -> Any:
+        def at_once(_records: Any, _place: int) -> None:
+            ask(_records, _place)  # type: ignore[call-arg]
 
         return at_once
 

@@ -26,11 +26,12 @@ FLOATS = 38 * LANES
 NONE = float(NO_HIT)
 (
     NEXT, ARCS, CORNERS, END, WAY, AT, SIDE, SIZE, CROSSES, TURNS,
-    LINE_LIST, ARC_LIST, CORNER_LIST, ENTERING, TURNING,
-) = (LANES * number for number in range(15))  # fmt: skip
-COUNTS = 15 * LANES
+    LINE_LIST, ARC_LIST, CORNER_LIST, ENTERING, TURNING, ENTERED,
+) = (LANES * number for number in range(16))  # fmt: skip
+COUNTS = 16 * LANES
 """NEXT: place in ``Model.ids`` of what a ball looks at: a line before that in ARCS, an arc before that in CORNERS,
-a corner before that in END, else nothing. Whether a ball CROSSES or TURNS is 1 or 0; the lists are of lanes."""
+a corner before that in END, else nothing. Whether a ball CROSSES or TURNS is 1 or 0; the lists are of lanes, and at
+ENTERED stands how many are in ENTERING."""
 
 
 @kernel

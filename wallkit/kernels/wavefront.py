@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from wallkit.kernels.corner import settle
 from wallkit.kernels.flight import absorbs, ending_without, has_left, normal_of, passes, still_limit, tolerance_of
 from wallkit.kernels.grid import in_units, leaf, per_speed, place, way_of
-from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.jit import kernel, prefetch, rare_kernel
 from wallkit.kernels.model import (
     ABSORBED,
     AMBIGUOUS,
@@ -56,6 +56,7 @@ from wallkit.kernels.wave_impact import (
     E9,
     END,
     ENERGY,
+    ENTERED,
     ENTERING,
     FEATURE,
     FLIES,
@@ -99,17 +100,25 @@ from wallkit.kernels.wave_impact import (
 
 BALL, BOUNCES, STILL = (LANES * number for number in range(3))
 INTEGERS = 3 * LANES
+MET = 2 * LANES
+"""Features met that wait to be counted: one turn adds LANES at most."""
+WAVES = 2
+"""Flown in turn where there are many edges: while one flies, what the other needs comes from memory."""
+NEAR_EDGES = 1 << 15
+"""So many stay near the processor with the cells that list them: one wave, and nothing asked for ahead, is faster."""
 
 
 class WaveScratch(NamedTuple):
     """Memory to work in: contents do not matter."""
 
     floats: Any
-    """FLOATS floats, see ``wave_impact``."""
+    """(WAVES, FLOATS) floats, see ``wave_impact``."""
     integers: Any
-    """INTEGERS signed integers."""
+    """(WAVES, INTEGERS) signed integers."""
     counts: Any
-    """COUNTS unsigned integers, see ``wave_impact``, which need no look whether they count from the end."""
+    """(WAVES, COUNTS) unsigned integers, see ``wave_impact``, which need no look whether they count from the end."""
+    met: Any
+    """MET integers."""
 
 
 @kernel
@@ -272,7 +281,7 @@ def _set_out(model, s, q, i, until):
 
 
 @kernel
-def _turn(model, radius, s, n, i, until, limit, hits):
+def _turn(model, radius, s, n, i, until, limit):
     """Take a ball to what it meets and turn it there, as ``flight.fly`` does: an ending, or RUNNING."""
     x, y, vx, vy, time, lost = s[X + i], s[Y + i], s[VX + i], s[VY + i], s[TIME + i], s[LOST + i]
     t, feature = s[BEST + i], int(s[FEATURE + i])
@@ -295,7 +304,6 @@ def _turn(model, radius, s, n, i, until, limit, hits):
     s[X + i], s[Y + i], s[VX + i], s[VY + i], s[TIME + i], s[LOST + i] = x, y, vx, vy, time, lost
     s[ENERGY + i], s[LAST + i] = energy, float(feature)
     n[BOUNCES + i] += 1
-    hits[wall] += 1
     if absorbs(model.restitution, wall):
         return ABSORBED
     if energy <= 0.0:
@@ -329,35 +337,92 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
         outcome: written for these balls, see ``Outcome``.
         scratch: see ``WaveScratch``.
     """
-    s, n, q = scratch.floats, scratch.integers, scratch.counts
-    for k in range(FLOATS):
-        s[k] = 0.0
-    for k in range(COUNTS):
-        q[k] = 0
-    flying = 0
-    for i in range(LANES):
-        s[ENERGY + i] = 1.0
-        flying += _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, outcome)
-    _cross(model, s, q)
+    far = len(model.lines) > NEAR_EDGES
+    flying, waves = 0, WAVES if far else 1
+    for wave in range(waves):
+        s, n, q = scratch.floats[wave], scratch.integers[wave], scratch.counts[wave]
+        _clear(s, q)
+        for i in range(LANES):
+            flying += _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, outcome)
+        _cross(model, s, q, far)
+    wave, met = 0, 0
     while flying > 0:
+        s, n, q = scratch.floats[wave], scratch.integers[wave], scratch.counts[wave]
+        wave = wave + 1 if wave + 1 < waves else 0
         _meet(model, radius, s, q)
         _decide(s, q, model.grid)
+        if far:
+            _prefetch_cells(model, q)
+            _prefetch_listed(model, radius, scratch.counts[wave])
         for k in range(_list_turning(q)):
             i = q[TURNING + k]
-            ending = _turn(model, radius, s, n, i, until, limit, hits)
+            before = n[BOUNCES + i]
+            ending = _turn(model, radius, s, n, i, until, limit)
+            scratch.met[met] = int(s[LAST + i])
+            met += n[BOUNCES + i] - before
             if ending == RUNNING:
                 _set_out(model, s, q, i, until)
                 continue
             _store(radius, s, n, i, start, until, ending, outcome)
             flying += _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, outcome) - 1
-        _cross(model, s, q)
+        if met >= LANES:
+            met = _count(model, scratch.met, met, hits)
+        _cross(model, s, q, far)
+    _count(model, scratch.met, met, hits)
 
 
 @kernel
-def _cross(model, s, q):
+def _clear(s, q):
+    """Empty a wave; without a ball a lane has a speed that nothing divides by 0 for."""
+    for k in range(FLOATS):
+        s[k] = 0.0
+    for k in range(COUNTS):
+        q[k] = 0
+    for i in range(LANES):
+        s[ENERGY + i] = 1.0
+
+
+@kernel
+def _count(model, met, count, hits):
+    """Count bounces off features, many together, so that one does not wait for another's memory: 0 are left."""
+    for k in range(count):
+        feature = met[k]
+        met[k] = model.edge_wall[feature] if feature >= 0 else model.corner_wall[-2 - feature]
+    for k in range(count):
+        hits[met[k]] += 1
+    return 0
+
+
+@kernel
+def _prefetch_cells(model, q):
+    """Ask memory for what balls need when they cross: it comes while others turn."""
+    for i in range(LANES):
+        prefetch(model.clearings, q[AT + i])
+        prefetch(model.cells, q[AT + i] - q[WAY + i])
+
+
+@kernel
+def _prefetch_listed(model, radius, q):
+    """Ask memory for all that the cells list which balls of another wave have entered."""
+    for k in range(q[ENTERED]):
+        i = q[ENTERING + k]
+        for at in range(q[NEXT + i], q[ARCS + i]):
+            prefetch(model.lines, model.ids[at])
+        if radius is not None:
+            for at in range(q[CORNERS + i], q[END + i]):
+                prefetch(model.corners, model.ids[at])
+
+
+@kernel
+def _cross(model, s, q, far):
     """Let balls cross into clearings and cells."""
-    for k in range(_list_entering(model, q)):
+    entering = _list_entering(model, q)
+    for k in range(entering):
         _enter(model, s, q, q[ENTERING + k])
+    if far:
+        q[ENTERED] = entering
+        for k in range(entering):
+            prefetch(model.ids, q[NEXT + q[ENTERING + k]])
     _border(s, q)
 
 
