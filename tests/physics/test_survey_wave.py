@@ -59,7 +59,10 @@ def test_so_many_edges_that_two_waves_fly_in_turn(arcs, radius):
     walls = _maze(random, count=33_000, arcs=arcs)
     position = random.uniform([1.0, 1.0], [199.0, 149.0], (COUNT, 2))
     scene = Scene(walls, Balls(position, _ways(random, COUNT), radius))
-    assert len(prepare(scene, check=False).modelled.model.lines) > NEAR_EDGES
+    ready = prepare(scene, check=False)
+    assert len(ready.modelled.model.lines) > NEAR_EDGES
+    assert ready.order is not None
+    assert sorted(ready.order) == list(range(COUNT))
     assert _assert_same(scene, until=2.0).bounces.sum() > 10_000
 
 
