@@ -128,7 +128,7 @@ def test_a_clearing_ahead_is_the_largest_empty_square(drawn, radius, fine):
 
     random = np.random.default_rng(1)
     for way, column, row in zip(*(random.integers(0, n, 300) for n in (4, columns, rows)), strict=True):
-        side = int(model.clearings[(way * rows + row) * columns + column])
+        side = int(model.clearings[4 * (row * columns + column) + way])
 
         def square(size, way=way, column=column, row=row):
             left, low = (column + 1 - size if way & 1 else column), (row + 1 - size if way & 2 else row)

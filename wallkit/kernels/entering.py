@@ -259,15 +259,15 @@ def clear_ahead(numbers, columns, rows, squares):
             for i in range(columns):
                 column = columns - 1 - i if step > 0 else i
                 cell = row * columns + column
-                at = way * columns * rows + cell
+                at = 4 * cell + way
                 side = 0
                 if numbers[4 * cell + 4] == numbers[4 * cell]:
                     side = WIDEST - 1
                     if i > 0:
-                        side = min(side, int(squares[at + step]))
+                        side = min(side, int(squares[at + 4 * step]))
                     if j > 0:
-                        side = min(side, int(squares[at + rise * columns]))
+                        side = min(side, int(squares[at + 4 * rise * columns]))
                     if i > 0 and j > 0:
-                        side = min(side, int(squares[at + rise * columns + step]))
+                        side = min(side, int(squares[at + 4 * (rise * columns + step)]))
                     side += 1
                 squares[at] = side

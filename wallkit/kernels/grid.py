@@ -97,15 +97,15 @@ def leaf(cells, grid, column, row):
 
 
 @kernel
-def way_of(grid, per_u, per_w):
-    """Where in ``Model.clearings`` the squares begin that lie the way of a flight."""
-    return (int(per_u <= 0.0) + 2 * int(per_w <= 0.0)) * grid.columns * grid.rows
+def way_of(per_u, per_w):
+    """Which of a cell's four clearings lies the way of a flight, see ``Model.clearings``."""
+    return int(per_u <= 0.0) + 2 * int(per_w <= 0.0)
 
 
 @kernel
 def clearing(clearings, grid, way, column, row):
     """Side of the empty square ahead of a place in units, in cells that are not part of another; 0 for none."""
-    return int(clearings[way + (row >> grid.shift) * grid.columns + (column >> grid.shift)])
+    return int(clearings[4 * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + way])
 
 
 @kernel
@@ -161,7 +161,7 @@ def _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, fea
     touched = 0
     px, py, u, w = in_units(grid, x, y, vx, vy)
     per_u, per_w = per_speed(u), per_speed(w)
-    way = way_of(grid, per_u, per_w)
+    way = way_of(per_u, per_w)
     column, row = place(grid, x, y)
     time = -math.inf
     while best > time and inside(grid, column, row):

@@ -176,7 +176,7 @@ class Model(NamedTuple):
     grid: Any
     """``Grid``, or None."""
     clearings: Any
-    """For each way (right and up, left and up, right and down, left and down) and cell that is not part of another:
+    """By cell that is not part of another, then by way (right and up, left and up, right and down, left and down):
     side of the largest square of cells that begins with it, goes that way, and lists nothing; 0 where it lists
     something."""
     lines: Any

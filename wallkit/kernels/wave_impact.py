@@ -17,12 +17,12 @@ from wallkit.kernels.model import NO_HIT
 LANES = 32
 """So few that a wave stays in the nearest cache, beside what it looks at."""
 (
-    X, Y, VX, VY, TIME, LOST, ENERGY, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE,
+    X, Y, VX, VY, TIME, LOST, ENERGY, SPEED, PER_ENERGY, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE,
     LAST, BEST, FEATURE, TOUCHED, ID, FLIES,
     PX, PY, U, W, PER_U, PER_W, BORDER_X, BORDER_Y, COLUMN, ROW,
     E0, E1, E2, E3, E4, E5, E6, E7, E8, E9,
-) = (LANES * number for number in range(38))  # fmt: skip
-FLOATS = 38 * LANES
+) = (LANES * number for number in range(40))  # fmt: skip
+FLOATS = 40 * LANES
 NONE = float(NO_HIT)
 (
     NEXT, ARCS, CORNERS, END, WAY, AT, SIDE, SIZE, CROSSES, TURNS,
@@ -100,7 +100,7 @@ def meet_corners(s, q, radius):
         ex, ey = s[X + i] - s[E0 + i], s[Y + i] - s[E1 + i]
         along = ex * vx + ey * vy
         cross = ex * vy - ey * vx
-        discriminant = square - cross * cross * (1.0 / energy)
+        discriminant = square - cross * cross * s[PER_ENERGY + i]
         c = ex * ex + ey * ey - square
         t = c / (math.sqrt(energy * (discriminant if discriminant > 0.0 else 0.0)) - along)
         t = 0.0 if t < 0.0 else t
@@ -141,7 +141,7 @@ def meet_arcs_point(s, q):
         asked = (q[NEXT + i] >= q[ARCS + i]) & (q[NEXT + i] < q[CORNERS + i])
         s[TOUCHED + i] = 1.0 if asked & near & (not again) else s[TOUCHED + i]
         meets = asked & (inside | ((not on) & (along < 0.0))) & (leaves | (enters & (not inside)))
-        speed = math.sqrt(energy)
+        speed = s[SPEED + i]
         square = (radius * speed - cross) * (radius * speed + cross)
         root = math.sqrt(square if square > 0.0 else 0.0)
         above, below = -power, along + root
@@ -168,7 +168,7 @@ def meet_arcs_disc(s, q, disc):
         power = wx * (wx + 2.0 * sx) + wy * (wy + 2.0 * sy)
         along = ex * vx + ey * vy
         cross = abs(ex * vy - ey * vx)
-        speed = math.sqrt(energy)
+        speed = s[SPEED + i]
         asked = (q[NEXT + i] >= q[ARCS + i]) & (q[NEXT + i] < q[CORNERS + i]) & ((power < 0.0) | (along < 0.0))
         reach = radius + disc
         square = (reach * speed - cross) * (reach * speed + cross)

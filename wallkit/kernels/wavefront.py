@@ -12,6 +12,7 @@ The formulas are those of ``impact``, ``arcs`` and ``motion``, term by term: the
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from wallkit.kernels.corner import settle
@@ -72,6 +73,7 @@ from wallkit.kernels.wave_impact import (
     LOST,
     NEXT,
     NONE,
+    PER_ENERGY,
     PER_U,
     PER_W,
     PX,
@@ -79,6 +81,7 @@ from wallkit.kernels.wave_impact import (
     ROW,
     SIDE,
     SIZE,
+    SPEED,
     TIME,
     TOLERANCE,
     TOUCHED,
@@ -203,7 +206,7 @@ def _decide(s, q, grid):
         goes = (s[FLIES + i] == 1.0) & (following >= q[END + i])
         column, row = int(0.0 if outside else x), int(0.0 if outside else y)
         s[COLUMN + i], s[ROW + i] = float(column), float(row)
-        q[AT + i] = q[WAY + i] + (row >> grid.shift) * grid.columns + (column >> grid.shift)
+        q[AT + i] = 4 * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + q[WAY + i]
         q[CROSSES + i] = int(goes & (not turns))
         q[TURNS + i] = int(goes & turns)
 
@@ -234,7 +237,7 @@ def _list_entering(model, q):
 def _enter(model, s, q, i):
     """Enter the cell at the column and row of a ball."""
     grid, cells = model.grid, model.cells
-    top = q[AT + i] - q[WAY + i]
+    top = q[AT + i] >> 2
     if cells[top].link > 0:
         _open(cells, q, i, top, grid.shift)
     else:
@@ -272,11 +275,11 @@ def _set_out(model, s, q, i, until):
     px, py, u, w = in_units(grid, s[X + i], s[Y + i], s[VX + i], s[VY + i])
     per_u, per_w = per_speed(u), per_speed(w)
     s[PX + i], s[PY + i], s[U + i], s[W + i], s[PER_U + i], s[PER_W + i] = px, py, u, w, per_u, per_w
-    way = way_of(grid, per_u, per_w)
+    way = way_of(per_u, per_w)
     column, row = place(grid, s[X + i], s[Y + i])
     s[COLUMN + i], s[ROW + i] = float(column), float(row)
     q[WAY + i] = way
-    q[AT + i] = way + (row >> grid.shift) * grid.columns + (column >> grid.shift)
+    q[AT + i] = 4 * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + way
     q[CROSSES + i] = 1
 
 
@@ -302,13 +305,20 @@ def _turn(model, radius, s, n, i, until, limit):
     nx, ny, twice, wall = normal_of(model, feature, x, y)
     vx, vy, energy = reflect(model.restitution, wall, nx, ny, twice, vx, vy, s[ENERGY + i])
     s[X + i], s[Y + i], s[VX + i], s[VY + i], s[TIME + i], s[LOST + i] = x, y, vx, vy, time, lost
-    s[ENERGY + i], s[LAST + i] = energy, float(feature)
+    if model.restitution is not None:
+        _set_energy(s, i, energy)
+    s[LAST + i] = float(feature)
     n[BOUNCES + i] += 1
     if absorbs(model.restitution, wall):
         return ABSORBED
     if energy <= 0.0:
         return AT_REST
     return BOUNCE_LIMIT if n[BOUNCES + i] >= limit else RUNNING
+
+
+@kernel
+def _set_energy(s, i, energy):
+    s[ENERGY + i], s[SPEED + i], s[PER_ENERGY + i] = energy, math.sqrt(energy), 1.0 / energy
 
 
 @rare_kernel
@@ -379,7 +389,7 @@ def _clear(s, q):
     for k in range(COUNTS):
         q[k] = 0
     for i in range(LANES):
-        s[ENERGY + i] = 1.0
+        _set_energy(s, i, 1.0)
 
 
 @kernel
@@ -398,7 +408,7 @@ def _prefetch_cells(model, q):
     """Ask memory for what balls need when they cross: it comes while others turn."""
     for i in range(LANES):
         prefetch(model.clearings, q[AT + i])
-        prefetch(model.cells, q[AT + i] - q[WAY + i])
+        prefetch(model.cells, q[AT + i] >> 2)
 
 
 @kernel
@@ -464,7 +474,8 @@ def _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, o
         s[TOLERANCE + i] = tolerance_of(x, y, start.extent)
         s[LAST + i], n[BOUNCES + i], n[STILL + i], n[BALL + i] = NONE, 0, 0, ball
         if energy > 0.0 and limit > 0:
-            s[ENERGY + i], s[FLIES + i] = energy, 1.0
+            s[FLIES + i] = 1.0
+            _set_energy(s, i, energy)
             _set_out(model, s, q, i, until)
             return 1
         _store(radius, s, n, i, start, until, AT_REST if energy <= 0.0 else BOUNCE_LIMIT, outcome)
