@@ -25,13 +25,13 @@ LANES = 32
 FLOATS = 40 * LANES
 NONE = float(NO_HIT)
 (
-    NEXT, ARCS, CORNERS, END, WAY, AT, SIDE, SIZE, CROSSES, TURNS,
+    NEXT, NEXT_CORNER, ARCS, CORNERS, END, WAY, AT, SIDE, SIZE, CROSSES, TURNS,
     LINE_LIST, ARC_LIST, CORNER_LIST, ENTERING, TURNING, ENTERED,
-) = (LANES * number for number in range(16))  # fmt: skip
-COUNTS = 16 * LANES
+) = (LANES * number for number in range(17))  # fmt: skip
+COUNTS = 17 * LANES
 """NEXT: place in ``Model.ids`` of what a ball looks at: a line before that in ARCS, an arc before that in CORNERS,
-a corner before that in END, else nothing. Whether a ball CROSSES or TURNS is 1 or 0; the lists are of lanes, and at
-ENTERED stands how many are in ENTERING."""
+else nothing; discs look at a corner in the same turn, at NEXT_CORNER before END. Whether a ball CROSSES or TURNS is 1
+or 0; the lists are of lanes, and at ENTERED stands how many are in ENTERING."""
 
 
 @kernel
@@ -104,7 +104,7 @@ def meet_corners(s, q, radius):
         c = ex * ex + ey * ey - square
         t = c / (math.sqrt(energy * (discriminant if discriminant > 0.0 else 0.0)) - along)
         t = 0.0 if t < 0.0 else t
-        looks = (q[NEXT + i] >= q[CORNERS + i]) & (q[NEXT + i] < q[END + i])
+        looks = q[NEXT_CORNER + i] < q[END + i]
         asked = looks & (s[LAST + i] != number) & (along < 0.0) & (discriminant >= 0.0)
         sooner = (t < best) | ((t == best) & (feature < NONE) & (number > feature))  # as ``precedes`` says
         met = asked & sooner

@@ -72,6 +72,7 @@ from wallkit.kernels.wave_impact import (
     LINE_LIST,
     LOST,
     NEXT,
+    NEXT_CORNER,
     NONE,
     PER_ENERGY,
     PER_U,
@@ -137,7 +138,7 @@ def _list_looking(arcs, radius, q):
             at_arc += int((k >= q[ARCS + i]) & (k < q[CORNERS + i]))
         if radius is not None:
             q[CORNER_LIST + at_corner] = i
-            at_corner += int((k >= q[CORNERS + i]) & (k < q[END + i]))
+            at_corner += int(q[NEXT_CORNER + i] < q[END + i])
     return at_line, at_arc, at_corner
 
 
@@ -156,7 +157,7 @@ def _fetch_lines(model, s, q, count):
 def _fetch_corners(model, s, q, count):
     for k in range(count):
         i = q[CORNER_LIST + k]
-        vertex = model.ids[q[NEXT + i]]
+        vertex = model.ids[q[NEXT_CORNER + i]]
         corner = model.corners[vertex]
         s[ID + i], s[E0 + i], s[E1 + i] = float(vertex), corner.x, corner.y
 
@@ -176,7 +177,7 @@ def _fetch_arcs(model, arcs, s, q, count):
 
 
 @kernel
-def _decide(s, q, grid):
+def _decide(s, q, grid, radius):
     """Find when every ball leaves its cell, and what it does next: look on, cross into the next cell, or turn.
 
     As ``grid.ahead`` does, with the borders of the cell (or clearing) as they are. Also where the next cell is in
@@ -201,9 +202,13 @@ def _decide(s, q, grid):
         y = there_y if sideways else (border_y if per_w > 0.0 else border_y - 1.0)
         outside = (x < 0.0) | (x >= columns) | (y < 0.0) | (y >= rows)
         turns = outside | (s[BEST + i] <= time)
-        following = q[NEXT + i] + int(q[NEXT + i] < q[END + i])
+        following = q[NEXT + i] + int(q[NEXT + i] < q[CORNERS + i])
         q[NEXT + i] = following
-        goes = (s[FLIES + i] == 1.0) & (following >= q[END + i])
+        goes = (s[FLIES + i] == 1.0) & (following >= q[CORNERS + i])
+        if radius is not None:
+            following = q[NEXT_CORNER + i] + int(q[NEXT_CORNER + i] < q[END + i])
+            q[NEXT_CORNER + i] = following
+            goes = goes & (following >= q[END + i])
         column, row = int(0.0 if outside else x), int(0.0 if outside else y)
         s[COLUMN + i], s[ROW + i] = float(column), float(row)
         q[AT + i] = 4 * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + q[WAY + i]
@@ -249,7 +254,7 @@ def _enter(model, s, q, i):
 def _open(cells, q, i, cell, shift):
     """Look at what a cell of the side 2^shift lists."""
     q[NEXT + i], q[ARCS + i], q[CORNERS + i] = cells[cell].first, cells[cell].arcs, cells[cell].corners
-    q[END + i] = cells[cell + 1].first
+    q[NEXT_CORNER + i], q[END + i] = cells[cell].corners, cells[cell + 1].first
     q[SIDE + i], q[SIZE + i] = cells[cell].link, 1 << shift
 
 
@@ -360,7 +365,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
         s, n, q = scratch.floats[wave], scratch.integers[wave], scratch.counts[wave]
         wave = wave + 1 if wave + 1 < waves else 0
         _meet(model, radius, s, q)
-        _decide(s, q, model.grid)
+        _decide(s, q, model.grid, radius)
         if far:
             _prefetch_cells(model, q)
             _prefetch_listed(model, radius, scratch.counts[wave])
@@ -419,7 +424,7 @@ def _prefetch_listed(model, radius, q):
         for at in range(q[NEXT + i], q[ARCS + i]):
             prefetch(model.lines, model.ids[at])
         if radius is not None:
-            for at in range(q[CORNERS + i], q[END + i]):
+            for at in range(q[NEXT_CORNER + i], q[END + i]):
                 prefetch(model.corners, model.ids[at])
 
 
@@ -480,7 +485,7 @@ def _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, o
             return 1
         _store(radius, s, n, i, start, until, AT_REST if energy <= 0.0 else BOUNCE_LIMIT, outcome)
     s[FLIES + i], q[CROSSES + i] = 0.0, 0
-    q[NEXT + i], q[ARCS + i], q[CORNERS + i], q[END + i] = 0, 0, 0, 0
+    q[NEXT + i], q[NEXT_CORNER + i], q[ARCS + i], q[CORNERS + i], q[END + i] = 0, 0, 0, 0, 0
     return 0
 
 
