@@ -143,13 +143,15 @@ def _list_looking(arcs, radius, q):
 
 
 @kernel
-def _fetch_lines(model, s, q, count):
+def _fetch_lines(model, radius, s, q, count):
     for k in range(count):
         i = q[LINE_LIST + k]
         edge = model.ids[q[NEXT + i]]
         line = model.lines[edge]
         s[ID + i] = float(edge)
-        s[E0 + i], s[E1 + i], s[E2 + i], s[E3 + i] = line.ax, line.ay, line.bx, line.by
+        s[E0 + i], s[E1 + i] = line.ax, line.ay
+        if radius is None:
+            s[E2 + i], s[E3 + i] = line.bx, line.by
         s[E4 + i], s[E5 + i], s[E6 + i] = line.nx, line.ny, line.length
 
 
@@ -163,7 +165,7 @@ def _fetch_corners(model, s, q, count):
 
 
 @kernel
-def _fetch_arcs(model, arcs, s, q, count):
+def _fetch_arcs(model, arcs, radius, s, q, count):
     if arcs is None:
         return
     for k in range(count):
@@ -171,7 +173,9 @@ def _fetch_arcs(model, arcs, s, q, count):
         edge = model.ids[q[NEXT + i]]
         arc = arcs[model.arc_of_edge[edge]]
         s[ID + i] = float(edge)
-        s[E0 + i], s[E1 + i], s[E2 + i], s[E3 + i] = arc.ax, arc.ay, arc.bx, arc.by
+        s[E0 + i], s[E1 + i] = arc.ax, arc.ay
+        if radius is None:
+            s[E2 + i], s[E3 + i] = arc.bx, arc.by
         s[E4 + i], s[E5 + i], s[E6 + i], s[E7 + i] = arc.sx, arc.sy, arc.fx, arc.fy
         s[E8 + i], s[E9 + i] = arc.radius, arc.wide
 
@@ -446,13 +450,13 @@ def _meet(model, radius, s, q):
     """Let every ball look at the next line, arc or corner of its cell."""
     at_line, at_arc, at_corner = _list_looking(model.arcs, radius, q)
     if at_line > 0:
-        _fetch_lines(model, s, q, at_line)
+        _fetch_lines(model, radius, s, q, at_line)
         if radius is None:
             meet_lines_point(s, q)
         else:
             meet_lines_disc(s, q, radius)
     if at_arc > 0:
-        _fetch_arcs(model, model.arcs, s, q, at_arc)
+        _fetch_arcs(model, model.arcs, radius, s, q, at_arc)
         if radius is None:
             meet_arcs_point(s, q)
         else:
