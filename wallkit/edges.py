@@ -90,7 +90,7 @@ def corners_of(
     """
     ux, uy, wx, wy = np.zeros((4, len(vertices)))  # normals of the edge that arrives, and of the one that leaves
     (ux[ends], uy[ends]), (wx[starts], wy[starts]) = _end_normals(lines, bulges)
-    corners = np.empty(len(vertices), dtype=CORNER)
+    corners = on_cache_lines(len(vertices), CORNER)
     for name, column in zip(Corner._fields, (vertices[:, 0], vertices[:, 1], ux + wx, uy + wy), strict=True):
         corners[name] = column
     first, last = np.ones((2, len(vertices)), dtype=np.bool_)

@@ -105,7 +105,13 @@ def way_of(per_u, per_w):
 @kernel
 def clearing(clearings, grid, way, column, row):
     """Side of the empty square ahead of a place in units, in cells that are not part of another; 0 for none."""
-    return int(clearings[4 * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + way])
+    return int(clearings[clearing_at(grid, way, column, row)])
+
+
+@kernel
+def clearing_at(grid, way, column, row):
+    """Where in ``Model.clearings`` that is."""
+    return 4 * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + way
 
 
 @kernel

@@ -5,7 +5,8 @@ Here every ball of a wave is one step further with every turn of the loop: all f
 for the time of impact, all find out when they leave their cell, all cross into clearings. The arithmetic has no
 branches and runs over flat arrays, LANES for each number of a ball, so that vector instructions do it; what is fetched
 for one ball does not wait for another. Balls that enter a cell which lists something, or turn at a wall, are listed and
-handled one by one; one that has ended makes room for another.
+handled one by one; one that has ended makes room for another. Among so many edges that memory is slow to give them, two
+waves fly in turn: what one needs is on its way while the other flies.
 
 The formulas are those of ``impact``, ``arcs`` and ``motion``, term by term: the same bits come out.
 """
@@ -17,7 +18,7 @@ from typing import Any, NamedTuple
 
 from wallkit.kernels.corner import settle
 from wallkit.kernels.flight import absorbs, ending_without, has_left, normal_of, passes, still_limit, tolerance_of
-from wallkit.kernels.grid import in_units, leaf, per_speed, place, way_of
+from wallkit.kernels.grid import clearing_at, in_units, leaf, per_speed, place, way_of
 from wallkit.kernels.jit import kernel, prefetch, rare_kernel
 from wallkit.kernels.model import (
     ABSORBED,
@@ -215,7 +216,7 @@ def _decide(s, q, grid, radius):
             goes = goes & (following >= q[END + i])
         column, row = int(0.0 if outside else x), int(0.0 if outside else y)
         s[COLUMN + i], s[ROW + i] = float(column), float(row)
-        q[AT + i] = 4 * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + q[WAY + i]
+        q[AT + i] = clearing_at(grid, q[WAY + i], column, row)
         q[CROSSES + i] = int(goes & (not turns))
         q[TURNS + i] = int(goes & turns)
 
@@ -288,7 +289,7 @@ def _set_out(model, s, q, i, until):
     column, row = place(grid, s[X + i], s[Y + i])
     s[COLUMN + i], s[ROW + i] = float(column), float(row)
     q[WAY + i] = way
-    q[AT + i] = 4 * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + way
+    q[AT + i] = clearing_at(grid, way, column, row)
     q[CROSSES + i] = 1
 
 
@@ -327,6 +328,7 @@ def _turn(model, radius, s, n, i, until, limit):
 
 @kernel
 def _set_energy(s, i, energy):
+    """Keep a squared speed, and what every look at an arc or a corner would make of it again."""
     s[ENERGY + i], s[SPEED + i], s[PER_ENERGY + i] = energy, math.sqrt(energy), 1.0 / energy
 
 
