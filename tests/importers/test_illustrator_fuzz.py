@@ -17,7 +17,7 @@ from importers.limits import MAX_COORDINATE
 from importers.pdf import read_pdf
 
 LIGHTHOUSE = (Path(__file__).parent / "drawings" / "lighthouse_ai5.ai").read_bytes()
-SLOW_MACHINES = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+SLOW_MACHINES = settings(suppress_health_check=[HealthCheck.too_slow])
 
 WORDS = (
     b"m l L c C v V y Y h H n N f F s S b B * *u *U u U q Q W A XR D Lb Ln LB Xw g G k K x X Xa XA Xx Xk p P w Bb Bg "

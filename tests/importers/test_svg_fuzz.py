@@ -71,7 +71,7 @@ def read(data):
 
 
 @given(st.lists(elements(), max_size=4), st.dictionaries(st.sampled_from(NAMES), TEXTS, max_size=3))
-@settings(deadline=None, max_examples=80)
+@settings(max_examples=80)
 def test_a_soup_of_elements_and_attributes(parts, attributes):
     written = "".join(f' {name}="{escape(value)}"' for name, value in attributes.items())
     read(f'<svg xmlns="http://www.w3.org/2000/svg"{written}>{"".join(parts)}</svg>'.encode())
@@ -80,7 +80,7 @@ def test_a_soup_of_elements_and_attributes(parts, attributes):
 @given(
     st.sampled_from(FILES), st.lists(st.tuples(st.integers(0, 10**6), st.binary(max_size=6)), min_size=1, max_size=4)
 )
-@settings(deadline=None, max_examples=150)
+@settings(max_examples=150)
 def test_damaged_files(file, damage):
     data = bytearray(file.read_bytes())
     for place, put in damage:
@@ -90,21 +90,21 @@ def test_damaged_files(file, damage):
 
 
 @given(st.sampled_from(FILES), st.sampled_from(FILES), st.integers(0, 10**6), st.integers(0, 10**6))
-@settings(deadline=None, max_examples=150)
+@settings(max_examples=150)
 def test_files_cut_and_put_together(one, other, here, there):
     first, second = one.read_bytes(), other.read_bytes()
     read(first[: here % len(first)] + second[there % len(second) :])
 
 
 @given(st.binary(max_size=200))
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_any_bytes(data):
     read(data)
     read(b"<svg xmlns='http://www.w3.org/2000/svg'>" + data)
 
 
 @given(st.text(max_size=60))
-@settings(deadline=None, max_examples=150)
+@settings(max_examples=150)
 def test_any_style_sheet(text):
     sheet = escape(text)
     read(f'<svg xmlns="http://www.w3.org/2000/svg"><style>{sheet}</style><rect style="{sheet}"/></svg>'.encode())

@@ -51,7 +51,7 @@ def drawn(subpaths):
 
 
 @given(path_texts())
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_a_second_reader_agrees(text):
     """Segment by segment the same kinds and points as svgpathtools gives; arcs by their ends and middles."""
     subpaths, fault = parse_path_data(text)
@@ -82,7 +82,7 @@ def test_a_second_reader_agrees(text):
 
 
 @given(st.text(alphabet="MmZzLlHhVvCcSsQqTtAa0123456789.,-+eE \n#", max_size=80))
-@settings(deadline=None, max_examples=300)
+@settings(max_examples=300)
 def test_any_text_gives_its_right_beginning_and_says_where_it_ends(text):
     subpaths, fault = parse_path_data(text)
     for sub in subpaths:
@@ -95,7 +95,7 @@ def test_any_text_gives_its_right_beginning_and_says_where_it_ends(text):
 
 
 @given(path_texts(), st.integers(0, 400))
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_what_stands_before_an_error_is_used_whole(text, cut):
     """With rubbish put in, the segments are the first ones of the right text."""
     cut = min(cut, len(text))

@@ -312,7 +312,7 @@ KEYS = [
 ]
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     name=st.sampled_from(["simulate", "walls", "save", "sample"]),
     change=st.dictionaries(st.sampled_from(KEYS), ANYTHING, max_size=3),

@@ -5,7 +5,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from wallkit import Balls, Material, Scene, SceneError, Walls, World, simulate, survey
@@ -253,7 +253,6 @@ def _clock(damping, energy, part, span, out):
 positive = st.floats(1e-6, 1e6)
 
 
-@settings(deadline=None)
 @example(drags=True, energy=1.0, much=0.5, part=5e-324, span=1.0)
 @given(st.booleans(), positive, positive, st.floats(0.0, math.nextafter(1.0, 0.0)), positive | st.just(math.inf))
 def test_the_clock_is_the_same_interpreted_and_compiled_and_right(drags, much, energy, part, span):

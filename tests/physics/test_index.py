@@ -56,7 +56,7 @@ def clustered(drawn, bulge=0.0):
     return Walls.from_polylines([ROOM, *rings], bulges=[np.zeros(4), *(np.full(len(r), bulge) for r in rings)])
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(spots, st.sampled_from([0.0, 0.01, 5.0]), st.sampled_from([0.0, 0.4, -1.7]))
 def test_places_of_contact_are_in_cells_that_list_them(drawn, radius, bulge):
     scene = modelled(clustered(drawn, bulge), radius)
@@ -75,7 +75,7 @@ def test_places_of_contact_are_in_cells_that_list_them(drawn, radius, bulge):
                 assert edge in listed(model, x + side * nx, y + side * ny)[0]
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(spots, st.sampled_from([0.01, 5.0]))
 def test_arcs_about_corners_are_in_cells_that_list_them(drawn, radius):
     walls = clustered(drawn)
@@ -92,7 +92,7 @@ def test_arcs_about_corners_are_in_cells_that_list_them(drawn, radius):
                 assert vertex in listed(model, corner.x + scale * nx, corner.y + scale * ny)[1]
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(spots, st.sampled_from([0.0, 1.0]))
 def test_nothing_is_listed_in_a_clearing(drawn, radius):
     model = modelled(clustered(drawn), radius).lists
@@ -112,7 +112,7 @@ def test_nothing_is_listed_in_a_clearing(drawn, radius):
             assert cells[c].link == 1
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(spots, st.sampled_from([0.0, 5.0]), st.booleans())
 def test_a_clearing_ahead_is_the_largest_empty_square(drawn, radius, fine):
     model = modelled(clustered(drawn), radius, machine_code=True, fine=fine).model
@@ -168,7 +168,7 @@ def totals(scene, index):
     return survey(Prepared(scene, Modelled(scene, index=index, machine_code=True), None), until=20.0, threads=1)
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(spots, st.sampled_from([0.0, 0.01, 5.0]), st.sampled_from([0.0, 0.4]), st.sampled_from([None, (0.0, -9.81)]))
 def test_the_same_bits_as_without_an_index(drawn, radius, bulge, gravity):
     walls = clustered(drawn, bulge)

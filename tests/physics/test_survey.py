@@ -92,7 +92,7 @@ def test_balls_of_many_radii_keep_their_own():
     np.testing.assert_array_equal(totals.position, np.stack([run.final["x"], run.final["y"]], axis=1))
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.integers(0, 2**32), st.integers(1, 60), st.floats(0.01, 300.0), st.sampled_from([0.0, 1.0, 1e6]))
 def test_room_at_the_start_is_what_shapely_measures(seed, count, reach, offset):
     rng = np.random.default_rng(seed)

@@ -39,7 +39,7 @@ def test_the_exact_way_is_simulate_cut_into_frames(radius, dt):
     assert np.array_equal(world.velocity, run.velocity(world.time))
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(steps=st.lists(st.floats(0.0, 3.0), max_size=12))
 def test_how_time_is_cut_changes_no_contact(steps):
     scene = Scene(scenes.star(), Balls([(3.0, -7.0)], [FORWARD], 5.0))

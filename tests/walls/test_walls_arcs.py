@@ -96,7 +96,7 @@ def cusps(control):
     return np.count_nonzero(np.hypot(*bezier(d, t).T) <= 1e-6 * np.abs(d).max())
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(point, point, point, point, tolerance)
 @example((0.0, 0.0), (100.0, 100.0), (0.0, 100.0), (100.0, 0.0), 1e-3)  # a true cusp
 @example((0.0, 0.0), (100.0, 100.000001), (0.0, 100.0), (100.0, 0.0), 1e-3)  # nearly one
@@ -122,7 +122,7 @@ def test_every_cubic_stays_within_the_tolerance(p0, p1, p2, p3, tol):
     check_smooth(vertices, bulges, cusps(control))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(point, point, point, tolerance)
 def test_every_quadratic_stays_within_the_tolerance(p0, p1, p2, tol):
     vertices, bulges, pieces = fit([("M", *p0), ("Q", *p1, *p2)], tol)
@@ -145,7 +145,7 @@ def as_segment(points, turn, rx, ry, rotation):
     ]
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     st.floats(0, 360),
     st.floats(5, 350),
@@ -299,7 +299,7 @@ def test_arcs_run_over_the_joints_of_a_smooth_line(count):
     assert max(to_line(exact, arcs), to_line(arcs, exact)) <= 1e-4 + drawn + sampling_error(exact)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.lists(point, min_size=3, max_size=8, unique=True), st.floats(0.05, 1.5), tolerance)
 def test_every_smooth_line_of_cubics_stays_within_the_tolerance(nodes, arm, tol):
     """Through random points, at each along the chord of its neighbours; arms from short to such that make loops."""

@@ -21,7 +21,7 @@ from wallkit.walls.walls import WallsError
 number = st.floats(allow_nan=False, allow_infinity=False)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(
     st.lists(st.lists(st.tuples(number, number, st.floats(-1, 1)), min_size=2, max_size=6), max_size=4),
     st.text(max_size=5),

@@ -32,7 +32,7 @@ coordinate = st.floats(-100, 100).map(lambda x: round(x, 3))
 point = st.tuples(coordinate, coordinate)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.tuples(point, point, point, point), st.sampled_from([1.0, 0.1, 0.01]))
 def test_every_point_of_the_curve_is_within_tolerance(points, tolerance):
     strokes = cubic(points)
@@ -99,7 +99,7 @@ def test_circle_has_the_fewest_equal_edges(r):
     assert np.hypot(*pieces.ends.T) == pytest.approx(r, rel=1e-14)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(point, point, st.floats(0.1, 300), st.floats(0.1, 300), st.floats(-360, 360), st.booleans(), st.booleans())
 def test_elliptic_arcs_lie_on_their_ellipse_and_within_tolerance(a, b, rx, ry, rotation, large, sweep):
     """Against the definition: the points satisfy the ellipse's equation, reached by a turn of the right kind."""

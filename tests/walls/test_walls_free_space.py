@@ -100,7 +100,7 @@ def eroded_outside(walls, radius):
     return max(eroded(walls, radius), key=lambda part: shapely.box(*part.bounds).area)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.integers(0, 10_000), st.floats(0.05, 3))
 @example(3537, 2.375).via("a tip faces a wall behind the edge between two others, and is nearer to it than to both")
 def test_what_is_connected_agrees_with_shapelys_erosion(seed, radius):
@@ -114,7 +114,7 @@ def test_what_is_connected_agrees_with_shapelys_erosion(seed, radius):
         assert outside.contains(shapely.Point(gap.room)) == (gap.escape > 2 * radius)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(st.integers(0, 10_000))
 @example(174).via("a foot where the triangulation itself had cut the wall")
 def test_a_disc_just_narrower_than_the_escape_gets_out_and_one_just_wider_does_not(seed):
@@ -129,7 +129,7 @@ def as_walls(*lines, closed=False):
     return Walls.from_polylines([np.array(points, dtype=float) for points in lines], closed)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.floats(0.001, 20), st.floats(0, 2 * math.pi), st.floats(-1000, 1000), st.floats(0.1, 0.9))
 def test_a_gap_has_its_width_wherever_it_is(width, angle, shift, place):
     low = place * (260 - width) + 30

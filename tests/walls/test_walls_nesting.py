@@ -33,7 +33,7 @@ exact = st.floats(-1e6, 1e6).map(lambda x: round(x, 9))  # products of coordinat
 ring = st.lists(st.tuples(whole, whole), min_size=3, max_size=7, unique=True)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(ring, ring)
 def test_two_rings_cross_exactly_when_neither_holds_the_other(p, q):
     one, two = Polygon(p), Polygon(q)
@@ -45,7 +45,7 @@ def test_two_rings_cross_exactly_when_neither_holds_the_other(p, q):
     assert (crossing[:, 0] != crossing[:, 1]).any() == partly
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(ring)
 def test_a_ring_without_any_contact_is_valid_and_no_valid_ring_crosses_itself(p):
     found = find_contacts(edges_of(p))
@@ -69,7 +69,7 @@ def test_crossing_or_only_touching(walls, crossing):
     assert bool(len(find_contacts(edges_of(*walls)).crossing_walls)) == crossing
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(st.lists(st.tuples(exact, exact), min_size=3, max_size=3), st.floats(0, 1))
 def test_side_is_exact(points, part):
     a, b, c = points
@@ -85,7 +85,7 @@ def test_side_is_exact(points, part):
 boxes = st.tuples(st.integers(0, 8), st.integers(0, 8), st.integers(1, 9), st.integers(1, 9))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(st.tuples(boxes, st.integers(0, 3), st.booleans(), st.booleans()), min_size=1, max_size=14))
 def test_depth_counts_the_rings_around_touching_or_not_copies_once(choice):
     rings, shapes = [], []

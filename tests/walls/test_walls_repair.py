@@ -76,7 +76,7 @@ def assert_normals_leave_the_material(walls, shape, step):
     assert shapely.contains(shape, inside).all()
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.integers(0, 100_000))
 def test_damaged_drawings_give_the_same_material(seed):
     rng = np.random.default_rng(seed)
@@ -100,7 +100,7 @@ def test_damaged_drawings_give_the_same_material(seed):
     assert again.walls == walls
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.integers(0, 100_000))
 def test_overlapping_solids_are_united_as_shapely_unites_them(seed):
     rng = np.random.default_rng(seed)
