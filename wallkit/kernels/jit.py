@@ -60,8 +60,7 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     from numba.extending import register_jitable
 
     _register_all(register_jitable)
-    _register_claim()
-    _register_prefetch()
+    _register_instructions()
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False}
     theirs = getattr(config, "CACHE_DIR", "")
     setattr(config, "CACHE_DIR", str(_cache_folder()))  # noqa: B010 - numba makes its settings at run time
@@ -82,60 +81,53 @@ def _register_all(register: Callable[..., Any]) -> None:
 
 
 @cache
-def _register_claim() -> None:
-    """Let machine code count without a gap between reading and writing: no two threads take the same number."""
-    from numba import types
-    from numba.extending import intrinsic, overload
-    from numba.np.arrayobj import make_array
+def _register_instructions() -> None:
+    """Let machine code do by one instruction what Python cannot.
 
-    @intrinsic
-    def fetch_and_add(_context: Any, counter: Any, _count: Any) -> Any:
-        def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-            place = make_array(signature.args[0])(context, builder, values[0]).data
-            return builder.atomic_rmw("add", place, values[1], "monotonic")
-
-        return types.int64(counter, types.int64), emit
-
-    options: Any = {"forceinline": True, "_nrt": False}
-
-    @overload(claim, jit_options=options)
-    def _claim(counter: Any, count: int) -> Any:
-        def at_once(counter: Any, count: int) -> int:
-            return fetch_and_add(counter, count)  # type: ignore[call-arg]
-
-        return at_once
-
-
-@cache
-def _register_prefetch() -> None:
-    """Let machine code ask memory for what it reads later."""
+    It counts without a gap between reading and writing, so that no two threads take the same number, and asks memory
+    for what it reads later.
+    """
     from llvmlite import ir
     from numba import types
     from numba.core import cgutils
     from numba.extending import intrinsic, overload
     from numba.np.arrayobj import make_array
 
+    def data_of(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+        return make_array(signature.args[0])(context, builder, values[0]).data
+
+    @intrinsic
+    def fetch_and_add(_context: Any, counter: Any, _count: Any) -> Any:
+        def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+            place = data_of(context, builder, signature, values)
+            return builder.atomic_rmw("add", place, values[1], "monotonic")
+
+        return types.int64(counter, types.int64), emit
+
     @intrinsic
     def ask(_context: Any, records: Any, _place: Any) -> Any:
         def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-            data = make_array(signature.args[0])(context, builder, values[0]).data
             word, byte = ir.IntType(32), ir.IntType(8).as_pointer()
             kind = ir.FunctionType(ir.VoidType(), [byte, word, word, word])
             function = cgutils.get_or_insert_function(builder.module, kind, "llvm.prefetch")
-            place = builder.bitcast(builder.gep(data, [values[1]]), byte)
-            builder.call(function, [place, word(0), word(3), word(1)])
+            place = builder.gep(data_of(context, builder, signature, values), [values[1]])
+            builder.call(function, [builder.bitcast(place, byte), word(0), word(3), word(1)])
             return context.get_dummy_value()
 
         return types.none(records, types.uint64), emit
 
-    options: Any = {"forceinline": True, "_nrt": False}
+    def stand_in(function: Callable[..., Any], instruction: Any) -> None:
+        options: Any = {"forceinline": True, "_nrt": False}
 
-    @overload(prefetch, jit_options=options)
-    def _prefetch(_records: Any, _place: int) -> Any:
-        def at_once(_records: Any, _place: int) -> None:
-            ask(_records, _place)  # type: ignore[call-arg]
+        @overload(function, jit_options=options)
+        def _chosen(array: Any, number: int) -> Any:
+            def at_once(array: Any, number: int) -> Any:
+                return instruction(array, number)
 
-        return at_once
+            return at_once
+
+    stand_in(claim, fetch_and_add)
+    stand_in(prefetch, ask)
 
 
 def _cache_folder() -> Path:
