@@ -1,6 +1,7 @@
 /* A plain event loop to measure against: one disc or point after the other, edges and vertices in a uniform grid.
    Input on stdin: edges, vertices, balls, time, radius, cell size in units of sqrt(area / edges); then ax ay bx by an
-   edge, x y a vertex, x y vx vy a ball. Output: bounces seconds sum. Reading and the grid are not in the seconds. */
+   edge, x y a vertex, x y vx vy a ball. Output: bounces seconds sum, the seconds of the best of GOES goes (-DGOES=3);
+   reading and the grid are not in them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
