@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.cache_lines import on_cache_lines
-from wallkit.kernels.model import ARC, CORNER, FAN, LINE, Corner, Line
+from wallkit.kernels.model import ARC, CORNER, FAN, LINE, Arc, Corner, Line
 from wallkit.scene import FloatArray
 
 IntArray = NDArray[np.int64]
@@ -47,32 +47,32 @@ def lines_of(vertices: FloatArray, starts: IntArray, ends: IntArray) -> NDArray[
     return lines
 
 
-def arcs_of(lines: NDArray[Any], bulges: FloatArray) -> tuple[NDArray[Any], IntArray]:
-    """Make arcs of edges with a bulge: (``ARC``, number of each edge's arc or -1).
+def arcs_of(lines: NDArray[Any], bulges: FloatArray) -> NDArray[Any] | None:
+    """Make an ``ARC`` of each edge, of radius 0 where it is a line; None if all are.
 
     With chord d, its left normal m and bulge b = tan(angle / 4) the centre lies at (a + b) / 2 + m d (1 - b^2) / (4 b)
     and R = d (1 + b^2) / (4 |b|) (as in DXF). An arc that bows less than 2^-44 of its chord is the chord.
     """
     is_arc = (np.abs(bulges) > FLAT) & (lines["length"] > 0.0)
     if not is_arc.any():
-        return np.empty(0, dtype=ARC), np.full(len(lines), -1)
-    number = np.where(is_arc, np.cumsum(is_arc) - 1, -1)
+        return None
     chord, b = lines[is_arc].view(np.float64).reshape(-1, len(Line._fields)), bulges[is_arc]
     start, end = chord[:, 0:2], chord[:, 2:4]
     off = (chord[:, 6] * (1.0 - b * b) / (4.0 * b))[:, None]
     to_centre = (end - start) / 2 - off * chord[:, 4:6]
-    from_centre = -to_centre, (end - start) / 2 + off * chord[:, 4:6]
     left = (b > 0.0)[:, None]
+    arcs = on_cache_lines(len(lines), ARC)
+    arcs[:] = 0.0
     columns = [
-        np.where(left, start, end),
-        np.where(left, end, start),
-        np.where(left, from_centre[0], from_centre[1]),
-        np.where(left, from_centre[1], from_centre[0]),
-        (chord[:, 6] * (1.0 + b * b) / (4.0 * np.abs(b)))[:, None],
-        np.sign(b)[:, None],
-        (np.abs(b) > 1.0)[:, None].astype(np.float64),
+        *np.where(left, start, end).T,
+        *np.where(left, end, start).T,
+        *np.where(left, -to_centre, (end - start) / 2 + off * chord[:, 4:6]).T,
+        chord[:, 6] * (1.0 + b * b) / (4.0 * np.abs(b)),
+        4.0 * np.arctan(b),
     ]
-    return np.hstack(columns).view(ARC).reshape(-1), number
+    for name, column in zip(Arc._fields, columns, strict=True):
+        arcs[name][is_arc] = column
+    return arcs
 
 
 def no_corners() -> Corners:

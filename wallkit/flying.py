@@ -17,9 +17,9 @@ from wallkit.kernels.jit import compiled
 from wallkit.kernels.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start, fly_in_step
 from wallkit.kernels.model import LOG_STRIDE, STATE_SIZE, Model
 from wallkit.kernels.queue import Queue
-from wallkit.kernels.wave_impact import COUNTS, FLOATS
-from wallkit.kernels.wave_impact import LANES as WAVE
-from wallkit.kernels.wavefront import INTEGERS, MET, WAVES, WaveScratch, fly_wave
+from wallkit.kernels.wave_lanes import COUNTS, FLOATS, INTEGERS
+from wallkit.kernels.wave_lanes import LANES as WAVE
+from wallkit.kernels.wavefront import MET, WAVES, WaveScratch, fly_wave
 from wallkit.preparing import Prepared
 from wallkit.scene import FloatArray
 from wallkit.simulation import START, initial_states
@@ -194,7 +194,7 @@ def suits_wave(model: Model, radii: FloatArray) -> bool:
 def suits_lockstep(model: Model, radii: FloatArray) -> bool:
     """Few lines and corners, one radius, and nothing else that acts."""
     features = (model.grid, model.arcs, model.gravity, model.damping, model.restitution, model.one_sided)
-    lines, corners = int(model.cells[0]["arcs"]), int(model.cells[1]["first"] - model.cells[0]["corners"])
+    lines, corners = int(model.cells[0]["arcs"]), int(model.cells[0]["end"] - model.cells[0]["corners"])
     few = lines <= MOST_EDGES and corners <= 2 * MOST_EDGES
     if len(radii) < WORTH_LOCKSTEP or not few:
         return False

@@ -17,12 +17,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.cache_lines import on_cache_lines
 from wallkit.kernels.entering import LATEST, clear, clear_ahead, enter, lay_out
 from wallkit.kernels.jit import compiled
-from wallkit.kernels.model import BLOCK, CELL, Block, Grid, Model, in_lists
+from wallkit.kernels.model import BLOCK, CELL, CLEARINGS, FIRST_CLEARING, Block, Cell, Grid, Model, in_lists
 from wallkit.scene import FloatArray
 
 IntArray = NDArray[np.int64]
+LINK = Cell._fields.index("link")
 MARGIN = 2.0**-16
 """Of the side of a cell: far above the rounding of its border, which is given by a number below 2^30 (2^-23)."""
 ROUNDING = 2.0**-39
@@ -72,7 +74,7 @@ def build_grid(
     *,
     machine_code: bool = False,
     fine: bool = False,
-) -> tuple[Grid, NDArray[Any], NDArray[np.uint32], NDArray[np.uint8]]:
+) -> tuple[Grid, NDArray[Any], NDArray[np.uint32], NDArray[np.int16]]:
     """Sort edges and corners into cells.
 
     Args:
@@ -99,7 +101,10 @@ def build_grid(
     shift = int(math.log2(top["side"] / unit))
     ids = np.concatenate([*(level.ids for level in levels), np.zeros(1, dtype=np.uint32)])
     grid = Grid(float(top["x0"]), float(top["y0"]), unit, 1.0 / unit, shift, int(top["columns"]), int(top["rows"]))
-    return grid, _joined(levels), ids, work.clearings(levels[0])
+    cells = _joined(levels)
+    clearings, ahead = cells.view(np.int16), work.clearings(levels[0])
+    clearings.reshape(-1, CLEARINGS)[: len(ahead), FIRST_CLEARING : FIRST_CLEARING + 4] = ahead
+    return grid, cells, ids, clearings
 
 
 def _joined(levels: list[_Level]) -> NDArray[Any]:
@@ -107,18 +112,19 @@ def _joined(levels: list[_Level]) -> NDArray[Any]:
 
     The ids that a divided cell listed stay where they are: nobody asks for them.
     """
-    tables, cells, ids = [], 0, 0
+    joined = on_cache_lines(sum(len(level.numbers) - 1 for level in levels), CELL)
+    columns, cells, ids = joined.view(np.int32).reshape(len(joined), -1), 0, 0
     for level in levels:
-        table = level.numbers[:-1].copy()
-        cells += len(table)
-        table[:, :LATEST] += ids
+        part, first = columns[cells : cells + len(level.numbers) - 1], level.numbers[:-1]
+        cells += len(part)
+        part[:, :LATEST] = first[:, :LATEST] + ids
+        part[:, LATEST] = level.numbers[1:, 0] + ids
+        part[:, LINK] = np.maximum(first[:, LATEST], 1)
+        part[:, LINK + 1 :] = 0
+        part[level.divided, LINK] = -(cells + level.parts["first"])
+        part[level.divided, 1] = np.log2(level.parts["columns"]).astype(np.int64)
         ids += len(level.ids)
-        np.maximum(table[:, LATEST], 1, out=table[:, LATEST])
-        table[level.divided, LATEST] = -(cells + level.parts["first"])
-        table[level.divided, 1] = np.log2(level.parts["columns"]).astype(np.int64)
-        tables.append(table)
-    tables.append(np.array([[ids, ids, ids, 1]], dtype=np.int32))
-    return np.concatenate(tables).view(CELL).reshape(-1)
+    return joined
 
 
 class _Work:
@@ -131,7 +137,7 @@ class _Work:
         self.budget = GROWTH * len(model.ids) + AT_LEAST
         self.distance, self._spread = sum(radii) / 2, (radii[1] - radii[0]) / 2
         self._rounding = extent * ROUNDING
-        shared = model.lines, model.arcs, model.arc_of_edge, model.corners, fans
+        shared = model.lines, model.arcs, model.corners, fans
         self._shared = shared if machine_code else in_lists(shared)
 
     def reach(self, side: Any) -> Any:
@@ -154,20 +160,20 @@ class _Work:
         table = np.asarray(numbers, dtype=np.int32).reshape(-1, 4)
         return _Level(blocks, table, np.asarray(ids, dtype=np.uint32))
 
-    def clearings(self, top: _Level) -> NDArray[np.uint8]:
+    def clearings(self, top: _Level) -> NDArray[np.int16]:
         """Find the clearings ahead of each cell of the first level, each way."""
         columns, rows = int(top.blocks["columns"][0]), int(top.blocks["rows"][0])
-        squares: Any = np.zeros(4 * columns * rows, dtype=np.uint8)
-        if not self.machine_code:
-            squares = squares.tolist()
-        self._run(
-            clear_ahead,
-            top.numbers.ravel() if self.machine_code else top.numbers.ravel().tolist(),
+        shared: Any = (
+            top.numbers.ravel(),
             columns,
             rows,
-            squares,
+            np.empty(columns, dtype=np.int16),
+            np.empty(4 * columns * rows, dtype=np.int16),
         )
-        return np.asarray(squares, dtype=np.uint8)
+        if not self.machine_code:
+            shared = in_lists(shared)
+        self._run(clear_ahead, *shared)
+        return np.asarray(shared[-1], dtype=np.int16).reshape(-1, 4)
 
     def _enter(self, blocks: NDArray[Any], source: NDArray[np.uint32], numbers: Any, ids: Any) -> IntArray:
         entered: Any = np.zeros(len(blocks), dtype=np.int64)
@@ -185,14 +191,14 @@ class _Work:
 
 def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Level:
     """Enter all that the model's one cell lists; where that comes to too many entries, into larger cells."""
-    first, arcs, corners, _link = model.cells[0].tolist()
+    first, arcs, corners, end, _link = model.cells[0].tolist()
     width, height = (box[1] - box[0]).tolist()
     side = _side(width, height, corners, _mean_length(model), fine)
     while True:
         beyond = work.distance + work.reach(side)
         low, high = box[0] - beyond, box[1] + beyond
         columns, rows = (int(n) + 1 for n in np.floor((high - low) / side))
-        span, most = (first, arcs, corners, len(model.ids) - 1), work.budget // 2
+        span, most = (first, arcs, corners, end), work.budget // 2
         block = Block(low[0], low[1], side, 1.0 / side, work.reach(side), columns, rows, 0, *span, most)
         blocks = np.array([block], dtype=BLOCK)
         numbers, entered = work.count(blocks, model.ids)

@@ -64,9 +64,10 @@ class Modelled:
         walls, radius = scene.walls, float(self.radii.max(initial=0.0))
         vertices, starts, ends = walls.vertices - self.origin, walls.edge_starts, walls.edge_ends
         lines, bulges = lines_of(vertices, starts, ends), walls.bulges[starts]
-        arcs, arc_of_edge = arcs_of(lines, bulges)
+        arcs = arcs_of(lines, bulges)
         corners = corners_of(vertices, lines, bulges, starts, ends) if radius > 0.0 else no_corners()
-        is_line, is_arc = (lines["length"] > 0.0) & (arc_of_edge < 0), arc_of_edge >= 0
+        is_arc = arcs["radius"] > 0.0 if arcs is not None else np.zeros(len(lines), dtype=np.bool_)
+        is_line = (lines["length"] > 0.0) & ~is_arc
         kinds = [np.flatnonzero(which).astype(np.uint32) for which in (is_line, is_arc, corners.open)]
         ids = np.concatenate([*kinds, np.zeros(1, dtype=np.uint32)])
         model = Model(
@@ -75,8 +76,7 @@ class Modelled:
             grid=None,
             clearings=None,
             lines=lines,
-            arcs=arcs if len(arcs) else None,
-            arc_of_edge=arc_of_edge,
+            arcs=arcs,
             corners=corners.records,
             edge_wall=np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)),
             corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)),
@@ -162,7 +162,7 @@ def local_origin(vertices: FloatArray) -> FloatArray:
 def _one_cell(lines: int, arcs: int, corners: int) -> NDArray[Any]:
     """List everything in one cell."""
     end = lines + arcs + corners
-    return np.array([(0, lines, lines + arcs, 1), (end, end, end, 1)], dtype=CELL)
+    return np.array([(0, lines, lines + arcs, end, 1)], dtype=CELL)
 
 
 def _restitution(scene: Scene) -> FloatArray | None:

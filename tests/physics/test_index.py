@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from wallkit import Balls, Scene, Walls, survey
 from wallkit.indexing import AT_LEAST, CROWDED, GROWTH
-from wallkit.kernels.grid import home, leaf
+from wallkit.kernels.grid import clearing, home, leaf
+from wallkit.kernels.model import WIDEST
 from wallkit.modelling import Modelled
 from wallkit.preparing import Prepared
 
@@ -31,15 +32,15 @@ def modelled(walls, radius=0.0, *, index="grid", machine_code=False, fine=False)
 
 def entries(model):
     """(cells,) how many entries each cell has that is not divided."""
-    counts = np.diff(model.cells["first"].astype(np.int64))
-    return counts[model.cells["link"][:-1] > 0]
+    counts = model.cells["end"].astype(np.int64) - model.cells["first"]
+    return counts[model.cells["link"] > 0]
 
 
 def listed(model, x, y):
     """Edges and vertices that the cell at a place lists."""
     c = home(model, model.grid, x, y)
     cell = model.cells[c]
-    return model.ids[cell.first : cell.corners], model.ids[cell.corners : model.cells[c + 1].first]
+    return model.ids[cell.first : cell.corners], model.ids[cell.corners : cell.end]
 
 
 spots = st.lists(
@@ -66,8 +67,8 @@ def test_places_of_contact_are_in_cells_that_list_them(drawn, radius, bulge):
             for side in (radius, -radius):
                 x, y = line.ax + part * (line.bx - line.ax), line.ay + part * (line.by - line.ay)
                 nx, ny = line.nx, line.ny
-                if model.arc_of_edge[edge] >= 0:
-                    arc = model.arcs[model.arc_of_edge[edge]]
+                if model.arcs is not None and model.arcs[edge].radius > 0.0:
+                    arc = model.arcs[edge]
                     angle = 4 * part * math.atan(abs(bulge))
                     nx = (arc.sx * math.cos(angle) - arc.sy * math.sin(angle)) / arc.radius
                     ny = (arc.sy * math.cos(angle) + arc.sx * math.sin(angle)) / arc.radius
@@ -101,11 +102,11 @@ def test_nothing_is_listed_in_a_clearing(drawn, radius):
     for row in range(grid.rows):
         for column in range(grid.columns):
             _visit(cells, grid, column << grid.shift, row << grid.shift, grid.shift, corners)
-    taken = [box for c, box in corners.items() if cells[c + 1].first > cells[c].first]
+    taken = [box for c, box in corners.items() if cells[c].end > cells[c].first]
     low, high = np.array([box[:2] for box in taken]), np.array([box[2:] for box in taken])
     for c, (x, y, end_x, _end_y) in corners.items():
         reach = (cells[c].link - 1) * (end_x - x)
-        if cells[c + 1].first == cells[c].first:
+        if cells[c].end == cells[c].first:
             beside = (high <= np.array([x, y]) - reach) | (low >= np.array([end_x, _end_y]) + reach)
             assert beside.any(axis=1).all()
         else:
@@ -114,11 +115,11 @@ def test_nothing_is_listed_in_a_clearing(drawn, radius):
 
 @settings(max_examples=20)
 @given(spots, st.sampled_from([0.0, 5.0]), st.booleans())
-def test_a_clearing_ahead_is_the_largest_empty_square(drawn, radius, fine):
+def test_a_clearing_ahead_is_empty_and_cannot_grow_both_ways(drawn, radius, fine):
     model = modelled(clustered(drawn), radius, machine_code=True, fine=fine).model
     columns, rows = model.grid.columns, model.grid.rows
-    listed = np.diff(model.cells["first"].astype(np.int64))[: columns * rows]
-    taken = (listed > 0) | (model.cells["link"][: columns * rows] <= 0)
+    cells = model.cells[: columns * rows]
+    taken = (cells["end"] > cells["first"]) | (cells["link"] <= 0)
     below = np.zeros((rows + 1, columns + 1), dtype=np.int64)  # how many are taken below and to the left
     below[1:, 1:] = taken.reshape(rows, columns).cumsum(axis=0).cumsum(axis=1)
 
@@ -128,14 +129,16 @@ def test_a_clearing_ahead_is_the_largest_empty_square(drawn, radius, fine):
 
     random = np.random.default_rng(1)
     for way, column, row in zip(*(random.integers(0, n, 300) for n in (4, columns, rows)), strict=True):
-        side = int(model.clearings[4 * (row * columns + column) + way])
+        shift = model.grid.shift
+        wide, high = clearing(model.clearings, model.grid, int(way), int(column) << shift, int(row) << shift)
 
-        def square(size, way=way, column=column, row=row):
-            left, low = (column + 1 - size if way & 1 else column), (row + 1 - size if way & 2 else row)
-            return left, left + size, low, low + size
+        def box(wide, high, way=way, column=column, row=row):
+            left, low = (column + 1 - wide if way & 1 else column), (row + 1 - high if way & 2 else row)
+            return left, left + wide, low, low + high
 
-        assert side == 0 or free(*square(side))
-        assert side == 255 or not free(*square(side + 1)) or side + 1 > max(columns, rows)
+        assert (wide == 0) == (high == 0) == taken.reshape(rows, columns)[row, column]
+        assert free(*box(wide, high))
+        assert {wide, high} & {0, WIDEST} or not free(*box(wide + 1, high + 1))
 
 
 def test_an_empty_room_around_a_spot_is_one_clearing():

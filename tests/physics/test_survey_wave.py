@@ -112,10 +112,29 @@ def test_a_round_room_from_inside_and_outside(radius):
 
 
 @pytest.mark.parametrize("speed", [4e-162, 1e-100, 1e100, 1e150])
-def test_speeds_whose_squares_are_at_the_ends_of_what_floats_hold(speed):
+@pytest.mark.parametrize("arcs", [False, True])
+def test_speeds_whose_squares_are_at_the_ends_of_what_floats_hold(arcs, speed):
     random = np.random.default_rng(7)
     position = random.uniform([1.0, 1.0], [199.0, 149.0], (COUNT, 2))
-    _assert_same(Scene(_maze(random), Balls(position, _ways(random, COUNT, speed), 0.3)), bounces=30)
+    for radius in (0.0, 0.3):
+        _assert_same(Scene(_maze(random, arcs=arcs), Balls(position, _ways(random, COUNT, speed), radius)), bounces=30)
+
+
+@pytest.mark.parametrize("sweep", [0.1, 0.5, 3.0, math.pi, 3.3, 6.2])
+@pytest.mark.parametrize("radius", [0.0, 1.0, 2.9, 3.0])
+def test_discs_that_fly_by_an_arc_and_meet_it_from_inside(sweep, radius):
+    random = np.random.default_rng(9)
+    middle, turn = random.uniform(-60, 60, (40, 2)), random.uniform(0, math.tau, (40, 1))
+    ends = [3.0 * np.hstack([np.cos(turn + way * sweep / 2), np.sin(turn + way * sweep / 2)]) for way in (-1, 1)]
+    walls = Walls.from_polylines(
+        list(np.stack([middle + end for end in ends], axis=1)),
+        closed=[False] * 40,
+        bulges=[np.array([math.tan(sweep / 4), 0.0])] * 40,
+    )
+    far = 70.0 * _ways(random, COUNT, 1.0)
+    aim = middle[random.integers(0, 40, COUNT)] + random.uniform(-4.0, 4.0, (COUNT, 2))
+    totals = _assert_same(Scene(walls, Balls(far, aim - far, radius)), until=40.0)
+    assert totals.bounces.sum() > 10
 
 
 def test_flights_straight_along_the_axes():

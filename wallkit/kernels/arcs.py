@@ -16,9 +16,7 @@ WELL_KNOWN = 2.0**-20
 
 
 @kernel
-def scan_arcs_point(
-    arcs, numbers, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, energy, last, tolerance, best, feature
-):
+def scan_arcs_point(arcs, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, energy, last, tolerance, best, feature):
     """Earliest contact of a point with the arcs of entries start to stop.
 
     A line cuts a circle twice: into it, then out of it. If a and b lie on different sides of the line, one of
@@ -39,7 +37,7 @@ def scan_arcs_point(
         return best, feature, touched
     speed = math.sqrt(energy)
     for k in range(start, stop):
-        arc = arcs[numbers[ids[k]]]
+        arc = arcs[ids[k]]
         wx = x - arc.ax
         wy = y - arc.ay
         ex = wx + arc.sx
@@ -55,8 +53,8 @@ def scan_arcs_point(
             continue
         enters, leaves = _cuts(arc, wx, wy, x, y, vx, vy)
         if one_sided is not None and one_sided[edge_wall[ids[k]]] != 0:
-            enters = enters and arc.turn > 0.0
-            leaves = leaves and arc.turn < 0.0
+            enters = enters and arc.sweep > 0.0
+            leaves = leaves and arc.sweep < 0.0
         if not leaves and (inside or not enters):
             continue
         cross = abs(ex * vy - ey * vx)
@@ -94,22 +92,35 @@ def _cuts(arc, wx, wy, x, y, vx, vy):
 @kernel
 def holds(arc, ex, ey, slack):
     """Tell whether the arc lies in the direction e from its centre, give or take a length at its ends."""
-    return spans(arc.sx, arc.sy, arc.fx, arc.fy, arc.radius, arc.wide, ex, ey, slack)
+    fx, fy = to_end(arc)
+    return spans(arc.sx, arc.sy, fx, fy, arc.radius, is_wide(arc.sweep), ex, ey, slack)
+
+
+@kernel
+def to_end(arc):
+    """Give the way from the centre of an arc to its end b."""
+    return (arc.bx - arc.ax) + arc.sx, (arc.by - arc.ay) + arc.sy
+
+
+@kernel
+def is_wide(sweep):
+    """Tell whether an arc is more than half a circle."""
+    return abs(sweep) > math.pi
 
 
 @kernel
 def spans(sx, sy, fx, fy, radius, wide, ex, ey, slack):
-    """``holds`` of an arc from s to f about its centre; without branches."""
+    """``holds`` of an arc from s to f about its centre, which may be wide; without branches."""
     least = -slack * radius
     past_a = sx * ey - sy * ex >= least
     before_b = ex * fy - ey * fx >= least
     ahead = (slack == 0.0) | (ex * (sx + fx) + ey * (sy + fy) >= least)
-    return ((past_a | before_b) & (wide > 0.0)) | (past_a & before_b & ahead & (wide <= 0.0))
+    return ((past_a | before_b) & wide) | (past_a & before_b & ahead & (not wide))
 
 
 @kernel
 def scan_arcs_disc(
-    arcs, numbers, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, energy, last, tolerance, best, feature
+    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, energy, last, tolerance, best, feature
 ):
     """Earliest contact of a disc with the arcs of entries start to stop.
 
@@ -125,7 +136,7 @@ def scan_arcs_disc(
     slack = tolerance + radius * 2.0**-42
     speed = math.sqrt(energy)
     for k in range(start, stop):
-        arc = arcs[numbers[ids[k]]]
+        arc = arcs[ids[k]]
         wx = x - arc.ax
         wy = y - arc.ay
         ex = wx + arc.sx
@@ -136,8 +147,8 @@ def scan_arcs_disc(
         from_outside = True
         from_inside = True
         if one_sided is not None and one_sided[edge_wall[ids[k]]] != 0:
-            from_outside = arc.turn > 0.0
-            from_inside = arc.turn < 0.0
+            from_outside = arc.sweep > 0.0
+            from_inside = arc.sweep < 0.0
         t = -1.0
         if power >= 0.0:
             if along >= 0.0:

@@ -115,8 +115,8 @@ def normal_at(model, arcs, edge, x, y):
     The normal of an arc, turned a quarter to the left, points from its a to its b, as that of a line does.
     """
     if arcs is not None:
-        if model.arc_of_edge[edge] >= 0:
-            arc = arcs[model.arc_of_edge[edge]]
+        arc = arcs[edge]
+        if arc.radius > 0.0:
             nx, ny = x - arc.ax + arc.sx, y - arc.ay + arc.sy
             return nx, ny, 2.0 / (nx * nx + ny * ny)
     line = model.lines[edge]
@@ -127,8 +127,8 @@ def normal_at(model, arcs, edge, x, y):
 def _touch(model, arcs, edge, x, y, tolerance):
     """Tell whether a point is on an edge, and at its start or its end: (touches, starts here, ends here)."""
     if arcs is not None:
-        if model.arc_of_edge[edge] >= 0:
-            arc = arcs[model.arc_of_edge[edge]]
+        arc = arcs[edge]
+        if arc.radius > 0.0:
             touches = _side(model, arcs, edge, x, y, tolerance) == 0.0 and holds(
                 arc, x - arc.ax + arc.sx, y - arc.ay + arc.sy, tolerance
             )
@@ -149,8 +149,8 @@ def _near(dx, dy, tolerance):
 def _side(model, arcs, edge, x, y, tolerance):
     """Which side of an edge's line or circle a point is on: that of ``normal_at`` above 0; 0 within rounding."""
     if arcs is not None:
-        if model.arc_of_edge[edge] >= 0:
-            arc = arcs[model.arc_of_edge[edge]]
+        arc = arcs[edge]
+        if arc.radius > 0.0:
             wx, wy = x - arc.ax, y - arc.ay
             power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
             return 0.0 if abs(power) <= (2.0 * arc.radius + tolerance) * tolerance else power
@@ -168,8 +168,8 @@ def _passes(one_sided, model, arcs, edge, came):
         return False
     outward = 1.0
     if arcs is not None:
-        if model.arc_of_edge[edge] >= 0:
-            outward = arcs[model.arc_of_edge[edge]].turn
+        if arcs[edge].radius > 0.0:
+            outward = arcs[edge].sweep
     return came * outward < 0.0
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from wallkit.kernels.damping import free_time, slowed
 from wallkit.kernels.flight import fly, normal_of
 from wallkit.kernels.jit import kernel
@@ -46,16 +48,16 @@ def next_crossing(sensors, pull, x, y, vx, vy, time, lost, until, last, toleranc
 def outward(sensors, edge, x, y):
     """Outward unit normal of a sensor's edge at a place on it."""
     nx, ny, twice, _wall = normal_of(sensors, edge, x, y)
-    unit = (0.5 * twice) ** 0.5 * _turn(sensors, sensors.arcs, edge)
+    unit = (0.5 * twice) ** 0.5 * _turn(sensors.arcs, edge)
     return nx * unit, ny * unit
 
 
 @kernel
-def _turn(sensors, arcs, edge):
+def _turn(arcs, edge):
     """1 where the normal that an edge is stored with is its outward one, else -1."""
     if arcs is not None:
-        if sensors.arc_of_edge[edge] >= 0:
-            return arcs[sensors.arc_of_edge[edge]].turn
+        if arcs[edge].radius > 0.0:
+            return math.copysign(1.0, arcs[edge].sweep)
     return 1.0
 
 

@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import math
 
+from wallkit.kernels.arcs import is_wide, to_end
 from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.model import HALF, WIDEST
 
 BOW = 1.0 / 8.0
 """Chords miss their arc by at most this part of a cell, and what they miss it by widens them."""
@@ -21,13 +23,12 @@ MOST_CHORDS = 1024
 OF_LINES, OF_ARCS, OF_CORNERS = 1, 2, 4
 """Where in a cell's numbers the entries of a kind are counted. When all are written each of them has come to the end of
 its kind, which is where the next one begins: ``arcs``, ``corners``, and ``first`` of the next cell."""
-WIDEST = 255
 LATEST = 3
 """Where in a cell's numbers the latest entry stands, so that none is entered twice; later its ``link``."""
 
 
 @kernel
-def enter(blocks, source, lines, arcs, arc_of_edge, corners, fans, distance, numbers, ids, entered):
+def enter(blocks, source, lines, arcs, corners, fans, distance, numbers, ids, entered):
     """Enter edges and corners into the cells of blocks; with no ``ids`` they are only counted.
 
     Blocks speak of ids of ``source``; lines, arcs, their numbers and corners are those of ``Model``, and ``fans`` has
@@ -47,7 +48,7 @@ def enter(blocks, source, lines, arcs, arc_of_edge, corners, fans, distance, num
                 count += _arc(block, corner.x, corner.y, distance, fan.ux, fan.uy, fan.wx, fan.wy, fan.wide,
                               OF_CORNERS, k, source[k], numbers, ids)  # fmt: skip
             elif arcs is not None:
-                count += _enter_arc(block, arcs[arc_of_edge[source[k]]], distance, k, source[k], numbers, ids)
+                count += _enter_arc(block, arcs[source[k]], distance, k, source[k], numbers, ids)
         entered[b] = count
 
 
@@ -67,10 +68,12 @@ def _enter_line(block, line, distance, item, entry, numbers, ids):
 def _enter_arc(block, arc, distance, item, entry, numbers, ids):
     """Enter the arcs at a distance outside and inside an arc."""
     x, y, per = arc.ax - arc.sx, arc.ay - arc.sy, 1.0 / arc.radius
-    ux, uy, wx, wy = arc.sx * per, arc.sy * per, arc.fx * per, arc.fy * per
-    count = _arc(block, x, y, arc.radius + distance, ux, uy, wx, wy, arc.wide, OF_ARCS, item, entry, numbers, ids)
+    fx, fy = to_end(arc)
+    ux, uy, wx, wy = arc.sx * per, arc.sy * per, fx * per, fy * per
+    wide = 1.0 if is_wide(arc.sweep) else 0.0
+    count = _arc(block, x, y, arc.radius + distance, ux, uy, wx, wy, wide, OF_ARCS, item, entry, numbers, ids)
     if distance > 0.0:
-        count += _arc(block, x, y, arc.radius - distance, ux, uy, wx, wy, arc.wide, OF_ARCS, item, entry, numbers, ids)
+        count += _arc(block, x, y, arc.radius - distance, ux, uy, wx, wy, wide, OF_ARCS, item, entry, numbers, ids)
     return count
 
 
@@ -246,28 +249,40 @@ def clear(blocks, numbers, endless):
 
 
 @kernel
-def clear_ahead(numbers, columns, rows, squares):
-    """Find the largest empty square that begins with each cell, each way; see ``Model.clearings``.
+def clear_ahead(numbers, columns, rows, above, clearings):
+    """Find a large empty rectangle that begins with each cell, each way; see ``Model.clearings``.
 
-    Its side is 0 at a cell that lists something, else one more than the least of the sides of the next cell along, the
-    one above and the one beside both. There is nothing beyond the border, and WIDEST is all that a byte holds.
+    It is the one of the cell beside and this cell, or that of the cell above and this cell, cut to what is free above
+    or beside: the one with the larger w h / (w + h), since a ball leaves it by the shorter side, mostly. There is
+    nothing beyond the border, and WIDEST is all that half of a number holds.
+
+    Args:
+        numbers: of the cells, see above.
+        columns: of the grid.
+        rows: of the grid.
+        above: a number for each column, to work with.
+        clearings: written.
     """
     for way in range(4):
         step, rise = 1 - 2 * (way & 1), 1 - (way & 2)
         for j in range(rows):
             row = rows - 1 - j if rise > 0 else j
+            beside, wide, high = WIDEST, WIDEST, WIDEST
             for i in range(columns):
                 column = columns - 1 - i if step > 0 else i
                 cell = row * columns + column
                 at = 4 * cell + way
-                side = 0
-                if numbers[4 * cell + 4] == numbers[4 * cell]:
-                    side = WIDEST - 1
-                    if i > 0:
-                        side = min(side, int(squares[at + 4 * step]))
-                    if j > 0:
-                        side = min(side, int(squares[at + 4 * rise * columns]))
-                    if i > 0 and j > 0:
-                        side = min(side, int(squares[at + 4 * (rise * columns + step)]))
-                    side += 1
-                squares[at] = side
+                if numbers[4 * cell + 4] != numbers[4 * cell]:
+                    beside, wide, high, above[column], clearings[at] = 0, 0, WIDEST, 0, 0
+                    continue
+                up, broad, tall = WIDEST, WIDEST, WIDEST
+                if j > 0:
+                    up, broad = min(int(above[column]) + 1, WIDEST), int(clearings[at + 4 * rise * columns])
+                    tall = min((broad >> HALF) + 1, WIDEST)
+                    broad = broad & WIDEST if tall > 1 else WIDEST
+                above[column] = up
+                beside = min(beside + 1, WIDEST)
+                wide, high, broad = min(wide + 1, WIDEST), min(high, up), min(broad, beside)
+                if wide * high * (broad + tall) < broad * tall * (wide + high):
+                    wide, high = broad, tall
+                clearings[at] = wide + (high << HALF)

@@ -134,7 +134,7 @@ def _polished(t, limit, ex, ey, vx, vy, gx, gy):
 
 @rare_kernel
 def fall_arcs(
-    arcs, numbers, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference,
+    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference,
     best, feature,
 ):  # fmt: skip
     """Earliest contact with the arcs of entries start to stop: |e(t)|^2 - (R + r)^2 or (R - r)^2 - |e(t)|^2 falls.
@@ -152,7 +152,7 @@ def fall_arcs(
     c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
     noise = LEVEL_SPEED * (abs(vx) + abs(vy))
     for k in range(start, stop):
-        arc = arcs[numbers[ids[k]]]
+        arc = arcs[ids[k]]
         wx, wy = x - arc.ax, y - arc.ay
         ex, ey = wx + arc.sx, wy + arc.sy
         power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
@@ -169,7 +169,7 @@ def fall_arcs(
             if side < 0.0 and radius >= arc.radius:
                 continue
             if one_sided is not None:
-                if one_sided[edge_wall[ids[k]]] != 0 and side * arc.turn < 0.0:
+                if one_sided[edge_wall[ids[k]]] != 0 and side * arc.sweep < 0.0:
                     continue
             c0 = side * power - radius * (2.0 * arc.radius + side * radius)
             t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, 0.0, outside != (side > 0.0))
@@ -196,11 +196,11 @@ def fall_scan(model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, 
         model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature,
     )  # fmt: skip
     best, feature, more = fall_arcs(
-        model.arcs, model.arc_of_edge, model.ids, cell.arcs, cell.corners,
+        model.arcs, model.ids, cell.arcs, cell.corners,
         model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference, best, feature,
     )  # fmt: skip
     best, feature = fall_corners(
-        model.corners, model.ids, cell.corners, model.cells[c + 1].first,
+        model.corners, model.ids, cell.corners, cell.end,
         model.one_sided, model.corner_wall, radius, x, y, vx, vy, gx, gy, best, feature,
     )  # fmt: skip
     return best, feature, touched + more

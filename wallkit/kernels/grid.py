@@ -7,6 +7,7 @@ import math
 from wallkit.kernels.arcs import scan_arcs_disc, scan_arcs_point
 from wallkit.kernels.impact import scan_corners, scan_disc, scan_point
 from wallkit.kernels.jit import kernel
+from wallkit.kernels.model import CLEARINGS, FIRST_CLEARING, HALF, WIDEST
 
 SLOWEST = 2.0**-900
 """Units per second; a flight that went on at it would not pass a unit."""
@@ -16,7 +17,6 @@ SLOWEST = 2.0**-900
 def scan(model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature):
     """Earliest contact with what one cell lists: (time, feature, edges touched by a point where it starts)."""
     cell = model.cells[c]
-    end = model.cells[c + 1].first
     touched = 0
     if radius == 0.0:
         best, feature, touched = scan_point(
@@ -24,7 +24,7 @@ def scan(model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
             x, y, vx, vy, last, tolerance, best, feature,
         )  # fmt: skip
         best, feature, more = scan_arcs_point(
-            model.arcs, model.arc_of_edge, model.ids, cell.arcs, cell.corners, model.one_sided, model.edge_wall,
+            model.arcs, model.ids, cell.arcs, cell.corners, model.one_sided, model.edge_wall,
             x, y, vx, vy, energy, last, tolerance, best, feature,
         )  # fmt: skip
         return best, feature, touched + more
@@ -33,11 +33,11 @@ def scan(model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
         radius, x, y, vx, vy, last, tolerance, best, feature,
     )  # fmt: skip
     best, feature = scan_arcs_disc(
-        model.arcs, model.arc_of_edge, model.ids, cell.arcs, cell.corners, model.one_sided, model.edge_wall,
+        model.arcs, model.ids, cell.arcs, cell.corners, model.one_sided, model.edge_wall,
         radius, x, y, vx, vy, energy, last, tolerance, best, feature,
     )  # fmt: skip
     best, feature = scan_corners(
-        model.corners, model.ids, cell.corners, end,
+        model.corners, model.ids, cell.corners, cell.end,
         model.one_sided, model.corner_wall, radius, x, y, vx, vy, energy, last, best, feature,
     )  # fmt: skip
     return best, feature, touched
@@ -104,14 +104,15 @@ def way_of(per_u, per_w):
 
 @kernel
 def clearing(clearings, grid, way, column, row):
-    """Side of the empty square ahead of a place in units, in cells that are not part of another; 0 for none."""
-    return int(clearings[clearing_at(grid, way, column, row)])
+    """Width and height of the clearing ahead of a place in units, in cells that are not part of another; 0 for none."""
+    size = int(clearings[clearing_at(grid, way, column, row)])
+    return size & WIDEST, size >> HALF
 
 
 @kernel
 def clearing_at(grid, way, column, row):
     """Where in ``Model.clearings`` that is."""
-    return 4 * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + way
+    return CLEARINGS * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + FIRST_CLEARING + way
 
 
 @kernel
@@ -132,11 +133,11 @@ def per_speed(u):
 
 
 @kernel
-def ahead(grid, side, shift, column, row, px, py, u, w, per_u, per_w):
-    """When a ball leaves a square, and where to: (time, column, row).
+def ahead(grid, wide, high, shift, column, row, px, py, u, w, per_u, per_w):
+    """When a ball leaves a rectangle, and where to: (time, column, row).
 
-    All in units: the ball is at p and flies with (u, w), of which the inverses are ``per_speed``; the square begins
-    with the cell of side 2^shift at (column, row) and is ``side`` of them wide, the way of the flight.
+    All in units: the ball is at p and flies with (u, w), of which the inverses are ``per_speed``; the rectangle begins
+    with the cell of side 2^shift at (column, row) and is ``wide`` times ``high`` of them large, the way of the flight.
 
     Beyond the border that it passes the column (or row) is a whole number, not a rounded one, and the other never goes
     back: so every step goes on, also where a path runs through the common corner of four cells. The rounding
@@ -144,8 +145,8 @@ def ahead(grid, side, shift, column, row, px, py, u, w, per_u, per_w):
     rounding, and entries reach into their neighbours by far more (see ``wallkit.indexing``).
     """
     right, up = int(per_u > 0.0), int(per_w > 0.0)  # in sums instead of branches, which no processor could foresee
-    border_x = ((column >> shift) + 1 - right + (2 * right - 1) * side) << shift
-    border_y = ((row >> shift) + 1 - up + (2 * up - 1) * side) << shift
+    border_x = ((column >> shift) + 1 - right + (2 * right - 1) * wide) << shift
+    border_y = ((row >> shift) + 1 - up + (2 * up - 1) * high) << shift
     exit_x, exit_y = (border_x - px) * per_u, (border_y - py) * per_w
     sideways = int(exit_x < exit_y)
     time = exit_x if exit_x < exit_y else exit_y
@@ -171,15 +172,16 @@ def _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, fea
     column, row = place(grid, x, y)
     time = -math.inf
     while best > time and inside(grid, column, row):
-        side, shift = clearing(model.clearings, grid, way, column, row), grid.shift
-        if side == 0:
+        shift = grid.shift
+        wide, high = clearing(model.clearings, grid, way, column, row)
+        if wide == 0:
             c, shift = leaf(model.cells, grid, column, row)
-            side = int(model.cells[c].link)
+            wide = high = int(model.cells[c].link)
             best, feature, more = scan(
                 model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature,
             )  # fmt: skip
             touched += more
-        time, column, row = ahead(grid, side, shift, column, row, px, py, u, w, per_u, per_w)
+        time, column, row = ahead(grid, wide, high, shift, column, row, px, py, u, w, per_u, per_w)
     return best, feature, touched
 
 

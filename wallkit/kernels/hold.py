@@ -113,7 +113,7 @@ def held_after(model, gravity, radius, feature, held, hold, x, y, vx, vy, nx, ny
     length = math.sqrt(nx * nx + ny * ny)
     bend = curvature(model, model.arcs, feature, radius, x, y, nx, ny) / length
     if _clings(gravity, nx / length, ny / length, bend, vx, vy, tolerance):
-        if feature >= 0 and _is_line(model, model.arcs, feature):
+        if feature >= 0 and _is_line(model.arcs, feature):
             return feature, COMING_TO_REST
         return feature, CAUGHT
     return NO_HIT, FREE
@@ -150,10 +150,10 @@ def _clings(gravity, nx, ny, bend, vx, vy, tolerance):
 
 
 @kernel
-def _is_line(model, arcs, edge):
+def _is_line(arcs, edge):
     if arcs is None:
         return True
-    return model.arc_of_edge[edge] < 0
+    return arcs[edge].radius == 0.0
 
 
 @kernel

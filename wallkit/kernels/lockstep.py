@@ -136,7 +136,7 @@ def _clear(s):
 @kernel
 def _ask(model, radius, s, until, flying):
     """Find what each ball meets first."""
-    lines, rows = model.cells[0].corners, model.cells[1].first
+    lines, rows = model.cells[0].corners, model.cells[0].end
     for k in range(lines):
         if radius is None:
             _pass_point(s, float(k), model.lines[model.ids[k]])
@@ -157,7 +157,7 @@ def _ask(model, radius, s, until, flying):
 @kernel
 def _list_rows(model, rows):
     """Gather what a bounce needs to know of each line and corner."""
-    lines, count = model.cells[0].corners, model.cells[1].first
+    lines, count = model.cells[0].corners, model.cells[0].end
     for k in range(lines):
         line = model.lines[model.ids[k]]
         rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3] = line.nx, line.ny, line.twice, model.edge_wall[model.ids[k]]
@@ -240,7 +240,7 @@ def _pass_corner(s, row, corner):
 @kernel
 def _answer_disc(model, radius, s, i):
     """Ask the corner that a disc may meet, or all if there are more."""
-    first, stop = int(model.cells[0].corners), int(model.cells[1].first)
+    first, stop = int(model.cells[0].corners), int(model.cells[0].end)
     if s[ASK + i] < 2.0 * MANY:
         first = int(s[ASK + i] - MANY)
         stop = first + 1
@@ -282,7 +282,7 @@ def _feature_of(model, row):
 def _row_of(model, feature):
     """Row of a feature, or the number in place of one."""
     lines = model.cells[0].corners
-    for k in range(model.cells[1].first):
+    for k in range(model.cells[0].end):
         if (model.ids[k] if k < lines else -2 - model.ids[k]) == feature:
             return float(k)
     return float(feature)

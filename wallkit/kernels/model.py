@@ -50,10 +50,10 @@ class Line(NamedTuple):
 
 
 class Arc(NamedTuple):
-    """A circular arc, counter-clockwise from a to b, a = c + s, b = c + f.
+    """A circular arc, counter-clockwise from a to b, a = c + s.
 
-    turn is 1 if the wall runs so, -1 if it runs clockwise (then its outward side is the inside of the circle); wide is
-    1 for more than half a circle, else 0.
+    sweep is its angle, in radians, below 0 if the wall runs clockwise, from b to a (then its outward side is the inside
+    of the circle).
     """
 
     ax: float
@@ -62,11 +62,8 @@ class Arc(NamedTuple):
     by: float
     sx: float
     sy: float
-    fx: float
-    fy: float
     radius: float
-    turn: float
-    wide: float
+    sweep: float
 
 
 class Corner(NamedTuple):
@@ -79,7 +76,7 @@ class Corner(NamedTuple):
 
 
 class Cell(NamedTuple):
-    """A cell of the index, and what is listed in it: ids from ``first`` to the next cell's ``first``.
+    """A cell of the index, and what is listed in it: ids from ``first`` to before ``end``.
 
     Lines come first, then arcs (from ``arcs`` on), then corners (from ``corners`` on). ``link`` above 0: nothing at
     all is listed in cells nearer than that many, counted as a king moves (1 where something is listed here). Else the
@@ -89,6 +86,7 @@ class Cell(NamedTuple):
     first: int
     arcs: int
     corners: int
+    end: int
     link: int
 
 
@@ -129,7 +127,19 @@ class Block(NamedTuple):
 LINE = np.dtype([(name, np.float64) for name in Line._fields])
 ARC = np.dtype([(name, np.float64) for name in Arc._fields])
 CORNER = np.dtype([(name, np.float64) for name in Corner._fields])
-CELL = np.dtype([("first", np.uint32), ("arcs", np.uint32), ("corners", np.uint32), ("link", np.int32)])
+CLEARINGS, FIRST_CLEARING = 16, 10
+"""A cell takes the room of sixteen numbers of ``Model.clearings``. Its four are from the tenth on: memory is asked once
+for them and the rest."""
+HALF, WIDEST = 7, 127
+"""Bits of a clearing's width and of its height, in cells, and what they hold."""
+CELL = np.dtype(
+    {
+        "names": Cell._fields,
+        "formats": [np.uint32, np.uint32, np.uint32, np.uint32, np.int32],
+        "offsets": [0, 4, 8, 12, 16],
+        "itemsize": 2 * CLEARINGS,
+    }
+)
 FAN = np.dtype([(name, np.float64) for name in Fan._fields])
 BLOCK = np.dtype([(name, np.float64 if place < 5 else np.int64) for place, name in enumerate(Block._fields)])
 _RECORDS: dict[Any, Any] = {LINE: Line, ARC: Arc, CORNER: Corner, CELL: Cell, FAN: Fan, BLOCK: Block}
@@ -172,19 +182,17 @@ class Model(NamedTuple):
     ids: Any
     """Edges and vertices cell by cell, unsigned; one more at the end."""
     cells: Any
-    """``Cell``, and one more whose ``first`` ends the last; without a grid one cell lists all."""
+    """``Cell``; without a grid one lists all."""
     grid: Any
     """``Grid``, or None."""
     clearings: Any
-    """By cell that is not part of another, then by way (right and up, left and up, right and down, left and down):
-    side of the largest square of cells that begins with it, goes that way, and lists nothing; 0 where it lists
-    something."""
+    """In the memory of ``cells``, at ``grid.clearing_at``: by cell that is not part of another, and by way (right and
+    up, left and up, right and down, left and down), a large rectangle of cells that begins with it, goes that way, and
+    lists nothing. It is width + 2^HALF * height, in cells; 0 where the cell lists something."""
     lines: Any
     """``Line`` by edge; the chord of an arc."""
     arcs: Any
-    """``Arc`` by number; None when all edges are lines."""
-    arc_of_edge: Any
-    """Number of the arc of each edge, -1 for a line."""
+    """``Arc`` by edge, of radius 0 for a line; None when all edges are lines."""
     corners: Any
     """``Corner`` by vertex."""
     edge_wall: Any

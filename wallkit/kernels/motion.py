@@ -9,9 +9,8 @@ from wallkit.kernels.jit import kernel
 def advance(time, lost, step):
     """Add a step to the time and keep what rounding loses (Neumaier's sum): (time, lost)."""
     total = time + step
-    if time >= step:
-        return total, lost + ((time - total) + step)
-    return total, lost + ((step - total) + time)
+    rest = (time - total) + step if time >= step else (step - total) + time
+    return total, lost + rest
 
 
 @kernel

@@ -102,8 +102,8 @@ def _offset(model, arcs, feature, x, y, nx, ny):
     if feature < 0:
         return 1.0
     if arcs is not None:
-        if model.arc_of_edge[feature] >= 0:
-            arc = arcs[model.arc_of_edge[feature]]
+        arc = arcs[feature]
+        if arc.radius > 0.0:
             return nx * nx + ny * ny - arc.radius * arc.radius
     line = model.lines[feature]
     return (x - line.ax) * nx + (y - line.ay) * ny
@@ -119,8 +119,8 @@ def curvature(model, arcs, feature, radius, x, y, nx, ny):
     if feature < 0:
         return -length / radius
     if arcs is not None:
-        if model.arc_of_edge[feature] >= 0:
-            arc = arcs[model.arc_of_edge[feature]]
+        arc = arcs[feature]
+        if arc.radius > 0.0:
             ex, ey = x - arc.ax + arc.sx, y - arc.ay + arc.sy
             return (
                 -length / math.sqrt(ex * ex + ey * ey)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from wallkit.kernels.jit import claim, kernel
+from wallkit.kernels.instructions import claim
+from wallkit.kernels.jit import kernel
 from wallkit.kernels.model import NO_HIT
 
 BLOCK = 64

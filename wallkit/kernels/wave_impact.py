@@ -1,37 +1,125 @@
 """Time of impact for a whole wave of balls: each asks what it looks at, a line, an arc or a corner.
 
-A wave is one flat array of floats, LANES for each number of a ball and of what it looks at, so that the compiler sees
-that nothing aliases and uses vector instructions; there are no branches. The formulas are those of ``impact`` and
-``arcs``, term by term: the same bits come out. A lane that looks at something of another kind goes through the motions,
-and its result is dropped; so these passes divide by zero and are for compiled kernels alone.
+There are no branches, so that vector instructions do the work. The formulas are those of ``impact`` and ``arcs``, term
+by term: the same bits come out. A lane that looks at something of another kind, or at nothing, goes through the motions
+with some record of this kind, and its result is dropped; so these passes divide by zero and are for compiled kernels
+alone.
 """
 
 from __future__ import annotations
 
 import math
 
-from wallkit.kernels.arcs import WELL_KNOWN, spans
-from wallkit.kernels.jit import kernel
-from wallkit.kernels.model import NO_HIT
+from wallkit.kernels.arcs import WELL_KNOWN, is_wide, scan_arcs_disc, scan_arcs_point, spans
+from wallkit.kernels.instructions import fetch, lowest
+from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.model import Arc, Corner, Line
+from wallkit.kernels.wave_lanes import (
+    ALONG,
+    ARCS,
+    BEST,
+    CHORD,
+    CORNERS,
+    DOUBT,
+    E0,
+    E1,
+    E2,
+    E3,
+    E4,
+    E5,
+    E6,
+    E7,
+    EITHER,
+    END,
+    ENERGY,
+    FEATURE,
+    FROM,
+    ID,
+    INSIDE,
+    LANES,
+    LAST,
+    NEITHER,
+    NEXT,
+    NEXT_CORNER,
+    NONE,
+    OUTSIDE,
+    PER_ENERGY,
+    POWER,
+    SPEED,
+    SQUARE,
+    TOLERANCE,
+    TOUCHED,
+    VX,
+    VY,
+    T,
+    X,
+    Y,
+)
 
-LANES = 32
-"""So few that a wave stays in the nearest cache, beside what it looks at."""
-(
-    X, Y, VX, VY, TIME, LOST, ENERGY, SPEED, PER_ENERGY, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE,
-    LAST, BEST, FEATURE, TOUCHED, ID, FLIES,
-    PX, PY, U, W, PER_U, PER_W, BORDER_X, BORDER_Y, COLUMN, ROW,
-    E0, E1, E2, E3, E4, E5, E6, E7, E8, E9,
-) = (LANES * number for number in range(40))  # fmt: skip
-FLOATS = 40 * LANES
-NONE = float(NO_HIT)
-(
-    NEXT, NEXT_CORNER, ARCS, CORNERS, END, WAY, AT, SIDE, SIZE, CROSSES, TURNS,
-    LINE_LIST, ARC_LIST, CORNER_LIST, ENTERING, TURNING, ENTERED,
-) = (LANES * number for number in range(17))  # fmt: skip
-COUNTS = 17 * LANES
-"""NEXT: place in ``Model.ids`` of what a ball looks at: a line before that in ARCS, an arc before that in CORNERS,
-else nothing; discs look at a corner in the same turn, at NEXT_CORNER before END. Whether a ball CROSSES or TURNS is 1
-or 0; the lists are of lanes, and at ENTERED stands how many are in ENTERING."""
+LINE_FLOATS, ARC_FLOATS, CORNER_FLOATS = (len(kind._fields) for kind in (Line, Arc, Corner))
+
+
+@kernel
+def meet(model, radius, s, q):
+    """Let every ball look at the next line, arc or corner of its cell."""
+    at_line, at_arc, at_corner = _looking(q)
+    if at_line > 0:
+        for i in range(0, LANES, LINE_FLOATS):
+            fetch(model.lines, model.ids, q, NEXT + i, s, ID + i, LANES)
+        if radius is None:
+            _meet_lines_point(s, q)
+        else:
+            _meet_lines_disc(s, q, radius)
+    if at_arc > 0:
+        _meet_arcs(model, model.arcs, radius, s, q)
+    if radius is not None:
+        if at_corner > 0:
+            for i in range(0, LANES, CORNER_FLOATS):
+                fetch(model.corners, model.ids, q, NEXT_CORNER + i, s, ID + i, LANES)
+            _meet_corners(s, q, radius)
+
+
+@kernel
+def _meet_arcs(model, arcs, radius, s, q):
+    if arcs is None:
+        return
+    for i in range(0, LANES, ARC_FLOATS):
+        fetch(arcs, model.ids, q, NEXT + i, s, ID + i, LANES)
+    again = _meet_arcs_point(s, q) if radius is None else _meet_arcs_disc(s, q, radius)
+    while again > 0:
+        i = lowest(again)
+        again &= again - 1
+        _ask_again(model, arcs, radius, s, q, i)
+
+
+@rare_kernel
+def _ask_again(model, arcs, radius, s, q, i):
+    """Let a ball ask its arc alone, with all that its pass leaves out as it is seldom so."""
+    k, last, feature = q[NEXT + i], int(s[LAST + i]), int(s[FEATURE + i])
+    if radius is None:
+        s[BEST + i], feature, touched = scan_arcs_point(
+            arcs, model.ids, k, k + 1, None, model.edge_wall, s[X + i], s[Y + i], s[VX + i], s[VY + i], s[ENERGY + i],
+            last, s[TOLERANCE + i], s[BEST + i], feature,
+        )  # fmt: skip
+        s[TOUCHED + i] += float(touched)
+    else:
+        s[BEST + i], feature = scan_arcs_disc(
+            arcs, model.ids, k, k + 1, None, model.edge_wall, radius, s[X + i], s[Y + i], s[VX + i], s[VY + i],
+            s[ENERGY + i], last, s[TOLERANCE + i], s[BEST + i], feature,
+        )  # fmt: skip
+    s[FEATURE + i] = float(feature)
+
+
+@kernel
+def _looking(q):
+    """Tell how many balls look at lines, at arcs and at corners."""
+    at_line, at_arc, at_corner = 0, 0, 0
+    for i in range(LANES):
+        k = q[NEXT + i]
+        at_line += int(k < q[ARCS + i])
+        at_arc += int((k >= q[ARCS + i]) & (k < q[CORNERS + i]))
+        at_corner += int(q[NEXT_CORNER + i] < q[END + i])
+    return at_line, at_arc, at_corner
 
 
 @kernel
@@ -41,7 +129,7 @@ def _edge_is_sooner(t, edge, best, feature):
 
 
 @kernel
-def meet_lines_point(s, q):
+def _meet_lines_point(s, q):
     """Let every point ask its line, as ``impact.scan_point`` does."""
     for i in range(LANES):
         x, y, vx, vy = s[X + i], s[Y + i], s[VX + i], s[VY + i]
@@ -68,7 +156,7 @@ def meet_lines_point(s, q):
 
 
 @kernel
-def meet_lines_disc(s, q, radius):
+def _meet_lines_disc(s, q, radius):
     """Let every disc ask its line, as ``impact.scan_disc`` does."""
     for i in range(LANES):
         vx, vy, best, feature, number = s[VX + i], s[VY + i], s[BEST + i], s[FEATURE + i], s[ID + i]
@@ -91,7 +179,7 @@ def meet_lines_disc(s, q, radius):
 
 
 @kernel
-def meet_corners(s, q, radius):
+def _meet_corners(s, q, radius):
     """Let every disc ask its corner, as ``impact.scan_corners`` does."""
     square = radius * radius
     for i in range(LANES):
@@ -113,22 +201,46 @@ def meet_corners(s, q, radius):
 
 
 @kernel
-def meet_arcs_point(s, q):
-    """Let every point ask its arc, as ``arcs.scan_arcs_point`` does."""
+def _meet_arcs_point(s, q):
+    """Let every point ask its arc, as ``arcs.scan_arcs_point`` does.
+
+    In two passes, so that the processor works on several vectors at once while roots and quotients take long.
+
+    Returns:
+        The bits of the points that are to ask again: within rounding of an arc that they have not just left.
+    """
+    again = _find_cuts(s, q)
     for i in range(LANES):
-        x, y, vx, vy, energy, tolerance = s[X + i], s[Y + i], s[VX + i], s[VY + i], s[ENERGY + i], s[TOLERANCE + i]
+        energy, along, power, square, cut = s[ENERGY + i], s[ALONG + i], s[POWER + i], s[SQUARE + i], s[FROM + i]
         best, feature, number = s[BEST + i], s[FEATURE + i], s[ID + i]
-        sx, sy, fx, fy, radius, wide = s[E4 + i], s[E5 + i], s[E6 + i], s[E7 + i], s[E8 + i], s[E9 + i]
-        wx, wy = x - s[E0 + i], y - s[E1 + i]
+        root = math.sqrt(square if square > 0.0 else 0.0)
+        above, below = (root - along, energy) if along <= 0.0 else (-power, along + root)
+        above, below = (-2.0 * along, energy) if cut == CHORD else (above, below)
+        above, below = (power, root - along) if cut == OUTSIDE else (above, below)
+        t = above / below
+        met = (cut != NEITHER) & _edge_is_sooner(t, number, best, feature)
+        s[BEST + i] = t if met else best
+        s[FEATURE + i] = number if met else feature
+    return again
+
+
+@kernel
+def _find_cuts(s, q):
+    """Find which cut of its line with the circle of its arc each point meets, see OUTSIDE; and who is to ask again."""
+    near = 0
+    for i in range(LANES):
+        x, y, vx, vy, tolerance = s[X + i], s[Y + i], s[VX + i], s[VY + i], s[TOLERANCE + i]
+        ax, ay, sx, sy, radius, wide = s[E0 + i], s[E1 + i], s[E4 + i], s[E5 + i], s[E6 + i], is_wide(s[E7 + i])
+        fx, fy = (s[E2 + i] - ax) + sx, (s[E3 + i] - ay) + sy
+        wx, wy = x - ax, y - ay
         ex, ey = wx + sx, wy + sy
         power = wx * (wx + 2.0 * sx) + wy * (wy + 2.0 * sy)
         along = ex * vx + ey * vy
-        again = s[LAST + i] == number
-        near = (abs(power) <= (2.0 * radius + tolerance) * tolerance) & spans(
-            sx, sy, fx, fy, radius, wide, ex, ey, tolerance
-        )
-        on = again | near
-        inside = (on & (along < 0.0)) | ((not on) & (power < 0.0))
+        on = s[LAST + i] == s[ID + i]
+        asked = (q[NEXT + i] >= q[ARCS + i]) & (q[NEXT + i] < q[CORNERS + i])
+        unclear = (not on) & (abs(power) <= (2.0 * radius + tolerance) * tolerance)
+        near |= int(asked & unclear) << i
+        inside = (along if on else power) < 0.0
         a_right = wy * vx - wx * vy >= 0.0
         b_right = (s[E2 + i] - x) * vy - (s[E3 + i] - y) * vx >= 0.0
         cross = abs(ex * vy - ey * vx)
@@ -138,66 +250,98 @@ def meet_arcs_point(s, q):
         )
         enters = (b_right & (not a_right)) | ((a_right == b_right) & both)
         leaves = (a_right & (not b_right)) | ((a_right == b_right) & both)
-        asked = (q[NEXT + i] >= q[ARCS + i]) & (q[NEXT + i] < q[CORNERS + i])
-        s[TOUCHED + i] = 1.0 if asked & near & (not again) else s[TOUCHED + i]
-        meets = asked & (inside | ((not on) & (along < 0.0))) & (leaves | (enters & (not inside)))
+        meets = asked & (not unclear) & (inside | ((not on) & (along < 0.0))) & (leaves | (enters & (not inside)))
         speed = s[SPEED + i]
-        square = (radius * speed - cross) * (radius * speed + cross)
-        root = math.sqrt(square if square > 0.0 else 0.0)
-        above, below = -power, along + root
-        above, below = (root - along, energy) if along <= 0.0 else (above, below)
-        chord = on & (energy * abs(power) > WELL_KNOWN * along * along)
-        above, below = (-2.0 * along, energy) if chord else (above, below)
-        above, below = (power, root - along) if enters & (not inside) else (above, below)
-        t = above / below
-        sooner = _edge_is_sooner(t, number, best, feature)
-        s[BEST + i] = t if meets & sooner else best
-        s[FEATURE + i] = number if meets & sooner else feature
+        chord = on & (s[ENERGY + i] * abs(power) > WELL_KNOWN * along * along)
+        cut = OUTSIDE if enters & (not inside) else (CHORD if chord else INSIDE)
+        s[FROM + i] = cut if meets else NEITHER
+        s[ALONG + i], s[POWER + i], s[SQUARE + i] = along, power, (radius * speed - cross) * (radius * speed + cross)
+    return near
 
 
 @kernel
-def meet_arcs_disc(s, q, disc):
-    """Let every disc ask its arc, as ``arcs.scan_arcs_disc`` does."""
+def _meet_arcs_disc(s, q, disc):
+    """Let every disc ask its arc, as ``arcs.scan_arcs_disc`` does, but from one side only.
+
+    In three short passes, so that the processor works on several vectors at once while roots and quotients take long.
+
+    Returns:
+        The bits of the balls that are to ask again, alone, from both sides.
+    """
+    _take_sides(s, q, disc)
+    _find_times(s, disc)
+    return _find_places(s, disc)
+
+
+@kernel
+def _take_sides(s, q, disc):
+    """Find the side that each disc may meet its arc from: see OUTSIDE.
+
+    A disc outside the circle of an arc may meet the arc from outside, with e.v < 0 where it does, or fly by it into
+    the circle and meet it from inside, with e.v > 0. All directions in which a narrow arc lies are between those of s
+    and f: where s.v and f.v have one sign, and are larger than what rounding and slack come to, it tells the side.
+    """
     for i in range(LANES):
-        vx, vy, energy = s[VX + i], s[VY + i], s[ENERGY + i]
-        best, feature, number = s[BEST + i], s[FEATURE + i], s[ID + i]
-        sx, sy, fx, fy, radius, wide = s[E4 + i], s[E5 + i], s[E6 + i], s[E7 + i], s[E8 + i], s[E9 + i]
-        slack = s[TOLERANCE + i] + disc * 2.0**-42
-        wx, wy = s[X + i] - s[E0 + i], s[Y + i] - s[E1 + i]
+        vx, vy, speed = s[VX + i], s[VY + i], s[SPEED + i]
+        ax, ay, sx, sy, radius, wide = s[E0 + i], s[E1 + i], s[E4 + i], s[E5 + i], s[E6 + i], is_wide(s[E7 + i])
+        fx, fy = (s[E2 + i] - ax) + sx, (s[E3 + i] - ay) + sy
+        wx, wy = s[X + i] - ax, s[Y + i] - ay
         ex, ey = wx + sx, wy + sy
         power = wx * (wx + 2.0 * sx) + wy * (wy + 2.0 * sy)
         along = ex * vx + ey * vy
         cross = abs(ex * vy - ey * vx)
-        speed = s[SPEED + i]
+        inner = radius - disc
+        s_along, f_along = sx * vx + sy * vy, fx * vx + fy * vy
+        doubt = s[DOUBT + i]
+        narrow = (2.0 * disc < radius) & (not wide)
+        ahead = narrow & (s_along > doubt) & (f_along > doubt)
+        behind = narrow & (s_along < -doubt) & (f_along < -doubt)
+        outside = (power >= 0.0) & (not ahead)
+        enters = (inner > 0.0) & ((inner * speed >= cross) | (s[LAST + i] == s[ID + i])) & (not behind)
+        reach = radius + disc if outside else inner
+        square = (reach * speed - cross) * (reach * speed + cross)
         asked = (q[NEXT + i] >= q[ARCS + i]) & (q[NEXT + i] < q[CORNERS + i]) & ((power < 0.0) | (along < 0.0))
-        reach = radius + disc
-        square = (reach * speed - cross) * (reach * speed + cross)
-        c = power - disc * (2.0 * radius + disc)
-        t_out = c / (math.sqrt(square if square > 0.0 else 0.0) - along)
-        t_out = t_out if c > 0.0 else 0.0
-        from_outside = (
-            (power >= 0.0)
-            & (reach * speed >= cross)
-            & spans(sx, sy, fx, fy, radius, wide, ex + t_out * vx, ey + t_out * vy, slack)
-        )
-        reach = radius - disc
-        square = (reach * speed - cross) * (reach * speed + cross)
+        side = (EITHER if enters else OUTSIDE) if outside else (INSIDE if inner > 0.0 else NEITHER)
+        s[FROM + i] = side if asked else NEITHER
+        s[E0 + i], s[E1 + i], s[E2 + i], s[E3 + i] = ex, ey, fx, fy
+        s[ALONG + i], s[POWER + i], s[SQUARE + i] = along, power, square if reach * speed >= cross else -1.0
+
+
+@kernel
+def _find_times(s, disc):
+    """Find when each disc is at its distance from the circle of its arc, -1 for never."""
+    for i in range(LANES):
+        energy, along, power, square, radius = s[ENERGY + i], s[ALONG + i], s[POWER + i], s[SQUARE + i], s[E6 + i]
+        outside = s[FROM + i] > NEITHER
         root = math.sqrt(square if square > 0.0 else 0.0)
-        c = power + disc * (2.0 * radius - disc)
-        overlaps = (c >= 0.0) & (along > 0.0)
-        again = (s[LAST + i] == number) & (energy * abs(c) > WELL_KNOWN * along * along)
+        off = disc if outside else -disc
+        c = power - off * (2.0 * radius + off)
+        overlaps = (c <= 0.0) if outside else (c >= 0.0) & (along > 0.0)
+        is_last = s[LAST + i] == s[ID + i]
+        chord = (not outside) & is_last & (energy * abs(c) > WELL_KNOWN * along * along)
         above, below = (root - along, energy) if along <= 0.0 else (-c, along + root)
-        above, below = (-2.0 * along, energy) if again else (above, below)
-        t_in = above / below
-        t_in = 0.0 if overlaps else t_in
-        from_inside = (
-            (reach > 0.0)
-            & ((overlaps & (power < 0.0)) | ((not overlaps) & (again | (reach * speed >= cross))))
-            & (t_in >= 0.0)
-            & spans(sx, sy, fx, fy, radius, wide, ex + t_in * vx, ey + t_in * vy, slack)
-        )
-        t = t_out if from_outside else t_in
+        above, below = (-2.0 * along, energy) if chord else (above, below)
+        above, below = (c, root - along) if outside else (above, below)
+        t = above / below
+        known = (square >= 0.0) | (chord & (not overlaps)) | (overlaps & (not outside))
+        known = known & (outside | (not overlaps) | (power < 0.0))
+        t = 0.0 if overlaps else t
+        s[T + i] = t if known else -1.0
+
+
+@kernel
+def _find_places(s, disc):
+    """Find which arcs lie where the discs are then: the bits of those that are to ask again."""
+    again = 0
+    for i in range(LANES):
+        best, feature, number, t = s[BEST + i], s[FEATURE + i], s[ID + i], s[T + i]
+        slack = s[TOLERANCE + i] + disc * 2.0**-42
+        x, y = s[E0 + i] + t * s[VX + i], s[E1 + i] + t * s[VY + i]
+        wide = is_wide(s[E7 + i])
+        lies_there = spans(s[E4 + i], s[E5 + i], s[E2 + i], s[E3 + i], s[E6 + i], wide, x, y, slack)
+        meets = (t >= 0.0) & lies_there & (s[FROM + i] != NEITHER)
+        again |= int((s[FROM + i] == EITHER) & (not meets)) << i
         sooner = _edge_is_sooner(t, number, best, feature)
-        met = asked & (from_outside | from_inside) & sooner
-        s[BEST + i] = t if met else best
-        s[FEATURE + i] = number if met else feature
+        s[BEST + i] = t if meets & sooner else best
+        s[FEATURE + i] = number if meets & sooner else feature
+    return again

@@ -1,0 +1,73 @@
+"""What stands in for some functions in machine code does what they do in Python."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from wallkit.kernels.instructions import AT_ONCE, claim, fetch, look_up, lowest, prefetch
+from wallkit.kernels.jit import compiled, kernel
+from wallkit.kernels.model import CORNER, LINE
+
+
+@kernel
+def lowest_of(bits):
+    return lowest(bits)
+
+
+@kernel
+def look_up_all(table, places, found):
+    for i in range(0, len(places), AT_ONCE):
+        look_up(table, places, i, found, i)
+
+
+@kernel
+def fetch_all(records, ids, places, columns, at_once):
+    for i in range(0, len(places), at_once):
+        prefetch(records, 10**9)
+        fetch(records, ids, places, i, columns, i, len(places))
+
+
+@kernel
+def claim_twice(counter):
+    return claim(counter, 3), claim(counter, 4)
+
+
+@given(st.integers(1, 2**63 - 1))
+def test_the_lowest_bit(bits):
+    assert bits % 2 ** lowest_of(bits) == 0
+    assert bits >> lowest_of(bits) & 1 == 1
+    assert compiled(lowest_of)(bits) == lowest_of(bits)
+
+
+def test_numbers_are_claimed_one_after_the_other():
+    for run in (claim_twice, compiled(claim_twice)):
+        counter = np.array([5])
+        assert run(counter) == (5, 8)
+        assert counter[0] == 12
+
+
+@pytest.mark.parametrize("kind", [np.int16, np.uint32])
+def test_numbers_are_looked_up(kind):
+    random = np.random.default_rng(1)
+    table = random.integers(0, 2**15 - 1, 100).astype(kind)
+    places = random.integers(0, 100, 32).astype(np.uint32)
+    for run in (look_up_all, compiled(look_up_all)):
+        found = np.zeros(32, dtype=np.uint32)
+        run(table, places, found)
+        assert (found == table[places]).all()
+
+
+@pytest.mark.parametrize("kind", [LINE, CORNER])
+def test_records_become_columns_and_an_id_beyond_them_gives_the_last_one(kind):
+    random = np.random.default_rng(2)
+    size = len(kind.names)
+    records = random.normal(size=(20, size)).view(kind).reshape(-1)
+    ids = random.integers(0, 25, 50).astype(np.uint32)
+    places = random.integers(0, 50, 32).astype(np.uint32)
+    rows = records[np.minimum(ids[places], 19)].view(np.float64).reshape(-1, size)
+    expected = np.concatenate([ids[places][None], rows.T]).ravel()
+    for run, table in ((fetch_all, records.tolist()), (compiled(fetch_all), records)):
+        columns = np.zeros((1 + size) * 32)
+        run(table, ids, places, columns, size)
+        assert columns.tobytes() == expected.tobytes()

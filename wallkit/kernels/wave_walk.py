@@ -1,0 +1,183 @@
+"""The way of a wave through the grid: which balls leave their cell, and what they look at in the next one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wallkit.kernels.grid import clearing_at, leaf
+from wallkit.kernels.instructions import AT_ONCE, look_up, lowest, prefetch
+from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.model import CLEARINGS, HALF, WIDEST
+from wallkit.kernels.wave_lanes import (
+    ARCS,
+    AT,
+    BEST,
+    BORDER_X,
+    BORDER_Y,
+    CLEARING,
+    COLUMN,
+    CORNERS,
+    CROSSES,
+    END,
+    ENTERED,
+    FLIES,
+    LANES,
+    NEXT,
+    NEXT_CORNER,
+    PER_U,
+    PER_W,
+    PX,
+    PY,
+    ROW,
+    WAY,
+    U,
+    W,
+)
+
+ONE_BY_ONE = 1 + (1 << HALF)
+"""The cell itself, in place of a clearing."""
+
+
+@kernel
+def decide(s, q, grid, radius):
+    """Find when every ball leaves its cell, and what it does next: look on, cross into the next cell, or turn.
+
+    As ``grid.ahead`` does, with the borders of the cell (or clearing) as they are. Also where the next cell is in
+    ``Model.clearings``: some place within for balls that do not cross, too, for all of them look there.
+
+    Returns:
+        The bits of the balls that turn.
+    """
+    columns, rows = float(grid.columns << grid.shift), float(grid.rows << grid.shift)
+    turning = 0
+    for i in range(LANES):
+        px, py, u, w, per_u, per_w = s[PX + i], s[PY + i], s[U + i], s[W + i], s[PER_U + i], s[PER_W + i]
+        border_x, border_y = s[BORDER_X + i], s[BORDER_Y + i]
+        exit_x, exit_y = (border_x - px) * per_u, (border_y - py) * per_w
+        sideways = exit_x < exit_y
+        time = exit_x if sideways else exit_y
+        there_x, there_y = px + time * u, py + time * w
+        there_x = there_x if there_x > 0.0 else 0.0
+        there_y = there_y if there_y > 0.0 else 0.0
+        there_x = there_x if there_x < columns - 1.0 else columns - 1.0
+        there_y = there_y if there_y < rows - 1.0 else rows - 1.0
+        back_x, back_y = s[COLUMN + i], s[ROW + i]  # where the ball is, or, asked again, what came out before
+        there_x = back_x if (there_x < back_x) == (per_u > 0.0) else there_x
+        there_y = back_y if (there_y < back_y) == (per_w > 0.0) else there_y
+        x = (border_x if per_u > 0.0 else border_x - 1.0) if sideways else there_x
+        y = there_y if sideways else (border_y if per_w > 0.0 else border_y - 1.0)
+        outside = (x < 0.0) | (x >= columns) | (y < 0.0) | (y >= rows)
+        turns = outside | (s[BEST + i] <= time)
+        following = q[NEXT + i] + int(q[NEXT + i] < q[CORNERS + i])
+        q[NEXT + i] = following
+        goes = (s[FLIES + i] == 1.0) & (following >= q[CORNERS + i])
+        if radius is not None:
+            following = q[NEXT_CORNER + i] + int(q[NEXT_CORNER + i] < q[END + i])
+            q[NEXT_CORNER + i] = following
+            goes = goes & (following >= q[END + i])
+        column, row = int(0.0 if outside else x), int(0.0 if outside else y)
+        s[COLUMN + i], s[ROW + i] = float(column), float(row)
+        q[AT + i] = clearing_at(grid, q[WAY + i], column, row)
+        q[CROSSES + i] = int(goes & (not turns))
+        turning |= int(goes & turns) << i
+    return turning
+
+
+@kernel
+def _cross_clearings(model, s, q):
+    """Let balls cross into clearings, with the borders ahead as in ``grid.ahead``: the bits of those that enter a cell.
+
+    Such a cell is taken for one that is not divided, as most are.
+    """
+    for i in range(0, LANES, AT_ONCE):
+        look_up(model.clearings, q, AT + i, q, CLEARING + i)
+    entering, size, per_size = 0, float(1 << model.grid.shift), 1.0 / (1 << model.grid.shift)
+    for i in range(LANES):
+        clear, crosses = q[CLEARING + i], q[CROSSES + i]
+        entering |= int(crosses > clear) << i
+        clear = clear if clear > 0 else ONE_BY_ONE
+        wide, high = size * float(clear & WIDEST), size * float(clear >> HALF)
+        column, row = np.floor(s[COLUMN + i] * per_size) * size, np.floor(s[ROW + i] * per_size) * size
+        x = column + (wide if s[PER_U + i] > 0.0 else size - wide)
+        y = row + (high if s[PER_W + i] > 0.0 else size - high)
+        s[BORDER_X + i] = x if crosses > 0 else s[BORDER_X + i]
+        s[BORDER_Y + i] = y if crosses > 0 else s[BORDER_Y + i]
+    return entering
+
+
+@kernel
+def _enter(model, s, q, i):
+    """Enter the cell at the column and row of a ball."""
+    top = q[AT + i] // CLEARINGS
+    if model.cells[top].link > 0:
+        _open(model.cells, q, i, top)
+    else:
+        _enter_part(model, s, q, i)
+
+
+@rare_kernel
+def _enter_part(model, s, q, i):
+    """Enter a part of a divided cell, with the borders ahead as in ``grid.ahead``."""
+    column, row = int(s[COLUMN + i]), int(s[ROW + i])
+    cell, shift = leaf(model.cells, model.grid, column, row)
+    _open(model.cells, q, i, cell)
+    far = int(model.cells[cell].link) << shift
+    near = (1 << shift) - far
+    column, row = (column >> shift) << shift, (row >> shift) << shift
+    s[BORDER_X + i] = float(column + (far if s[PER_U + i] > 0.0 else near))
+    s[BORDER_Y + i] = float(row + (far if s[PER_W + i] > 0.0 else near))
+
+
+@kernel
+def _open(cells, q, i, cell):
+    """Look at what a cell lists."""
+    q[NEXT + i], q[ARCS + i], q[CORNERS + i] = cells[cell].first, cells[cell].arcs, cells[cell].corners
+    q[NEXT_CORNER + i], q[END + i] = cells[cell].corners, cells[cell].end
+
+
+@kernel
+def cross(model, s, q, far):
+    """Let balls cross into clearings and cells."""
+    entering = _cross_clearings(model, s, q)
+    if far:
+        q[ENTERED] = entering
+    while entering > 0:
+        i = lowest(entering)
+        entering &= entering - 1
+        _enter(model, s, q, i)
+        if far:
+            prefetch(model.ids, q[NEXT + i])
+
+
+@kernel
+def rest(q, last):
+    """Let balls that have looked at all their cell lists look at the end of all lists: nothing is fetched for them."""
+    for i in range(LANES):
+        done = q[NEXT + i] >= q[CORNERS + i]
+        q[NEXT + i] = last if done else q[NEXT + i]
+        q[ARCS + i] = last if done else q[ARCS + i]
+        q[CORNERS + i] = last if done else q[CORNERS + i]
+        done = q[NEXT_CORNER + i] >= q[END + i]
+        q[NEXT_CORNER + i] = last if done else q[NEXT_CORNER + i]
+        q[END + i] = last if done else q[END + i]
+
+
+@kernel
+def prefetch_cells(model, q):
+    """Ask memory for what balls need when they cross: it comes while others turn."""
+    for i in range(LANES):
+        prefetch(model.clearings, q[AT + i])
+
+
+@kernel
+def prefetch_listed(model, radius, q):
+    """Ask memory for all that the cells list which balls of another wave have entered."""
+    entered = int(q[ENTERED])
+    while entered > 0:
+        i = lowest(entered)
+        entered &= entered - 1
+        for at in range(q[NEXT + i], q[ARCS + i]):
+            prefetch(model.lines, model.ids[at])
+        if radius is not None:
+            for at in range(q[NEXT_CORNER + i], q[END + i]):
+                prefetch(model.corners, model.ids[at])
