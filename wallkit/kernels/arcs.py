@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.impact import precedes
+from wallkit.kernels.impact import precedes, slack_of
 from wallkit.kernels.jit import kernel
 
 WELL_KNOWN = 2.0**-20
@@ -133,7 +133,7 @@ def scan_arcs_disc(
     """
     if arcs is None:
         return best, feature
-    slack = tolerance + radius * 2.0**-42
+    slack = slack_of(tolerance, radius)
     speed = math.sqrt(energy)
     for k in range(start, stop):
         arc = arcs[ids[k]]

@@ -11,7 +11,7 @@ import math
 
 from wallkit.kernels.arcs import holds
 from wallkit.kernels.grid import around, leaf, place
-from wallkit.kernels.impact import behind, precedes
+from wallkit.kernels.impact import behind, precedes, slack_of
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
 
@@ -31,7 +31,7 @@ def fall_line(
         (time, feature, number of other lines that a point touches where it starts).
     """
     touched = 0
-    slack = tolerance + radius * 2.0**-42
+    slack = slack_of(tolerance, radius)
     noise = LEVEL_SPEED * (abs(vx) + abs(vy))
     for k in range(start, stop):
         if ids[k] == skipped:
@@ -148,7 +148,7 @@ def fall_arcs(
     touched = 0
     if arcs is None:
         return best, feature, touched
-    slack = tolerance + radius * 2.0**-42
+    slack = slack_of(tolerance, radius)
     c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
     noise = LEVEL_SPEED * (abs(vx) + abs(vy))
     for k in range(start, stop):

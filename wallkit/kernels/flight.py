@@ -169,10 +169,16 @@ def normal_of(model, feature, x, y):
     """Normal at a contact, any length and way, 2 / (n.n), and the wall."""
     if feature >= 0:
         nx, ny, twice = normal_at(model, model.arcs, feature, x, y)
-        return nx, ny, twice, model.edge_wall[feature]
+        return nx, ny, twice, wall_of(model, feature)
     corner = model.corners[-2 - feature]
     nx, ny = x - corner.x, y - corner.y
-    return nx, ny, 2.0 / (nx * nx + ny * ny), model.corner_wall[-2 - feature]
+    return nx, ny, 2.0 / (nx * nx + ny * ny), wall_of(model, feature)
+
+
+@kernel
+def wall_of(model, feature):
+    """Wall of an edge or a corner."""
+    return model.edge_wall[feature] if feature >= 0 else model.corner_wall[-2 - feature]
 
 
 @kernel

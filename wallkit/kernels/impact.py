@@ -26,6 +26,12 @@ def precedes(feature: int, other: int) -> bool:
 
 
 @kernel
+def slack_of(tolerance, radius):
+    """How far past the end of an edge a disc may touch it, see ``scan_disc``."""
+    return tolerance + radius * 2.0**-42
+
+
+@kernel
 def scan_point(lines, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last, tolerance, best, feature):
     """Earliest contact of a point with the lines of entries start to stop.
 
@@ -96,7 +102,7 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
         (time, feature).
     """
     reach = best * WIDER
-    slack = tolerance + radius * 2.0**-42
+    slack = slack_of(tolerance, radius)
     for k in range(start, stop):
         line = lines[ids[k]]
         ex = x - line.ax

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from wallkit.kernels.corner import settle
 from wallkit.kernels.flight import has_left, still_limit, tolerance_of
-from wallkit.kernels.impact import scan_corners, scan_point
+from wallkit.kernels.impact import scan_corners, scan_point, slack_of
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import (
     AMBIGUOUS,
@@ -198,7 +198,7 @@ def _pass_disc(s, row, line, radius):
     ax, ay, nx, ny, length = line.ax, line.ay, line.nx, line.ny, line.length
     for i in range(LANES):
         vx, vy, best = s[VX + i], s[VY + i], s[BEST + i]
-        slack = s[TOLERANCE + i] + radius * 2.0**-42
+        slack = slack_of(s[TOLERANCE + i], radius)
         ex, ey = s[X + i] - ax, s[Y + i] - ay
         d = ex * nx + ey * ny
         closing = -(vx * nx + vy * ny)

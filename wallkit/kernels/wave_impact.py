@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.arcs import WELL_KNOWN, is_wide, scan_arcs_disc, scan_arcs_point, spans
+from wallkit.kernels.impact import slack_of
 from wallkit.kernels.instructions import fetch, lowest
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import Arc, Corner, Line
@@ -161,7 +162,7 @@ def _meet_lines_disc(s, q, radius):
     for i in range(LANES):
         vx, vy, best, feature, number = s[VX + i], s[VY + i], s[BEST + i], s[FEATURE + i], s[ID + i]
         nx, ny = s[E4 + i], s[E5 + i]
-        slack = s[TOLERANCE + i] + radius * 2.0**-42
+        slack = slack_of(s[TOLERANCE + i], radius)
         ex, ey = s[X + i] - s[E0 + i], s[Y + i] - s[E1 + i]
         d = ex * nx + ey * ny
         closing = -(vx * nx + vy * ny)
@@ -335,7 +336,7 @@ def _find_places(s, disc):
     again = 0
     for i in range(LANES):
         best, feature, number, t = s[BEST + i], s[FEATURE + i], s[ID + i], s[T + i]
-        slack = s[TOLERANCE + i] + disc * 2.0**-42
+        slack = slack_of(s[TOLERANCE + i], disc)
         x, y = s[E0 + i] + t * s[VX + i], s[E1 + i] + t * s[VY + i]
         wide = is_wide(s[E7 + i])
         lies_there = spans(s[E4 + i], s[E5 + i], s[E2 + i], s[E3 + i], s[E6 + i], wide, x, y, slack)

@@ -17,8 +17,18 @@ import math
 from typing import Any, NamedTuple
 
 from wallkit.kernels.corner import settle
-from wallkit.kernels.flight import absorbs, ending_without, has_left, normal_of, passes, still_limit, tolerance_of
+from wallkit.kernels.flight import (
+    absorbs,
+    ending_without,
+    has_left,
+    normal_of,
+    passes,
+    still_limit,
+    tolerance_of,
+    wall_of,
+)
 from wallkit.kernels.grid import clearing_at, in_units, per_speed, place, way_of
+from wallkit.kernels.impact import slack_of
 from wallkit.kernels.instructions import lowest
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import (
@@ -219,7 +229,7 @@ def _reach(model, radius, s, n, i, until):
 @kernel
 def _reflect(model, radius, s, n, i, limit):
     """Turn a ball at the wall that it has reached, as ``flight.fly`` does: an ending, or RUNNING."""
-    wall = _wall_of(model, int(s[LAST + i]))
+    wall = wall_of(model, int(s[LAST + i]))
     s[VX + i], s[VY + i], energy = reflect(
         model.restitution, wall, s[NX + i], s[NY + i], s[TWICE + i], s[VX + i], s[VY + i], s[ENERGY + i]
     )
@@ -239,7 +249,7 @@ def _set_energy(s, i, radius, energy):
     s[ENERGY + i], s[SPEED + i], s[PER_ENERGY + i] = energy, math.sqrt(energy), 1.0 / energy
     if radius is not None:
         known = DULL < energy < 1.0 / DULL
-        s[DOUBT + i] = 8.0 * (s[TOLERANCE + i] + radius * 2.0**-42) * s[SPEED + i] if known else math.inf
+        s[DOUBT + i] = 8.0 * slack_of(s[TOLERANCE + i], radius) * s[SPEED + i] if known else math.inf
 
 
 @rare_kernel
@@ -266,16 +276,10 @@ def _clear(radius, s, q):
 def _count(model, met, count, hits):
     """Count bounces off features, many together, so that one does not wait for another's memory: 0 are left."""
     for k in range(count):
-        met[k] = _wall_of(model, met[k])
+        met[k] = wall_of(model, met[k])
     for k in range(count):
         hits[met[k]] += 1
     return 0
-
-
-@kernel
-def _wall_of(model, feature):
-    """Wall of an edge or a corner."""
-    return model.edge_wall[feature] if feature >= 0 else model.corner_wall[-2 - feature]
 
 
 @kernel
