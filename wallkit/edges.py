@@ -14,6 +14,8 @@ from wallkit.scene import FloatArray
 IntArray = NDArray[np.int64]
 SMOOTH = 2.0**-44
 """Edges that meet at less than this angle (radians) have no corner: see ``scan_disc`` for how they overlap."""
+NEARLY_STRAIGHT = 2.0**-41
+"""Rounding of an edge in parts of its size, some 500 times: see ``corners_of``."""
 FLAT = 2.0**-44
 """An arc with a smaller bulge is its chord, to rounding."""
 
@@ -81,12 +83,17 @@ def no_corners() -> Corners:
 
 
 def corners_of(
-    vertices: FloatArray, lines: NDArray[Any], bulges: FloatArray, starts: IntArray, ends: IntArray
+    vertices: FloatArray, lines: NDArray[Any], bulges: FloatArray, starts: IntArray, ends: IntArray, radius: float
 ) -> Corners:
     """Tell for each vertex where a disc can touch it: from one normal of its edges to the other.
 
     Where the wall turns left the fan opens to its right, and the other way round; a free end has half a circle, a
     vertex at an edge without length all of it.
+
+    On the other side a disc meets both edges before it meets the vertex, by radius * angle^2 / 2 farther away than
+    where the edges alone would hold it. Where that is not far above the rounding of the edges (of an arc as large as
+    its radius) a disc that rolls along one may pass the other unseen: there the vertex stands in for it, on ``both``
+    sides.
     """
     ux, uy, wx, wy = np.zeros((4, len(vertices)))  # normals of the edge that arrives, and of the one that leaves
     (ux[ends], uy[ends]), (wx[starts], wy[starts]) = _end_normals(lines, bulges)
@@ -104,10 +111,21 @@ def corners_of(
     fans["ux"], fans["uy"], fans["wx"], fans["wy"] = ux, uy, wx, wy
     none = lines["length"] == 0.0
     bare = np.concatenate([starts[none], ends[none]])
-    fans[bare] = 1.0, 0.0, 1.0, 0.0, 1.0
+    fans[bare] = 1.0, 0.0, 1.0, 0.0, 1.0, 0.0
+    size = np.full(len(vertices), np.abs(vertices).max(initial=0.0))
+    for at in (ends, starts):
+        size[at] += _radii(lines, bulges)
+    fans["both"] = radius * cross * cross < NEARLY_STRAIGHT * size
     opened = (np.abs(cross) > SMOOTH) | (ux * wx + uy * wy <= 0.0)
     opened[bare] = True
     return Corners(corners, fans, opened)
+
+
+def _radii(lines: NDArray[Any], bulges: FloatArray) -> FloatArray:
+    """Give the radius of each edge that is an arc, 0 for lines."""
+    size = np.abs(bulges)
+    is_arc = size > FLAT
+    return np.divide(lines["length"] * (1.0 + size * size), 4.0 * size, out=np.zeros(len(lines)), where=is_arc)
 
 
 def _end_normals(lines: NDArray[Any], bulges: FloatArray) -> tuple[FloatArray, FloatArray]:

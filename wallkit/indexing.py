@@ -18,13 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.cache_lines import on_cache_lines
-from wallkit.kernels.entering import LATEST, clear, clear_ahead, enter, lay_out
+from wallkit.kernels.clearing import clear, clear_ahead, clear_departures, ways_along
+from wallkit.kernels.entering import ALL_WAYS, Table, describe, enter, lay_out
 from wallkit.kernels.jit import compiled
-from wallkit.kernels.model import BLOCK, CELL, CLEARINGS, FIRST_CLEARING, Block, Cell, Grid, Model, in_lists
+from wallkit.kernels.model import BLOCK, CELL, QUARTERS, WAYS, Block, Grid, Model, in_lists
+from wallkit.monotone_chains import chains_in_cells
 from wallkit.scene import FloatArray
 
 IntArray = NDArray[np.int64]
-LINK = Cell._fields.index("link")
 MARGIN = 2.0**-16
 """Of the side of a cell: far above the rounding of its border, which is given by a number below 2^30 (2^-23)."""
 ROUNDING = 2.0**-39
@@ -38,6 +39,11 @@ something lists one or two. In units of sqrt(area / edges) it is at least 0.2 (2
 cache), and at most 0.6 (where edges are long and many meet)."""
 MOST_CELLS = 2.0**18
 """Beyond this many, which a cache may hold, there are at most two an edge: no slower to fly among, quicker to make."""
+WORTH_EIGHTHS = 0.25
+"""Part of the ways for which cells that list something must be clear, if eighths are to be told apart: half of them
+where cells are small beside discs, few where they are not. Quarters need less memory."""
+SPARSE = 0.25
+"""Part of the cells that may list something for departures to be worth making."""
 CROWDED = 16
 """A cell with more entries is divided."""
 MOST_BITS = 7
@@ -57,6 +63,9 @@ class _Level:
     numbers: NDArray[np.int32]
     """(cells + 1, 4) see ``Cell``."""
     ids: NDArray[np.uint32]
+    ways: NDArray[np.uint8]
+    """By cell, see ``Table``; for the first level alone, and not for points or where cells list one thing on average:
+    then few of them are clear in any way."""
     divided: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     parts: NDArray[Any] = field(default_factory=lambda: np.empty(0, dtype=BLOCK))
 
@@ -100,30 +109,32 @@ def build_grid(
     unit = min(float(level.blocks["side"].min()) for level in levels)
     shift = int(math.log2(top["side"] / unit))
     ids = np.concatenate([*(level.ids for level in levels), np.zeros(1, dtype=np.uint32)])
-    grid = Grid(float(top["x0"]), float(top["y0"]), unit, 1.0 / unit, shift, int(top["columns"]), int(top["rows"]))
-    cells = _joined(levels)
-    clearings, ahead = cells.view(np.int16), work.clearings(levels[0])
-    clearings.reshape(-1, CLEARINGS)[: len(ahead), FIRST_CLEARING : FIRST_CLEARING + 4] = ahead
-    return grid, cells, ids, clearings
+    size = int(top["columns"]), int(top["rows"])
+    ways, *kinds = work.ways(levels[0], fine)
+    grid = Grid(float(top["x0"]), float(top["y0"]), unit, 1.0 / unit, shift, *size, *kinds)
+    cells = _joined(work, levels, grid.packed)
+    clearings = cells.view(np.int16) if grid.packed else work.clearings(grid)
+    work.clear(grid, ways, clearings)
+    if grid.departs:
+        work.depart(model, levels[0], grid, clearings)
+    return grid, cells, ids, np.asarray(clearings, dtype=np.int16)
 
 
-def _joined(levels: list[_Level]) -> NDArray[Any]:
+def _joined(work: _Work, levels: list[_Level], packed: int) -> NDArray[Any]:
     """Put the cells of all levels one after the other, and what divided cells say in place of where ids begin.
 
     The ids that a divided cell listed stay where they are: nobody asks for them.
     """
-    joined = on_cache_lines(sum(len(level.numbers) - 1 for level in levels), CELL)
-    columns, cells, ids = joined.view(np.int32).reshape(len(joined), -1), 0, 0
+    joined = on_cache_lines(sum(len(level.numbers) - 1 for level in levels) << packed, CELL)
+    rows, cells, ids = joined.view(np.uint32).reshape(-1, 4 << packed), 0, 0
+    farthest = max(1, sum(len(level.ids) for level in levels))
     for level in levels:
-        part, first = columns[cells : cells + len(level.numbers) - 1], level.numbers[:-1]
-        cells += len(part)
-        part[:, :LATEST] = first[:, :LATEST] + ids
-        part[:, LATEST] = level.numbers[1:, 0] + ids
-        part[:, LINK] = np.maximum(first[:, LATEST], 1)
-        part[:, LINK + 1 :] = 0
-        part[level.divided, LINK] = -(cells + level.parts["first"])
+        part = rows[cells : cells + len(level.numbers) - 1, :4]
+        part[:] = work.cells(level, ids, farthest)
+        cells, ids = cells + len(part), ids + len(level.ids)
+        part[level.divided] = 0
+        part[level.divided, 0] = (cells + level.parts["first"]) << packed
         part[level.divided, 1] = np.log2(level.parts["columns"]).astype(np.int64)
-        ids += len(level.ids)
     return joined
 
 
@@ -147,43 +158,73 @@ class _Work:
     def count(self, blocks: NDArray[Any], source: NDArray[np.uint32]) -> tuple[Any, IntArray]:
         """Count entries: (flat numbers of the cells of blocks, entries by block)."""
         cells = int((blocks["columns"] * blocks["rows"]).sum())
-        numbers: Any = np.zeros(4 * cells + 4, dtype=np.int32)
-        if not self.machine_code:
-            numbers = numbers.tolist()
-        return numbers, self._enter(blocks, source, numbers, self._room(0))
+        table = Table(self._room(4 * cells + 4, np.int32), self._room(0, np.uint8), self._room(0, np.uint32))
+        return table.numbers, self._enter(blocks, source, table)
 
-    def fill(self, blocks: NDArray[Any], source: NDArray[np.uint32], numbers: Any, endless: bool) -> _Level:
+    def fill(self, blocks: NDArray[Any], source: NDArray[np.uint32], numbers: Any, top: bool) -> _Level:
         """Write the entries that were counted."""
-        ids = self._room(self._run(lay_out, numbers))
-        self._enter(blocks, source, numbers, ids)
-        self._run(clear, blocks if self.machine_code else in_lists(blocks), numbers, endless)
-        table = np.asarray(numbers, dtype=np.int32).reshape(-1, 4)
-        return _Level(blocks, table, np.asarray(ids, dtype=np.uint32))
+        entries, cells = self._run(lay_out, numbers), len(numbers) // 4 - 1
+        ids = self._room(entries, np.uint32)
+        ways = self._room(cells if top and self.distance > 0.0 and entries < cells else 0, np.uint8)
+        self._enter(blocks, source, Table(numbers, ways, ids))
+        self._run(clear, blocks if self.machine_code else in_lists(blocks), numbers, top)
+        listed = np.asarray(numbers, dtype=np.int32).reshape(-1, 4)
+        return _Level(blocks, listed, np.asarray(ids, dtype=np.uint32), np.asarray(ways, dtype=np.uint8))
 
-    def clearings(self, top: _Level) -> NDArray[np.int16]:
+    def cells(self, level: _Level, ids: int, farthest: int) -> NDArray[np.uint32]:
+        """Give (n, 4) the cells of a level as ``Cell`` has them, where so many ids come before theirs."""
+        cells, numbers = self._room(4 * (len(level.numbers) - 1), np.uint32), level.numbers.ravel()
+        self._run(describe, numbers if self.machine_code else numbers.tolist(), ids, farthest, cells)
+        return np.asarray(cells, dtype=np.uint32).reshape(-1, 4)
+
+    def ways(self, top: _Level, fine: bool) -> tuple[NDArray[np.uint8], int, int, int]:
+        """Find in which ways flights may meet something in the cells of the first level: (their bits, ways, ...).
+
+        The others are what ``Grid`` says of them. Few cells list something where walls are far apart: there flights are
+        long, and departures pay.
+        """
+        ways, count, cells = top.ways, WAYS, len(top.numbers) - 1
+        listing = np.flatnonzero(np.diff(top.numbers[:, 0]))
+        if not len(ways):
+            ways, count = np.zeros(cells, dtype=np.uint8), QUARTERS
+            ways[listing] = ALL_WAYS
+        elif np.unpackbits(ways[listing, None], axis=1).mean() > 1.0 - WORTH_EIGHTHS:
+            ways, count = ways | (ways >> np.uint8(4)), QUARTERS
+        packed = int(self.machine_code and cells > 2.0 * MOST_CELLS)
+        departs = int(fine and not packed and self.distance == 0.0 and len(listing) < SPARSE * cells)
+        return ways, count, departs, packed
+
+    def clearings(self, grid: Grid) -> Any:
+        """Make room for clearings and departures by way."""
+        return self._room((grid.ways + WAYS * grid.departs) * grid.columns * grid.rows, np.int16)
+
+    def clear(self, grid: Grid, ways: NDArray[np.uint8], clearings: Any) -> None:
         """Find the clearings ahead of each cell of the first level, each way."""
-        columns, rows = int(top.blocks["columns"][0]), int(top.blocks["rows"][0])
-        shared: Any = (
-            top.numbers.ravel(),
-            columns,
-            rows,
-            np.empty(columns, dtype=np.int16),
-            np.empty(4 * columns * rows, dtype=np.int16),
-        )
-        if not self.machine_code:
-            shared = in_lists(shared)
-        self._run(clear_ahead, *shared)
-        return np.asarray(shared[-1], dtype=np.int16).reshape(-1, 4)
+        above = self._room(grid.columns, np.int16)
+        self._run(clear_ahead, ways if self.machine_code else in_lists(ways), grid, above, clearings)
 
-    def _enter(self, blocks: NDArray[Any], source: NDArray[np.uint32], numbers: Any, ids: Any) -> IntArray:
-        entered: Any = np.zeros(len(blocks), dtype=np.int64)
+    def depart(self, model: Model, top: _Level, grid: Grid, clearings: Any) -> None:
+        """Find the clearings of balls that leave a wall."""
+        listing = np.flatnonzero(np.diff(top.numbers[:, 0]))
+        chains, where = self._chains(model, top, listing), listing if self.machine_code else in_lists(listing)
+        self._run(clear_departures, where, chains, grid, clearings)
+
+    def _chains(self, model: Model, top: _Level, listing: IntArray) -> Any:
+        along = self._room(len(model.lines), np.uint8)
+        self._run(ways_along, *self._shared[:2], along)
+        chains = chains_in_cells(model, np.asarray(along, dtype=np.uint8), top.numbers, top.ids, listing)
+        return chains if self.machine_code else chains.tolist()
+
+    def _enter(self, blocks: NDArray[Any], source: NDArray[np.uint32], table: Table) -> IntArray:
+        entered = self._room(len(blocks), np.int64)
         if not self.machine_code:
-            blocks, source, entered = in_lists((blocks, source, entered))
-        self._run(enter, blocks, source, *self._shared, self.distance, numbers, ids, entered)
+            blocks, source = in_lists((blocks, source))
+        self._run(enter, blocks, source, *self._shared, self.distance, table, entered)
         return np.asarray(entered)
 
-    def _room(self, size: int) -> Any:
-        return np.empty(size, dtype=np.uint32) if self.machine_code else [0] * size
+    def _room(self, size: int, kind: Any) -> Any:
+        """Give so many zeros."""
+        return np.zeros(size, dtype=kind) if self.machine_code else [0] * size
 
     def _run(self, kernel: Callable[..., Any], *arguments: Any) -> Any:
         return (compiled(kernel) if self.machine_code else kernel)(*arguments)
@@ -191,7 +232,7 @@ class _Work:
 
 def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Level:
     """Enter all that the model's one cell lists; where that comes to too many entries, into larger cells."""
-    first, arcs, corners, end, _link = model.cells[0].tolist()
+    first, arcs, corners, end = model.cells[0].tolist()
     width, height = (box[1] - box[0]).tolist()
     side = _side(width, height, corners, _mean_length(model), fine)
     while True:
@@ -204,7 +245,7 @@ def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Lev
         numbers, entered = work.count(blocks, model.ids)
         if entered[0] <= most:
             work.budget -= int(entered[0])
-            return work.fill(blocks, model.ids, numbers, endless=True)
+            return work.fill(blocks, model.ids, numbers, top=True)
         side *= 2.0
 
 
@@ -242,7 +283,7 @@ def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:
         numbers, entered = work.count(blocks, level.ids)
     work.budget -= int(entered.sum())
     level.divided, level.parts = cells[kept], blocks
-    return work.fill(blocks, level.ids, numbers, endless=False)
+    return work.fill(blocks, level.ids, numbers, top=False)
 
 
 def _parts(work: _Work, level: _Level, cells: IntArray, finest: float) -> NDArray[Any]:

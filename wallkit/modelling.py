@@ -65,7 +65,9 @@ class Modelled:
         vertices, starts, ends = walls.vertices - self.origin, walls.edge_starts, walls.edge_ends
         lines, bulges = lines_of(vertices, starts, ends), walls.bulges[starts]
         arcs = arcs_of(lines, bulges)
-        corners = corners_of(vertices, lines, bulges, starts, ends) if radius > 0.0 else no_corners()
+        corners = no_corners()
+        if radius > 0.0:
+            corners = corners_of(vertices, lines, bulges, starts, ends, float(self.radii[self.radii > 0.0].min()))
         is_arc = arcs["radius"] > 0.0 if arcs is not None else np.zeros(len(lines), dtype=np.bool_)
         is_line = (lines["length"] > 0.0) & ~is_arc
         kinds = [np.flatnonzero(which).astype(np.uint32) for which in (is_line, is_arc, corners.open)]
@@ -162,7 +164,7 @@ def local_origin(vertices: FloatArray) -> FloatArray:
 def _one_cell(lines: int, arcs: int, corners: int) -> NDArray[Any]:
     """List everything in one cell."""
     end = lines + arcs + corners
-    return np.array([(0, lines, lines + arcs, end, 1)], dtype=CELL)
+    return np.array([(0, lines, lines + arcs, end)], dtype=CELL)
 
 
 def _restitution(scene: Scene) -> FloatArray | None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.impact import precedes, slack_of
-from wallkit.kernels.jit import kernel
+from wallkit.kernels.jit import kernel, rare_kernel
 
 WELL_KNOWN = 2.0**-20
 """The rounded power of a point on the arc is used while it changes the next chord by less than this part."""
@@ -128,6 +128,10 @@ def scan_arcs_disc(
     away; a disc as large as the arc or larger meets its ends only. The contact counts if the arc lies in its
     direction (with the overlap of ``scan_disc`` at the ends); an overlap on the way in counts as t = 0.
 
+    A disc that rolls along a wall comes to a hollow arc on its tangent. Rounding may have it miss the circle of R - r,
+    or touch it just before the arc begins, and then it is on the way out where it comes beside the arc: that counts
+    as a contact too, if it is out there by no more than rounding.
+
     Returns:
         (time, feature).
     """
@@ -158,9 +162,11 @@ def scan_arcs_disc(
                 if t >= 0.0 and not holds(arc, ex + t * vx, ey + t * vy, slack):
                     t = -1.0
         if t < 0.0 and from_inside:
-            t = _time_to_inside(arc, radius, power, along, cross, speed, energy, ids[k] == last)
+            off = hidden_by_rounding(slack, arc.radius)
+            t = _time_to_inside(arc, radius, power, along, cross, speed, energy, off, ids[k] == last)
             if t >= 0.0 and not holds(arc, ex + t * vx, ey + t * vy, slack):
-                t = -1.0
+                near = holds(arc, ex + t * vx, ey + t * vy, aside_of(slack, arc.radius))
+                t = _time_beside(arc, radius, t, ex, ey, vx, vy, off) if near else -1.0
         if t >= 0.0 and (t < best or (t == best and precedes(ids[k], feature))):
             best = t
             feature = ids[k]
@@ -179,8 +185,23 @@ def _time_to_outside(arc, radius, power, along, cross, speed, energy):
 
 
 @kernel
-def _time_to_inside(arc, radius, power, along, cross, speed, energy, again):
-    """Time at which the centre goes away through R - r from the arc's centre; -1 if never."""
+def hidden_by_rounding(slack, radius):
+    """How far from the centre of an arc a disc may be off that touches it."""
+    return slack + radius * 2.0**-48
+
+
+@kernel
+def aside_of(slack, radius):
+    """How far from the end of an arc a disc may go out through R - r to come beside it no farther out than that.
+
+    Such a way out rises by w^2 / 2 R on a way w at least: w^2 <= 2 R off, and off <= slack + R 2^-48.
+    """
+    return slack * 2.0**19 + radius * 2.0**-17
+
+
+@kernel
+def _time_to_inside(arc, radius, power, along, cross, speed, energy, off, again):
+    """Time at which the centre goes away through R - r from the arc's centre, or by it; -1 if never."""
     reach = arc.radius - radius
     if reach <= 0.0:
         return -1.0
@@ -188,10 +209,23 @@ def _time_to_inside(arc, radius, power, along, cross, speed, energy, again):
     if c >= 0.0 and along > 0.0:
         return 0.0 if power < 0.0 else -1.0
     if again and energy * abs(c) > WELL_KNOWN * along * along:
-        return -2.0 * along / energy
-    if reach * speed < cross:
+        return -2.0 * along / energy if along < 0.0 else 0.0
+    if (reach + off) * speed < cross:
         return -1.0
-    root = math.sqrt((reach * speed - cross) * (reach * speed + cross))
+    square = (reach * speed - cross) * (reach * speed + cross)
+    if square <= 0.0:  # it passes by, the nearest place may lie behind
+        return -along / energy if along < 0.0 else 0.0
+    root = math.sqrt(square)
     if along <= 0.0:
         return (root - along) / energy
     return -c / (along + root)
+
+
+@rare_kernel
+def _time_beside(arc, radius, t, ex, ey, vx, vy, off):
+    """Time after t at which the centre comes beside the end of the arc, if it is at R - r there; else -1."""
+    fx, fy = to_end(arc)
+    gx, gy = (arc.sx, arc.sy) if ex * vy - ey * vx > 0.0 else (fx, fy)
+    later = (ex * gy - ey * gx) / (gx * vy - gy * vx) if gx * vy != gy * vx else -1.0
+    out = (gx * (ex + later * vx) + gy * (ey + later * vy)) / arc.radius - (arc.radius - radius)
+    return later if later > t and abs(out) <= off else -1.0

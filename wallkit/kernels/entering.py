@@ -9,10 +9,11 @@ the order in which they are given.
 from __future__ import annotations
 
 import math
+from typing import Any, NamedTuple
 
 from wallkit.kernels.arcs import is_wide, to_end
 from wallkit.kernels.jit import kernel, rare_kernel
-from wallkit.kernels.model import HALF, WIDEST
+from wallkit.kernels.model import WAYS
 
 BOW = 1.0 / 8.0
 """Chords miss their arc by at most this part of a cell, and what they miss it by widens them."""
@@ -23,12 +24,26 @@ MOST_CHORDS = 1024
 OF_LINES, OF_ARCS, OF_CORNERS = 1, 2, 4
 """Where in a cell's numbers the entries of a kind are counted. When all are written each of them has come to the end of
 its kind, which is where the next one begins: ``arcs``, ``corners``, and ``first`` of the next cell."""
+ALL_WAYS = (1 << WAYS) - 1
+ASIDE = 2.0**-10
+"""Cosine by which a flight must go away from what it is not to meet: far above what rounding may turn."""
 LATEST = 3
-"""Where in a cell's numbers the latest entry stands, so that none is entered twice; later its ``link``."""
+"""Where in a cell's numbers the latest entry stands, so that none is entered twice; later the ``moves_to_next``."""
+
+
+class Table(NamedTuple):
+    """What is written of cells."""
+
+    numbers: Any
+    """Four a cell, and four more at the end."""
+    ways: Any
+    """The bits of the ways in which a flight may meet something that a cell lists; empty where nobody asks."""
+    ids: Any
+    """What the cells list; empty as long as it is only counted."""
 
 
 @kernel
-def enter(blocks, source, lines, arcs, corners, fans, distance, numbers, ids, entered):
+def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
     """Enter edges and corners into the cells of blocks; with no ``ids`` they are only counted.
 
     Blocks speak of ids of ``source``; lines, arcs, their numbers and corners are those of ``Model``, and ``fans`` has
@@ -42,47 +57,57 @@ def enter(blocks, source, lines, arcs, corners, fans, distance, numbers, ids, en
             if count > block.most:
                 break
             if k < block.arcs:
-                count += _enter_line(block, lines[source[k]], distance, k, source[k], numbers, ids)
+                count += _enter_line(block, lines[source[k]], distance, k, source[k], table)
             elif k >= block.corners:
                 corner, fan = corners[source[k]], fans[source[k]]
-                count += _arc(block, corner.x, corner.y, distance, fan.ux, fan.uy, fan.wx, fan.wy, fan.wide,
-                              OF_CORNERS, k, source[k], numbers, ids)  # fmt: skip
+                if fan.both > 0.0:
+                    count += _arc(block, corner.x, corner.y, distance, -fan.ux, -fan.uy, -fan.wx, -fan.wy, fan.wide,
+                                  1.0, OF_CORNERS, k, source[k], table)  # fmt: skip
+                count += _arc(block, corner.x, corner.y, distance, fan.ux, fan.uy, fan.wx, fan.wy, fan.wide, 1.0,
+                              OF_CORNERS, k, source[k], table)  # fmt: skip
             elif arcs is not None:
-                count += _enter_arc(block, arcs[source[k]], distance, k, source[k], numbers, ids)
+                count += _enter_arc(block, arcs[source[k]], distance, k, source[k], table)
         entered[b] = count
 
 
 @kernel
-def _enter_line(block, line, distance, item, entry, numbers, ids):
+def _enter_line(block, line, distance, item, entry, table):
     """Enter the lines at a distance beside an edge; the functions below give how many cells were new to it."""
-    sx, sy = distance * line.nx, distance * line.ny
+    nx, ny = line.nx, line.ny
+    sx, sy = distance * nx, distance * ny
+    ways = ALL_WAYS
+    if len(table.ways) > 0:
+        ways = ways_against(nx, ny, nx, ny)
     count = _line(block, line.ax + sx, line.ay + sy, line.bx + sx, line.by + sy, block.reach,
-                  OF_LINES, item, entry, numbers, ids)  # fmt: skip
+                  OF_LINES, item, entry, ways, table)  # fmt: skip
     if distance > 0.0:
+        if len(table.ways) > 0:
+            ways = ways_against(-nx, -ny, -nx, -ny)
         count += _line(block, line.ax - sx, line.ay - sy, line.bx - sx, line.by - sy, block.reach,
-                       OF_LINES, item, entry, numbers, ids)  # fmt: skip
+                       OF_LINES, item, entry, ways, table)  # fmt: skip
     return count
 
 
 @kernel
-def _enter_arc(block, arc, distance, item, entry, numbers, ids):
+def _enter_arc(block, arc, distance, item, entry, table):
     """Enter the arcs at a distance outside and inside an arc."""
     x, y, per = arc.ax - arc.sx, arc.ay - arc.sy, 1.0 / arc.radius
     fx, fy = to_end(arc)
     ux, uy, wx, wy = arc.sx * per, arc.sy * per, fx * per, fy * per
     wide = 1.0 if is_wide(arc.sweep) else 0.0
-    count = _arc(block, x, y, arc.radius + distance, ux, uy, wx, wy, wide, OF_ARCS, item, entry, numbers, ids)
+    count = _arc(block, x, y, arc.radius + distance, ux, uy, wx, wy, wide, 1.0, OF_ARCS, item, entry, table)
     if distance > 0.0:
-        count += _arc(block, x, y, arc.radius - distance, ux, uy, wx, wy, wide, OF_ARCS, item, entry, numbers, ids)
+        count += _arc(block, x, y, arc.radius - distance, ux, uy, wx, wy, wide, -1.0, OF_ARCS, item, entry, table)
     return count
 
 
 @rare_kernel
-def _arc(block, x, y, radius, ux, uy, wx, wy, wide, kind, item, entry, numbers, ids):
+def _arc(block, x, y, radius, ux, uy, wx, wy, wide, facing, kind, item, entry, table):
     """Enter an arc about (x, y), from the direction u counter-clockwise to w: its box, or parts below 120 degrees."""
     small = abs(radius) <= SMALL * block.side
+    facing = facing if radius > SMALL * block.side + block.reach else 0.0
     if wide == 0.0 and not small and ux * wx + uy * wy > -0.5:
-        return _chords(block, x, y, radius, ux, uy, wx, wy, kind, item, entry, numbers, ids)
+        return _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, table)
     mx, my = _half_way(ux, uy, wx, wy, wide)
     if small:
         edge = mx * ux + my * uy  # directions as near to the middle are in the arc
@@ -91,16 +116,37 @@ def _arc(block, x, y, radius, ux, uy, wx, wy, wide, kind, item, entry, numbers, 
         if radius < 0.0:
             left, right, low, high = right, left, high, low
         return _box(block, x + radius * left, x + radius * right, y + radius * low, y + radius * high,
-                    kind, item, entry, numbers, ids)  # fmt: skip
+                    kind, item, entry, ALL_WAYS, table)  # fmt: skip
     if wide == 0.0:
-        count = _chords(block, x, y, radius, ux, uy, mx, my, kind, item, entry, numbers, ids)
-        return count + _chords(block, x, y, radius, mx, my, wx, wy, kind, item, entry, numbers, ids)
+        count = _chords(block, x, y, radius, ux, uy, mx, my, facing, kind, item, entry, table)
+        return count + _chords(block, x, y, radius, mx, my, wx, wy, facing, kind, item, entry, table)
     hx, hy = _half_way(ux, uy, mx, my, 0.0)
-    count = _chords(block, x, y, radius, ux, uy, hx, hy, kind, item, entry, numbers, ids)
-    count += _chords(block, x, y, radius, hx, hy, mx, my, kind, item, entry, numbers, ids)
+    count = _chords(block, x, y, radius, ux, uy, hx, hy, facing, kind, item, entry, table)
+    count += _chords(block, x, y, radius, hx, hy, mx, my, facing, kind, item, entry, table)
     hx, hy = _half_way(mx, my, wx, wy, 0.0)
-    count += _chords(block, x, y, radius, mx, my, hx, hy, kind, item, entry, numbers, ids)
-    return count + _chords(block, x, y, radius, hx, hy, wx, wy, kind, item, entry, numbers, ids)
+    count += _chords(block, x, y, radius, mx, my, hx, hy, facing, kind, item, entry, table)
+    return count + _chords(block, x, y, radius, hx, hy, wx, wy, facing, kind, item, entry, table)
+
+
+@kernel
+def ways_against(ux, uy, wx, wy):
+    """Give the bits of the ways (see ``grid.way_of``) in which a flight may go against a direction between u and w.
+
+    Not so where both lie along both ends of the way, by more than rounding: so do all between, along all of the way.
+    """
+    low_x, high_x, low_y, high_y = min(ux, wx), max(ux, wx), min(uy, wy), max(uy, wy)
+    low_sum, high_sum = min(ux + uy, wx + wy), max(ux + uy, wx + wy)
+    low_rest, high_rest = min(ux - uy, wx - wy), max(ux - uy, wx - wy)
+    right, left, up, down = low_x >= ASIDE, high_x <= -ASIDE, low_y >= ASIDE, high_y <= -ASIDE
+    right_up, left_down = low_sum >= ASIDE, high_sum <= -ASIDE
+    right_down, left_up = low_rest >= ASIDE, high_rest <= -ASIDE
+    along = (
+        int(right & right_up) + (int(left & left_up) << 1)
+        + (int(right & right_down) << 2) + (int(left & left_down) << 3)
+        + (int(up & right_up) << 4) + (int(up & left_up) << 5)
+        + (int(down & right_down) << 6) + (int(down & left_down) << 7)
+    )  # fmt: skip
+    return ALL_WAYS - along
 
 
 @kernel
@@ -117,7 +163,7 @@ def _half_way(ux, uy, wx, wy, wide):
 
 
 @rare_kernel
-def _chords(block, x, y, radius, ux, uy, wx, wy, kind, item, entry, numbers, ids):
+def _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, table):
     """Enter an arc of less than 120 degrees in chords: halved until they bow little enough, then turned on and on.
 
     Cosines and sines of halves need square roots alone, which are the same everywhere. Turning on gathers up to two
@@ -133,17 +179,19 @@ def _chords(block, x, y, radius, ux, uy, wx, wy, kind, item, entry, numbers, ids
         half = math.sqrt(0.5 + 0.5 * cosine)
         bow = size * (0.5 - 0.5 * cosine) / (1.0 + half)
     reach = block.reach + bow + size * (count + 1) * 2.0**-51
-    ax, ay, entries = x + radius * ux, y + radius * uy, 0
+    ax, ay, entries, ways = x + radius * ux, y + radius * uy, 0, ALL_WAYS
     for _chord in range(count):
-        ux, uy = ux * cosine - uy * sine, ux * sine + uy * cosine
-        bx, by = x + radius * ux, y + radius * uy
-        entries += _line(block, ax, ay, bx, by, reach, kind, item, entry, numbers, ids)
-        ax, ay = bx, by
+        wx, wy = ux * cosine - uy * sine, ux * sine + uy * cosine
+        bx, by = x + radius * wx, y + radius * wy
+        if len(table.ways) > 0 and facing != 0.0:
+            ways = ways_against(facing * ux, facing * uy, facing * wx, facing * wy)
+        entries += _line(block, ax, ay, bx, by, reach, kind, item, entry, ways, table)
+        ax, ay, ux, uy = bx, by, wx, wy
     return entries
 
 
 @rare_kernel
-def _box(block, left, right, low, high, kind, item, entry, numbers, ids):
+def _box(block, left, right, low, high, kind, item, entry, ways, table):
     """Enter a box, and what is within reach of it."""
     per_side, reach = block.per_side, block.reach
     left, right = (left - reach - block.x0) * per_side, (right + reach - block.x0) * per_side
@@ -152,12 +200,12 @@ def _box(block, left, right, low, high, kind, item, entry, numbers, ids):
         return 0
     count = 0
     for column in range(int(max(left, 0.0)), int(min(right, block.columns - 0.5)) + 1):
-        count += _rows(block, column, low, high, kind, item, entry, numbers, ids)
+        count += _rows(block, column, low, high, kind, item, entry, ways, table)
     return count
 
 
 @rare_kernel
-def _line(block, ax, ay, bx, by, reach, kind, item, entry, numbers, ids):
+def _line(block, ax, ay, bx, by, reach, kind, item, entry, ways, table):
     """Enter a line, and all within reach of it along x and y: column by column, the rows that it covers there."""
     per_side = block.per_side
     ax, ay, bx, by, reach = (
@@ -171,29 +219,31 @@ def _line(block, ax, ay, bx, by, reach, kind, item, entry, numbers, ids):
     if first == last or ax == bx:
         bottom, top, count = low - reach, high + reach, 0
         for column in range(first, last + 1):
-            count += _rows(block, column, bottom, top, kind, item, entry, numbers, ids)
+            count += _rows(block, column, bottom, top, kind, item, entry, ways, table)
         return count
     slope, count = (by - ay) / (bx - ax), 0
     for column in range(first, last + 1):
         here, there = ay + (column - reach - ax) * slope, ay + (column + 1 + reach - ax) * slope
         bottom, top = max(low, min(here, there, high)) - reach, min(high, max(here, there, low)) + reach
         if top >= 0.0 and bottom < block.rows:
-            count += _rows(block, column, bottom, top, kind, item, entry, numbers, ids)
+            count += _rows(block, column, bottom, top, kind, item, entry, ways, table)
     return count
 
 
 @kernel
-def _rows(block, column, bottom, top, kind, item, entry, numbers, ids):
+def _rows(block, column, bottom, top, kind, item, entry, ways, table):
     """Enter what a column holds between two heights, given in cells; one of them at least is in the block."""
-    lowest, count = int(max(bottom, 0.0)), 0
+    numbers, lowest, count = table.numbers, int(max(bottom, 0.0)), 0
     at = 4 * (block.first + column + block.columns * lowest)
     for _row in range(lowest, int(min(top, block.rows - 0.5)) + 1):
         if numbers[at + LATEST] != item + 1:
             numbers[at + LATEST] = item + 1
-            if len(ids) > 0:
-                ids[numbers[at + kind]] = entry
+            if len(table.ids) > 0:
+                table.ids[numbers[at + kind]] = entry
             numbers[at + kind] += 1
             count += 1
+        if len(table.ways) > 0:
+            table.ways[at >> 2] |= ways
         at += 4 * block.columns
     return count
 
@@ -213,76 +263,13 @@ def lay_out(numbers):
 
 
 @kernel
-def clear(blocks, numbers, endless):
-    """Link each cell that lists nothing to the nearest one that does: how many king's moves it is away, at least 1.
-
-    Two passes over each block, forth and back, as for any distance of moves. What lies around a block is not known and
-    counts as listing something, unless the block is ``endless``: there is nothing beyond the whole grid.
-    """
-    for b in range(len(blocks)):
-        block = blocks[b]
-        columns, rows, outside = block.columns, block.rows, 1 << 30 if endless else 0
-        for row in range(rows):
-            for column in range(columns):
-                at = 4 * (block.first + row * columns + column)
-                moves = 0
-                if numbers[at + 4] == numbers[at]:
-                    back, below = numbers[at - 4 + LATEST] if column > 0 else outside, outside
-                    if row > 0:
-                        below = numbers[at - 4 * columns + LATEST]
-                        below = min(below, numbers[at - 4 * columns - 4 + LATEST] if column > 0 else outside)
-                        below = min(below, numbers[at - 4 * columns + 4 + LATEST] if column < columns - 1 else outside)
-                    moves = min(back, below) + 1
-                numbers[at + LATEST] = moves
-        for row in range(rows - 1, -1, -1):
-            for column in range(columns - 1, -1, -1):
-                at = 4 * (block.first + row * columns + column)
-                moves = numbers[at + LATEST]
-                if moves > 1:
-                    ahead, above = numbers[at + 4 + LATEST] if column < columns - 1 else outside, outside
-                    if row < rows - 1:
-                        above = numbers[at + 4 * columns + LATEST]
-                        above = min(above, numbers[at + 4 * columns - 4 + LATEST] if column > 0 else outside)
-                        above = min(above, numbers[at + 4 * columns + 4 + LATEST] if column < columns - 1 else outside)
-                    moves = min(moves, min(ahead, above) + 1)
-                numbers[at + LATEST] = moves
-
-
-@kernel
-def clear_ahead(numbers, columns, rows, above, clearings):
-    """Find a large empty rectangle that begins with each cell, each way; see ``Model.clearings``.
-
-    It is the one of the cell beside and this cell, or that of the cell above and this cell, cut to what is free above
-    or beside: the one with the larger w h / (w + h), since a ball leaves it by the shorter side, mostly. There is
-    nothing beyond the border, and WIDEST is all that half of a number holds.
-
-    Args:
-        numbers: of the cells, see above.
-        columns: of the grid.
-        rows: of the grid.
-        above: a number for each column, to work with.
-        clearings: written.
-    """
-    for way in range(4):
-        step, rise = 1 - 2 * (way & 1), 1 - (way & 2)
-        for j in range(rows):
-            row = rows - 1 - j if rise > 0 else j
-            beside, wide, high = WIDEST, WIDEST, WIDEST
-            for i in range(columns):
-                column = columns - 1 - i if step > 0 else i
-                cell = row * columns + column
-                at = 4 * cell + way
-                if numbers[4 * cell + 4] != numbers[4 * cell]:
-                    beside, wide, high, above[column], clearings[at] = 0, 0, WIDEST, 0, 0
-                    continue
-                up, broad, tall = WIDEST, WIDEST, WIDEST
-                if j > 0:
-                    up, broad = min(int(above[column]) + 1, WIDEST), int(clearings[at + 4 * rise * columns])
-                    tall = min((broad >> HALF) + 1, WIDEST)
-                    broad = broad & WIDEST if tall > 1 else WIDEST
-                above[column] = up
-                beside = min(beside + 1, WIDEST)
-                wide, high, broad = min(wide + 1, WIDEST), min(high, up), min(broad, beside)
-                if wide * high * (broad + tall) < broad * tall * (wide + high):
-                    wide, high = broad, tall
-                clearings[at] = wide + (high << HALF)
+def describe(numbers, before, farthest, cells):
+    """Write of cells what ``Cell`` has, flat; so many ids come before theirs, and ``farthest`` is the most moves."""
+    for at in range(0, len(cells), 4):
+        first, arcs, corners, end = numbers[at], numbers[at + OF_LINES], numbers[at + OF_ARCS], numbers[at + OF_CORNERS]
+        if first == end:
+            moves = min(max(numbers[at + LATEST], 1), farthest)
+            cells[at], cells[at + 1], cells[at + 2], cells[at + 3] = moves, moves, moves, moves
+        else:
+            cells[at], cells[at + 1] = first + before, arcs + before
+            cells[at + 2], cells[at + 3] = corners + before, end + before

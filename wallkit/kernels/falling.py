@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.arcs import holds
-from wallkit.kernels.grid import around, leaf, place
+from wallkit.kernels.grid import around, leaf, moves_to_next, place
 from wallkit.kernels.impact import behind, precedes, slack_of
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
@@ -226,9 +226,9 @@ def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolera
         )  # fmt: skip
         if now == 0.0:
             touched += more
-        link = int(model.cells[c].link)
-        left, right = around(link, shift, column, columns)
-        low, high = around(link, shift, row, rows)
+        moves = moves_to_next(model.cells[c])
+        left, right = around(moves, shift, column, columns)
+        low, high = around(moves, shift, row, rows)
         next_column, time_x = _leaving(grid.x0, grid.unit, left, right, columns, x, vx, gx, now)
         next_row, time_y = _leaving(grid.y0, grid.unit, low, high, rows, y, vy, gy, now)
         passed = min(time_x, time_y)

@@ -7,7 +7,7 @@ import math
 from wallkit.kernels.arcs import scan_arcs_disc, scan_arcs_point
 from wallkit.kernels.impact import scan_corners, scan_disc, scan_point
 from wallkit.kernels.jit import kernel
-from wallkit.kernels.model import CLEARINGS, FIRST_CLEARING, HALF, WIDEST
+from wallkit.kernels.model import FIRST_CLEARING, HALF, PACKED, WIDEST
 
 SLOWEST = 2.0**-900
 """Units per second; a flight that went on at it would not pass a unit."""
@@ -87,42 +87,75 @@ def inside(grid, column, row):
 def leaf(cells, grid, column, row):
     """Find the undivided cell at a place in units: (its number, its side in units as a power of two)."""
     shift = grid.shift
-    c = (row >> shift) * grid.columns + (column >> shift)
-    while cells[c].link <= 0:
+    c = top_at(grid, column, row) << grid.packed
+    while is_divided(cells[c]):
         bits = int(cells[c].arcs)
         last = (1 << bits) - 1
         shift -= bits
-        c = -int(cells[c].link) + ((((row >> shift) & last) << bits) | ((column >> shift) & last))
+        part = (((row >> shift) & last) << bits) | ((column >> shift) & last)
+        c = int(cells[c].first) + (part << grid.packed)
     return c, shift
 
 
 @kernel
+def is_divided(cell):
+    """Tell whether smaller cells stand for a cell."""
+    return cell.end < cell.first
+
+
+@kernel
+def moves_to_next(cell):
+    """How many king's moves it is from an undivided cell to the nearest that may list something; 1 if this one does."""
+    return int(cell.first) if cell.first == cell.end else 1
+
+
+@kernel
 def way_of(per_u, per_w):
-    """Which of a cell's four clearings lies the way of a flight, see ``Model.clearings``."""
-    return int(per_u <= 0.0) + 2 * int(per_w <= 0.0)
+    """Which eighth of a full turn a flight goes: 1 to the left, 2 down, 4 more up or down than sideways."""
+    return int(per_u <= 0.0) + 2 * int(per_w <= 0.0) + 4 * int(abs(per_w) < abs(per_u))
 
 
 @kernel
 def clearing(clearings, grid, way, column, row):
     """Width and height of the clearing ahead of a place in units, in cells that are not part of another; 0 for none."""
-    size = int(clearings[clearing_at(grid, way, column, row)])
+    size = int(clearings[clearing_at(grid, clearings_of(grid, way), top_at(grid, column, row))])
     return size & WIDEST, size >> HALF
 
 
 @kernel
-def clearing_at(grid, way, column, row):
-    """Where in ``Model.clearings`` that is."""
-    return CLEARINGS * ((row >> grid.shift) * grid.columns + (column >> grid.shift)) + FIRST_CLEARING + way
+def top_at(grid, column, row):
+    """Number of the cell, not part of another one, at a place in units."""
+    return (row >> grid.shift) * grid.columns + (column >> grid.shift)
 
 
 @kernel
-def around(link, shift, number, count):
+def clearings_of(grid, way):
+    """Where in ``Model.clearings`` those for a way begin."""
+    way &= grid.ways - 1
+    return FIRST_CLEARING + way if grid.packed > 0 else way * grid.columns * grid.rows
+
+
+@kernel
+def clearing_at(grid, first, top):
+    """Where in ``Model.clearings`` that of a cell is, with those for its way from the first on."""
+    return first + (top << (PACKED * grid.packed))
+
+
+@kernel
+def departures_of(grid, way):
+    """Where in ``Model.clearings`` the departures for a way begin, one for each cell."""
+    return (grid.ways + way) * grid.columns * grid.rows
+
+
+@kernel
+def around(moves, shift, number, count):
     """Where the empty square around a cell, or the cell itself, begins and ends along one axis, in units.
 
-    ``number`` is a column or row in the cell, ``count`` how many units there are.
+    The nearest cell that may list something is so many ``moves`` away; ``number`` is a column or row in the cell,
+    ``count`` how many units there are.
     """
-    first = ((number >> shift) - link + 1) << shift
-    end = ((number >> shift) + link) << shift
+    first = ((number >> shift) - moves + 1) << shift
+    end = ((number >> shift) + moves) << shift
     return max(first, 0), min(end, count)
 
 
@@ -176,7 +209,7 @@ def _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, fea
         wide, high = clearing(model.clearings, grid, way, column, row)
         if wide == 0:
             c, shift = leaf(model.cells, grid, column, row)
-            wide = high = int(model.cells[c].link)
+            wide = high = moves_to_next(model.cells[c])
             best, feature, more = scan(
                 model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature,
             )  # fmt: skip

@@ -78,26 +78,30 @@ class Corner(NamedTuple):
 class Cell(NamedTuple):
     """A cell of the index, and what is listed in it: ids from ``first`` to before ``end``.
 
-    Lines come first, then arcs (from ``arcs`` on), then corners (from ``corners`` on). ``link`` above 0: nothing at
-    all is listed in cells nearer than that many, counted as a king moves (1 where something is listed here). Else the
-    cell is divided into 2^arcs by 2^arcs smaller ones, row by row from the cell -link on, and lists nothing itself.
+    Lines come first, then arcs (from ``arcs`` on), then corners (from ``corners`` on). Where nothing is listed all
+    four are one number: so many king's moves away, at least 1, is the nearest cell that may list something. Where
+    ``end`` is before ``first`` the cell is divided into 2^arcs by 2^arcs smaller ones, row by row from the cell
+    ``first`` on, and lists nothing itself.
     """
 
     first: int
     arcs: int
     corners: int
     end: int
-    link: int
 
 
 class Fan(NamedTuple):
-    """The directions in which a disc can touch a vertex: from u counter-clockwise to w; ``wide`` is 1 for all."""
+    """The directions in which a disc can touch a vertex: from u counter-clockwise to w; ``wide`` is 1 for all.
+
+    ``both`` is 1 where it may, by rounding, touch it in the opposite directions too.
+    """
 
     ux: float
     uy: float
     wx: float
     wy: float
     wide: float
+    both: float
 
 
 class Block(NamedTuple):
@@ -127,19 +131,15 @@ class Block(NamedTuple):
 LINE = np.dtype([(name, np.float64) for name in Line._fields])
 ARC = np.dtype([(name, np.float64) for name in Arc._fields])
 CORNER = np.dtype([(name, np.float64) for name in Corner._fields])
-CLEARINGS, FIRST_CLEARING = 16, 10
-"""A cell takes the room of sixteen numbers of ``Model.clearings``. Its four are from the tenth on: memory is asked once
-for them and the rest."""
+WAYS = 8
+"""Eighths of a full turn, in one of which a flight goes, see ``grid.way_of``."""
+FIRST_CLEARING, PACKED = 8, 4
+"""Where packed clearings begin after their cell, and bits of the room that both take, in numbers of 16 bits."""
+QUARTERS = 4
+"""For points, which meet a line from both its sides, they are no better than quarters."""
 HALF, WIDEST = 7, 127
 """Bits of a clearing's width and of its height, in cells, and what they hold."""
-CELL = np.dtype(
-    {
-        "names": Cell._fields,
-        "formats": [np.uint32, np.uint32, np.uint32, np.uint32, np.int32],
-        "offsets": [0, 4, 8, 12, 16],
-        "itemsize": 2 * CLEARINGS,
-    }
-)
+CELL = np.dtype([(name, np.uint32) for name in Cell._fields])
 FAN = np.dtype([(name, np.float64) for name in Fan._fields])
 BLOCK = np.dtype([(name, np.float64 if place < 5 else np.int64) for place, name in enumerate(Block._fields)])
 _RECORDS: dict[Any, Any] = {LINE: Line, ARC: Arc, CORNER: Corner, CELL: Cell, FAN: Fan, BLOCK: Block}
@@ -174,6 +174,13 @@ class Grid(NamedTuple):
     columns: int
     rows: int
     """Of cells that are not part of another one."""
+    ways: int
+    """For which such a cell has clearings: WAYS or QUARTERS."""
+    departs: int
+    """1 if there are departures, else 0."""
+    packed: int
+    """1 if a record with the clearings of a cell comes after its own, so that memory is asked once for both; 0 if
+    clearings lie by way, so that more of them stay in the cache."""
 
 
 class Model(NamedTuple):
@@ -186,9 +193,10 @@ class Model(NamedTuple):
     grid: Any
     """``Grid``, or None."""
     clearings: Any
-    """In the memory of ``cells``, at ``grid.clearing_at``: by cell that is not part of another, and by way (right and
-    up, left and up, right and down, left and down), a large rectangle of cells that begins with it, goes that way, and
-    lists nothing. It is width + 2^HALF * height, in cells; 0 where the cell lists something."""
+    """At ``grid.clearing_at``: by way of flight and by cell that is not part of another, a large rectangle of cells
+    that begins with it, goes that way, and lists nothing that a flight of that way may meet. It is width +
+    2^HALF * height, in cells; 0 where the cell lists something to be met. At ``grid.departures_of`` the like for points
+    that leave a wall: what they leave may be listed too. Packed clearings are in the memory of ``cells``."""
     lines: Any
     """``Line`` by edge; the chord of an arc."""
     arcs: Any

@@ -10,7 +10,15 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.arcs import WELL_KNOWN, is_wide, scan_arcs_disc, scan_arcs_point, spans
+from wallkit.kernels.arcs import (
+    WELL_KNOWN,
+    aside_of,
+    hidden_by_rounding,
+    is_wide,
+    scan_arcs_disc,
+    scan_arcs_point,
+    spans,
+)
 from wallkit.kernels.impact import slack_of
 from wallkit.kernels.instructions import fetch, lowest
 from wallkit.kernels.jit import kernel, rare_kernel
@@ -267,7 +275,7 @@ def _meet_arcs_disc(s, q, disc):
     In three short passes, so that the processor works on several vectors at once while roots and quotients take long.
 
     Returns:
-        The bits of the balls that are to ask again, alone, from both sides.
+        The bits of the balls that are to ask again, alone: from both sides, or as they are near the end of an arc.
     """
     _take_sides(s, q, disc)
     _find_times(s, disc)
@@ -292,20 +300,24 @@ def _take_sides(s, q, disc):
         along = ex * vx + ey * vy
         cross = abs(ex * vy - ey * vx)
         inner = radius - disc
+        off = hidden_by_rounding(slack_of(s[TOLERANCE + i], disc), radius)
         s_along, f_along = sx * vx + sy * vy, fx * vx + fy * vy
         doubt = s[DOUBT + i]
         narrow = (2.0 * disc < radius) & (not wide)
         ahead = narrow & (s_along > doubt) & (f_along > doubt)
         behind = narrow & (s_along < -doubt) & (f_along < -doubt)
         outside = (power >= 0.0) & (not ahead)
-        enters = (inner > 0.0) & ((inner * speed >= cross) | (s[LAST + i] == s[ID + i])) & (not behind)
+        farthest = inner + off
+        enters = (inner > 0.0) & ((farthest * speed >= cross) | (s[LAST + i] == s[ID + i])) & (not behind)
         reach = radius + disc if outside else inner
+        farthest = reach if outside else farthest
         square = (reach * speed - cross) * (reach * speed + cross)
         asked = (q[NEXT + i] >= q[ARCS + i]) & (q[NEXT + i] < q[CORNERS + i]) & ((power < 0.0) | (along < 0.0))
         side = (EITHER if enters else OUTSIDE) if outside else (INSIDE if inner > 0.0 else NEITHER)
         s[FROM + i] = side if asked else NEITHER
         s[E0 + i], s[E1 + i], s[E2 + i], s[E3 + i] = ex, ey, fx, fy
-        s[ALONG + i], s[POWER + i], s[SQUARE + i] = along, power, square if reach * speed >= cross else -1.0
+        square = square if square > 0.0 else 0.0
+        s[ALONG + i], s[POWER + i], s[SQUARE + i] = along, power, square if farthest * speed >= cross else -1.0
 
 
 @kernel
@@ -320,10 +332,11 @@ def _find_times(s, disc):
         overlaps = (c <= 0.0) if outside else (c >= 0.0) & (along > 0.0)
         is_last = s[LAST + i] == s[ID + i]
         chord = (not outside) & is_last & (energy * abs(c) > WELL_KNOWN * along * along)
-        above, below = (root - along, energy) if along <= 0.0 else (-c, along + root)
+        above, below = (root - along, energy) if along <= 0.0 else (-c if square > 0.0 else 0.0, along + root)
         above, below = (-2.0 * along, energy) if chord else (above, below)
         above, below = (c, root - along) if outside else (above, below)
         t = above / below
+        t = t if t > 0.0 else 0.0
         known = (square >= 0.0) | (chord & (not overlaps)) | (overlaps & (not outside))
         known = known & (outside | (not overlaps) | (power < 0.0))
         t = 0.0 if overlaps else t
@@ -341,7 +354,10 @@ def _find_places(s, disc):
         wide = is_wide(s[E7 + i])
         lies_there = spans(s[E4 + i], s[E5 + i], s[E2 + i], s[E3 + i], s[E6 + i], wide, x, y, slack)
         meets = (t >= 0.0) & lies_there & (s[FROM + i] != NEITHER)
-        again |= int((s[FROM + i] == EITHER) & (not meets)) << i
+        aside = aside_of(slack, s[E6 + i])
+        beside = min(abs(s[E4 + i] * y - s[E5 + i] * x), abs(x * s[E3 + i] - y * s[E2 + i])) <= aside * s[E6 + i]
+        unclear = (s[FROM + i] == EITHER) | ((t >= 0.0) & beside)
+        again |= int((s[FROM + i] != NEITHER) & unclear & (not meets)) << i
         sooner = _edge_is_sooner(t, number, best, feature)
         s[BEST + i] = t if meets & sooner else best
         s[FEATURE + i] = number if meets & sooner else feature

@@ -25,13 +25,13 @@ INSIDE, NEITHER, OUTSIDE, EITHER, CHORD = -1.0, 0.0, 1.0, 2.0, 3.0
 then hold e and f (see ``arcs``)."""
 NONE = float(NO_HIT)
 (
-    NEXT, NEXT_CORNER, ARCS, CORNERS, END, WAY, AT, CLEARING, CROSSES, ENTERED,
-) = (LANES * number for number in range(10))  # fmt: skip
-COUNTS = 10 * LANES
+    NEXT, NEXT_CORNER, ARCS, CORNERS, END, WAY, TOP, AT, CLEARING, CROSSES, ENTERED,
+) = (LANES * number for number in range(11))  # fmt: skip
+COUNTS = 11 * LANES
 """NEXT: place in ``Model.ids`` of what a ball looks at: a line before that in ARCS, an arc before that in CORNERS,
-else nothing; discs look at a corner in the same turn, at NEXT_CORNER before END. WAY and AT: see ``grid.clearing_at``,
-what stands there is the CLEARING. Whether a ball CROSSES is 1 or 0; ENTERED holds the bits of those that have entered a
-cell."""
+else nothing; discs look at a corner in the same turn, at NEXT_CORNER before END. WAY is where the clearings of its way
+begin, TOP its cell, AT where in ``Model.clearings`` it looks; what stands there is the CLEARING. Whether a ball CROSSES
+is 1 or 0; ENTERED holds the bits of those that have entered a cell."""
 
 BALL, BOUNCES, STILL, ENDING = (LANES * number for number in range(4))
 INTEGERS = 4 * LANES

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from wallkit.kernels.grid import clearing_at, leaf
+from wallkit.kernels.grid import clearing_at, is_divided, leaf, moves_to_next, top_at
 from wallkit.kernels.instructions import AT_ONCE, look_up, lowest, prefetch
 from wallkit.kernels.jit import kernel, rare_kernel
-from wallkit.kernels.model import CLEARINGS, HALF, WIDEST
+from wallkit.kernels.model import HALF, WIDEST
 from wallkit.kernels.wave_lanes import (
     ARCS,
     AT,
@@ -29,6 +29,7 @@ from wallkit.kernels.wave_lanes import (
     PX,
     PY,
     ROW,
+    TOP,
     WAY,
     U,
     W,
@@ -77,7 +78,9 @@ def decide(s, q, grid, radius):
             goes = goes & (following >= q[END + i])
         column, row = int(0.0 if outside else x), int(0.0 if outside else y)
         s[COLUMN + i], s[ROW + i] = float(column), float(row)
-        q[AT + i] = clearing_at(grid, q[WAY + i], column, row)
+        top = top_at(grid, column, row)
+        q[TOP + i] = top << grid.packed
+        q[AT + i] = clearing_at(grid, q[WAY + i], top)
         q[CROSSES + i] = int(goes & (not turns))
         turning |= int(goes & turns) << i
     return turning
@@ -108,11 +111,10 @@ def _cross_clearings(model, s, q):
 @kernel
 def _enter(model, s, q, i):
     """Enter the cell at the column and row of a ball."""
-    top = q[AT + i] // CLEARINGS
-    if model.cells[top].link > 0:
-        _open(model.cells, q, i, top)
-    else:
+    if is_divided(model.cells[q[TOP + i]]):
         _enter_part(model, s, q, i)
+    else:
+        _open(model.cells, q, i, q[TOP + i])
 
 
 @rare_kernel
@@ -121,7 +123,7 @@ def _enter_part(model, s, q, i):
     column, row = int(s[COLUMN + i]), int(s[ROW + i])
     cell, shift = leaf(model.cells, model.grid, column, row)
     _open(model.cells, q, i, cell)
-    far = int(model.cells[cell].link) << shift
+    far = moves_to_next(model.cells[cell]) << shift
     near = (1 << shift) - far
     column, row = (column >> shift) << shift, (row >> shift) << shift
     s[BORDER_X + i] = float(column + (far if s[PER_U + i] > 0.0 else near))
@@ -167,6 +169,9 @@ def prefetch_cells(model, q):
     """Ask memory for what balls need when they cross: it comes while others turn."""
     for i in range(LANES):
         prefetch(model.clearings, q[AT + i])
+    if model.grid.packed == 0:
+        for i in range(LANES):
+            prefetch(model.cells, q[TOP + i])
 
 
 @kernel

@@ -27,7 +27,7 @@ from wallkit.kernels.flight import (
     tolerance_of,
     wall_of,
 )
-from wallkit.kernels.grid import clearing_at, in_units, per_speed, place, way_of
+from wallkit.kernels.grid import clearing_at, clearings_of, departures_of, in_units, per_speed, place, top_at, way_of
 from wallkit.kernels.impact import slack_of
 from wallkit.kernels.instructions import lowest
 from wallkit.kernels.jit import kernel, rare_kernel
@@ -85,6 +85,7 @@ from wallkit.kernels.wave_lanes import (
     STILL,
     TIME,
     TOLERANCE,
+    TOP,
     TOUCHED,
     TWICE,
     VX,
@@ -101,6 +102,8 @@ MET = 2 * LANES
 """Features met that wait to be counted: one turn adds LANES at most."""
 WAVES = 2
 """Flown in turn where there are many edges: while one flies, what the other needs comes from memory."""
+APART = 2.0**12
+"""Edges of a monotone chain part from where they are joined by more than a rounding in so many of it, see ``ASIDE``."""
 DULL = 2.0**-800
 """Of slower balls, and of ones as much faster, not all squares are numbers that rounding leaves as they are."""
 NEAR_EDGES = 1 << 15
@@ -173,7 +176,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
             i = lowest(turning)
             turning &= turning - 1
             if n[ENDING + i] == RUNNING:
-                _set_out(model, s, q, i, until)
+                _set_out(model, radius, s, q, i, until)
                 continue
             _store(radius, s, n, i, start, until, n[ENDING + i], outcome)
             flying += _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, outcome) - 1
@@ -184,7 +187,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
 
 
 @kernel
-def _set_out(model, s, q, i, until):
+def _set_out(model, radius, s, q, i, until):
     """Begin a flight: nothing met so far, in the cell where the ball is."""
     grid = model.grid
     s[BEST + i] = (until - s[TIME + i]) - s[LOST + i]
@@ -193,12 +196,26 @@ def _set_out(model, s, q, i, until):
     px, py, u, w = in_units(grid, s[X + i], s[Y + i], s[VX + i], s[VY + i])
     per_u, per_w = per_speed(u), per_speed(w)
     s[PX + i], s[PY + i], s[U + i], s[W + i], s[PER_U + i], s[PER_W + i] = px, py, u, w, per_u, per_w
-    way = way_of(per_u, per_w)
+    way = clearings_of(grid, way_of(per_u, per_w))
     column, row = place(grid, s[X + i], s[Y + i])
     s[COLUMN + i], s[ROW + i] = float(column), float(row)
     q[WAY + i] = way
-    q[AT + i] = clearing_at(grid, way, column, row)
+    top = top_at(grid, column, row)
+    q[TOP + i] = top << grid.packed
+    q[AT + i] = clearing_at(grid, way, top)
+    if radius is None:
+        if (grid.departs > 0) & (s[LAST + i] >= 0.0):
+            if _is_off_ends(model, int(s[LAST + i]), s[X + i], s[Y + i], APART * s[TOLERANCE + i]):
+                q[AT + i] = departures_of(grid, way_of(per_u, per_w)) + top
     q[CROSSES + i] = 1
+
+
+@kernel
+def _is_off_ends(model, edge, x, y, off):
+    """Tell whether a place on an edge is farther than that from both its ends."""
+    line = model.lines[edge]
+    ax, ay, bx, by = line.ax, line.ay, line.bx, line.by
+    return (abs(x - ax) + abs(y - ay) > off) & (abs(x - bx) + abs(y - by) > off)
 
 
 @kernel
@@ -300,7 +317,7 @@ def _board(model, radius, s, n, q, i, start, order, queue, stop, until, limit, o
         if energy > 0.0 and limit > 0:
             s[FLIES + i] = 1.0
             _set_energy(s, i, radius, energy)
-            _set_out(model, s, q, i, until)
+            _set_out(model, radius, s, q, i, until)
             return 1
         _store(radius, s, n, i, start, until, AT_REST if energy <= 0.0 else BOUNCE_LIMIT, outcome)
     s[FLIES + i], q[CROSSES + i] = 0.0, 0
