@@ -83,7 +83,13 @@ def no_corners() -> Corners:
 
 
 def corners_of(
-    vertices: FloatArray, lines: NDArray[Any], bulges: FloatArray, starts: IntArray, ends: IntArray, radius: float
+    vertices: FloatArray,
+    lines: NDArray[Any],
+    arcs: NDArray[Any] | None,
+    bulges: FloatArray,
+    starts: IntArray,
+    ends: IntArray,
+    radius: float,
 ) -> Corners:
     """Tell for each vertex where a disc can touch it: from one normal of its edges to the other.
 
@@ -113,19 +119,13 @@ def corners_of(
     bare = np.concatenate([starts[none], ends[none]])
     fans[bare] = 1.0, 0.0, 1.0, 0.0, 1.0, 0.0
     size = np.full(len(vertices), np.abs(vertices).max(initial=0.0))
-    for at in (ends, starts):
-        size[at] += _radii(lines, bulges)
+    if arcs is not None:
+        size[ends] += arcs["radius"]
+        size[starts] += arcs["radius"]
     fans["both"] = radius * cross * cross < NEARLY_STRAIGHT * size
     opened = (np.abs(cross) > SMOOTH) | (ux * wx + uy * wy <= 0.0)
     opened[bare] = True
     return Corners(corners, fans, opened)
-
-
-def _radii(lines: NDArray[Any], bulges: FloatArray) -> FloatArray:
-    """Give the radius of each edge that is an arc, 0 for lines."""
-    size = np.abs(bulges)
-    is_arc = size > FLAT
-    return np.divide(lines["length"] * (1.0 + size * size), 4.0 * size, out=np.zeros(len(lines)), where=is_arc)
 
 
 def _end_normals(lines: NDArray[Any], bulges: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -68,6 +69,11 @@ class _Level:
     then few of them are clear in any way."""
     divided: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     parts: NDArray[Any] = field(default_factory=lambda: np.empty(0, dtype=BLOCK))
+
+    @cached_property
+    def listing(self) -> IntArray:
+        """The cells that list something."""
+        return np.flatnonzero(np.diff(self.numbers[:, 0]))
 
     def block_of(self, cells: IntArray) -> NDArray[Any]:
         """Give the block that each cell is in."""
@@ -183,8 +189,7 @@ class _Work:
         The others are what ``Grid`` says of them. Few cells list something where walls are far apart: there flights are
         long, and departures pay.
         """
-        ways, count, cells = top.ways, WAYS, len(top.numbers) - 1
-        listing = np.flatnonzero(np.diff(top.numbers[:, 0]))
+        ways, count, cells, listing = top.ways, WAYS, len(top.numbers) - 1, top.listing
         if not len(ways):
             ways, count = np.zeros(cells, dtype=np.uint8), QUARTERS
             ways[listing] = ALL_WAYS
@@ -205,15 +210,13 @@ class _Work:
 
     def depart(self, model: Model, top: _Level, grid: Grid, clearings: Any) -> None:
         """Find the clearings of balls that leave a wall."""
-        listing = np.flatnonzero(np.diff(top.numbers[:, 0]))
-        chains, where = self._chains(model, top, listing), listing if self.machine_code else in_lists(listing)
-        self._run(clear_departures, where, chains, grid, clearings)
-
-    def _chains(self, model: Model, top: _Level, listing: IntArray) -> Any:
         along = self._room(len(model.lines), np.uint8)
         self._run(ways_along, *self._shared[:2], along)
-        chains = chains_in_cells(model, np.asarray(along, dtype=np.uint8), top.numbers, top.ids, listing)
-        return chains if self.machine_code else chains.tolist()
+        chains = chains_in_cells(model, np.asarray(along, dtype=np.uint8), top.numbers, top.ids, top.listing)
+        listing_and_chains = top.listing, chains
+        if not self.machine_code:
+            listing_and_chains = in_lists(listing_and_chains)
+        self._run(clear_departures, *listing_and_chains, grid, clearings)
 
     def _enter(self, blocks: NDArray[Any], source: NDArray[np.uint32], table: Table) -> IntArray:
         entered = self._room(len(blocks), np.int64)

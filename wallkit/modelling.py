@@ -67,7 +67,8 @@ class Modelled:
         arcs = arcs_of(lines, bulges)
         corners = no_corners()
         if radius > 0.0:
-            corners = corners_of(vertices, lines, bulges, starts, ends, float(self.radii[self.radii > 0.0].min()))
+            least = float(self.radii[self.radii > 0.0].min())
+            corners = corners_of(vertices, lines, arcs, bulges, starts, ends, least)
         is_arc = arcs["radius"] > 0.0 if arcs is not None else np.zeros(len(lines), dtype=np.bool_)
         is_line = (lines["length"] > 0.0) & ~is_arc
         kinds = [np.flatnonzero(which).astype(np.uint32) for which in (is_line, is_arc, corners.open)]

@@ -1,8 +1,21 @@
-"""Surveys of balls that fly together, held against the same balls flown alone."""
+"""Surveys of balls that fly together, held against the same balls flown alone, or without an index."""
 
 import numpy as np
 
 from wallkit import Balls, Scene, survey
+from wallkit.modelling import Modelled
+from wallkit.preparing import Prepared
+
+
+def flown(scene, index="grid", **limits):
+    """Totals with a fine index, as surveys make it, or with none, and what the kernels see of the scene."""
+    modelled = Modelled(scene, index=index, machine_code=True, fine=True)
+    return survey(Prepared(scene, modelled, None), **limits), modelled
+
+
+def assert_same_bits(one, other):
+    for name in ("bounces", "position", "velocity", "time", "hits", "ending"):
+        assert getattr(one, name).tobytes() == getattr(other, name).tobytes(), name
 
 
 def assert_as_alone(scene, few, **limits):

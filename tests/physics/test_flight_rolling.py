@@ -9,10 +9,10 @@ import math
 import numpy as np
 import pytest
 import shapely
+from alone import assert_same_bits, flown
 
-from wallkit import Balls, Scene, Walls, survey
+from wallkit import Balls, Scene, Walls
 from wallkit.modelling import Modelled
-from wallkit.preparing import Prepared
 
 EIGHTH = math.tan(math.pi / 8)
 OFFS = [0.0, 1e-15, -1e-15, 1e-14, -1e-14, 1e-13, 1e-12, 1e-9]
@@ -36,24 +36,13 @@ def rolling(rng, place, size, radius, span, count=60):
     return Balls(place(start), place(velocity) - place(np.zeros(2)), size * radius)
 
 
-def flown(scene, index, until, bounces):
-    """Totals with a fine index, as surveys make it, or with none."""
-    modelled = Modelled(scene, index=index, machine_code=True, fine=index == "grid")
-    return survey(Prepared(scene, modelled, None), until=until, bounces=bounces)
-
-
 def assert_all_inside(scene, region, until, bounces=2000):
     """With and without an index: (the totals of both)."""
-    both = [flown(scene, index, until, bounces) for index in ("grid", "none")]
+    both = [flown(scene, index, until=until, bounces=bounces)[0] for index in ("grid", "none")]
     for totals in both:
         away = shapely.distance(region, shapely.points(totals.position))
         assert away.max() < 1e-4 * scene.balls.radius.max()
     return both
-
-
-def assert_same_bits(one, other):
-    assert one.position.tobytes() == other.position.tobytes()
-    assert one.bounces.tobytes() == other.bounces.tobytes()
 
 
 @pytest.mark.parametrize("ends", ["halves", "quarters", "quarters with a rounded bulge"])

@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from alone import assert_same_bits, flown
 
-from wallkit import Balls, Scene, Walls, indexing, survey
+from wallkit import Balls, Scene, Walls, indexing
 from wallkit.clearance import clearances
 from wallkit.kernels.grid import clearing, departures_of, per_speed, way_of
 from wallkit.kernels.model import HALF, QUARTERS, WAYS, WIDEST
 from wallkit.modelling import Modelled
-from wallkit.preparing import Prepared
 
 LIMITS = {"until": 40.0, "bounces": 60}
 
@@ -34,11 +34,6 @@ def balls_inside(walls, radius, count=300, seed=5):
     place = place[free & ~(gap < radius + 0.5)][:count]
     turn = rng.uniform(0, math.tau, len(place))
     return Balls(place, 50.0 * np.stack([np.cos(turn), np.sin(turn)], axis=1), radius)
-
-
-def flown(scene, index="grid", **limits):
-    modelled = Modelled(scene, index=index, machine_code=True, fine=True)
-    return survey(Prepared(scene, modelled, None), **limits), modelled
 
 
 def rectangle(grid, way, place, wide, high):
@@ -104,7 +99,7 @@ def test_nothing_is_met_where_a_point_departs(bulge, holes):
 def test_the_same_bits_as_without_an_index(radius, bulge, holes):
     walls = wavy(150, bulge, holes)
     scene = Scene(walls, balls_inside(walls, radius))
-    assert_same(*(flown(scene, index, **LIMITS)[0] for index in ("grid", "none")))
+    assert_same_bits(*(flown(scene, index, **LIMITS)[0] for index in ("grid", "none")))
 
 
 @pytest.mark.parametrize("radius", [0.0, 5.0])
@@ -124,7 +119,7 @@ def test_clearings_that_lie_beside_their_cells(radius, monkeypatch):
     scene = Scene(walls, balls_inside(walls, radius))
     one, modelled = flown(scene, **LIMITS)
     assert modelled.model.grid.packed == 1
-    assert_same(one, flown(scene, "none", **LIMITS)[0])
+    assert_same_bits(one, flown(scene, "none", **LIMITS)[0])
 
 
 def test_points_that_hit_where_two_walls_join():
@@ -141,9 +136,4 @@ def test_points_that_hit_where_two_walls_join():
     scene = Scene(walls, Balls(place[going], way[going], 0.0))
     one, modelled = flown(scene, **LIMITS)
     assert modelled.model.grid.departs == 1
-    assert_same(one, flown(scene, "none", **LIMITS)[0])
-
-
-def assert_same(one, other):
-    for name in ("bounces", "position", "velocity", "time", "hits", "ending"):
-        assert getattr(one, name).tobytes() == getattr(other, name).tobytes(), name
+    assert_same_bits(one, flown(scene, "none", **LIMITS)[0])

@@ -55,8 +55,7 @@ def clear_ahead(ways, grid, above, clearings):
     """Find a large empty rectangle that begins with each cell, each way; see ``Model.clearings``.
 
     It is the one of the cell beside and this cell, or that of the cell above and this cell, cut to what is free above
-    or beside: the one with the larger w h / (w + h), since a ball leaves it by the shorter side, mostly. There is
-    nothing beyond the border, and WIDEST is all that half of a number holds.
+    or beside. There is nothing beyond the border, and WIDEST is all that half of a number holds.
 
     Args:
         ways: of the cells, see ``Table``.
@@ -86,9 +85,15 @@ def clear_ahead(ways, grid, above, clearings):
                 above[column] = up
                 beside = min(beside + 1, WIDEST)
                 wide, high, broad = min(wide + 1, WIDEST), min(high, up), min(broad, beside)
-                if wide * high * (broad + tall) < broad * tall * (wide + high):
+                if is_larger(broad, tall, wide, high):
                     wide, high = broad, tall
                 clearings[at] = wide + (high << HALF)
+
+
+@kernel
+def is_larger(wide, high, than_wide, than_high):
+    """Compare w h / (w + h) of two rectangles, since a ball leaves one by the shorter side, mostly."""
+    return wide * high * (than_wide + than_high) > than_wide * than_high * (wide + high)
 
 
 @kernel
@@ -129,7 +134,7 @@ def clear_departures(listing, chains, grid, clearings):
                 column, row = cell % columns, cell // columns
                 wide, high = _grow(chains, pair, clearings, plane, columns, rows, column, row, step, 0, 0, rise)
                 tall, broad = _grow(chains, pair, clearings, plane, columns, rows, column, row, 0, rise, step, 0)
-                if wide * high * (broad + tall) < broad * tall * (wide + high):
+                if is_larger(broad, tall, wide, high):
                     wide, high = broad, tall
                 clearings[departures_of(grid, way) + cell] = wide + (high << HALF)
 
@@ -137,7 +142,7 @@ def clear_departures(listing, chains, grid, clearings):
 @kernel
 def pair_of(way):
     """Number the four pairs of opposite ways."""
-    return ((way ^ (3 * ((way >> 1) & 1))) & 1) + ((way >> 2) << 1)
+    return ((way ^ (way >> 1)) & 1) + ((way >> 2) << 1)
 
 
 @rare_kernel
@@ -151,11 +156,11 @@ def _grow(chains, pair, clearings, plane, columns, rows, column, row, step, rise
         if size == 0:
             break
         limit = min(limit, size)
-        far, empty = k + 1, chains[pair + (row + k * rise) * columns + column + k * step] == 0
+        cell = (row + k * rise) * columns + column + k * step
+        far, empty = k + 1, chains[pair + cell] == 0
         if empty:
-            number = int(clearings[plane + (row + k * rise) * columns + column + k * step])
-            far = min(k + (number & WIDEST if step != 0 else number >> HALF), WIDEST)
-        if along * across * (far + limit) < far * limit * (along + across):
+            far = min(k + _side(clearings[plane + cell], step), WIDEST)
+        if is_larger(far, limit, along, across):
             along, across = far, limit
         if empty:
             break
@@ -170,9 +175,14 @@ def _across(chains, pair, clearings, plane, columns, rows, column, row, step, ri
             return k
         cell = row * columns + column
         if chains[pair + cell] == 0:
-            number = int(clearings[plane + cell])
-            return min(k + (number & WIDEST if step != 0 else number >> HALF), WIDEST)
+            return min(k + _side(clearings[plane + cell], step), WIDEST)
         if chains[pair + cell] != chain:
             return k
         column, row = column + step, row + rise
     return STRETCH
+
+
+@kernel
+def _side(clearing, step):
+    """How far a clearing goes along its columns, where steps go so, or else along its rows."""
+    return int(clearing) & WIDEST if step != 0 else int(clearing) >> HALF

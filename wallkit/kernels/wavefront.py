@@ -196,17 +196,17 @@ def _set_out(model, radius, s, q, i, until):
     px, py, u, w = in_units(grid, s[X + i], s[Y + i], s[VX + i], s[VY + i])
     per_u, per_w = per_speed(u), per_speed(w)
     s[PX + i], s[PY + i], s[U + i], s[W + i], s[PER_U + i], s[PER_W + i] = px, py, u, w, per_u, per_w
-    way = clearings_of(grid, way_of(per_u, per_w))
+    way = way_of(per_u, per_w)
     column, row = place(grid, s[X + i], s[Y + i])
     s[COLUMN + i], s[ROW + i] = float(column), float(row)
-    q[WAY + i] = way
+    q[WAY + i] = clearings_of(grid, way)
     top = top_at(grid, column, row)
     q[TOP + i] = top << grid.packed
-    q[AT + i] = clearing_at(grid, way, top)
+    q[AT + i] = clearing_at(grid, q[WAY + i], top)
     if radius is None:
         if (grid.departs > 0) & (s[LAST + i] >= 0.0):
             if _is_off_ends(model, int(s[LAST + i]), s[X + i], s[Y + i], APART * s[TOLERANCE + i]):
-                q[AT + i] = departures_of(grid, way_of(per_u, per_w)) + top
+                q[AT + i] = departures_of(grid, way) + top
     q[CROSSES + i] = 1
 
 
