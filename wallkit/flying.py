@@ -17,7 +17,7 @@ from wallkit.kernels.jit import compiled
 from wallkit.kernels.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start, fly_in_step
 from wallkit.kernels.model import LOG_STRIDE, STATE_SIZE, Model
 from wallkit.kernels.queue import Queue
-from wallkit.kernels.wave_lanes import COUNTS, FLOATS, INTEGERS
+from wallkit.kernels.wave_lanes import COUNTS, FLOATS, INTEGERS, LISTED, MOVER
 from wallkit.kernels.wave_lanes import LANES as WAVE
 from wallkit.kernels.wavefront import MET, WAVES, WaveScratch, fly_wave
 from wallkit.preparing import Prepared
@@ -68,9 +68,11 @@ def _fly_as_waves(ready: Prepared, until: float, limit: int, outcome: Outcome, _
 
     def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
         scratch = WaveScratch(
+            on_cache_lines(WAVES * WAVE, MOVER).reshape(WAVES, WAVE),
             on_cache_lines(WAVES * FLOATS, np.float64).reshape(WAVES, FLOATS),
             on_cache_lines(WAVES * INTEGERS, np.int64).reshape(WAVES, INTEGERS),
             on_cache_lines(WAVES * COUNTS, np.uint32).reshape(WAVES, COUNTS),
+            on_cache_lines(LISTED, np.uint32),
             np.empty(MET, dtype=np.int64),
         )
         return lambda stop: compiled(fly_wave)(

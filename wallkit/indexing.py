@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from wallkit.cache_lines import on_cache_lines
 from wallkit.kernels.clearing import clear, clear_ahead, clear_departures, ways_along
 from wallkit.kernels.entering import ALL_WAYS, Table, describe, enter, lay_out
+from wallkit.kernels.instructions import AT_ONCE
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.model import BLOCK, CELL, QUARTERS, WAYS, Block, Grid, Model, in_lists
 from wallkit.monotone_chains import chains_in_cells
@@ -114,7 +115,7 @@ def build_grid(
     top = levels[0].blocks[0]
     unit = min(float(level.blocks["side"].min()) for level in levels)
     shift = int(math.log2(top["side"] / unit))
-    ids = np.concatenate([*(level.ids for level in levels), np.zeros(1, dtype=np.uint32)])
+    ids = np.concatenate([*(level.ids for level in levels), np.zeros(AT_ONCE, dtype=np.uint32)])
     size = int(top["columns"]), int(top["rows"])
     ways, *kinds = work.ways(levels[0], fine)
     grid = Grid(float(top["x0"]), float(top["y0"]), unit, 1.0 / unit, shift, *size, *kinds)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wallkit.kernels.instructions import AT_ONCE, claim, fetch, look_up, lowest, prefetch
+from wallkit.kernels.instructions import AT_ONCE, claim, fetch, look_up, lowest, pair_up, prefetch
 from wallkit.kernels.jit import compiled, kernel
 from wallkit.kernels.model import CORNER, LINE
 
@@ -22,10 +22,16 @@ def look_up_all(table, places, found):
 
 
 @kernel
-def fetch_all(records, ids, places, columns, at_once):
-    for i in range(0, len(places), at_once):
+def fetch_all(records, ids, columns, at_once):
+    for i in range(0, len(ids), at_once):
         prefetch(records, 10**9)
-        fetch(records, ids, places, i, columns, i, len(places))
+        fetch(records, ids, i, columns, i, len(ids))
+
+
+@kernel
+def pair_all(ids, pairs):
+    for i in range(0, len(ids), AT_ONCE):
+        pair_up(ids, i, i + 7, pairs, i, len(ids) + i)
 
 
 @kernel
@@ -59,15 +65,22 @@ def test_numbers_are_looked_up(kind):
 
 
 @pytest.mark.parametrize("kind", [LINE, CORNER])
-def test_records_become_columns_and_an_id_beyond_them_gives_the_last_one(kind):
+def test_records_become_columns(kind):
     random = np.random.default_rng(2)
     size = len(kind.names)
     records = random.normal(size=(20, size)).view(kind).reshape(-1)
-    ids = random.integers(0, 25, 50).astype(np.uint32)
-    places = random.integers(0, 50, 32).astype(np.uint32)
-    rows = records[np.minimum(ids[places], 19)].view(np.float64).reshape(-1, size)
-    expected = np.concatenate([ids[places][None], rows.T]).ravel()
+    ids = random.integers(0, 20, 32).astype(np.uint32)
+    expected = np.concatenate([ids[None], records[ids].view(np.float64).reshape(-1, size).T]).ravel()
     for run, table in ((fetch_all, records.tolist()), (compiled(fetch_all), records)):
         columns = np.zeros((1 + size) * 32)
-        run(table, ids, places, columns, size)
+        run(table, ids, columns, size)
         assert columns.tobytes() == expected.tobytes()
+
+
+def test_ids_are_paired_with_who_asks():
+    ids = np.random.default_rng(3).integers(0, 2**32, 4 * AT_ONCE).astype(np.uint32)
+    asking = [7 + first for first in range(0, len(ids), AT_ONCE) for _ in range(AT_ONCE)]
+    for run in (pair_all, compiled(pair_all)):
+        pairs = np.zeros(2 * len(ids), dtype=np.uint32)
+        run(ids, pairs)
+        assert pairs.tolist() == ids.tolist() + asking

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from wallkit import Balls, Ending, Material, Scene, Walls, survey
 from wallkit.flying import WORTH_A_WAVE, suits_wave
+from wallkit.kernels.wave_lanes import PER_TURN
 from wallkit.kernels.wavefront import NEAR_EDGES
 from wallkit.preparing import prepare
 
@@ -135,6 +136,24 @@ def test_discs_that_fly_by_an_arc_and_meet_it_from_inside(sweep, radius):
     aim = middle[random.integers(0, 40, COUNT)] + random.uniform(-4.0, 4.0, (COUNT, 2))
     totals = _assert_same(Scene(walls, Balls(far, aim - far, radius)), until=40.0)
     assert totals.bounces.sum() > 10
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.2])
+@pytest.mark.parametrize("bulge", [0.0, 0.3])
+def test_cells_that_list_more_than_a_ball_asks_in_a_turn(bulge, radius):
+    random = np.random.default_rng(10)
+    middle = np.repeat(random.uniform([8, 8], [192, 142], (12, 2)), 40, axis=0)
+    turn = random.uniform(0, math.tau, len(middle))
+    ends = middle + 3.0 * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    bulges = [np.array([bulge * (k % 2), 0.0]) for k in range(len(middle))]
+    walls = Walls.from_polylines(list(np.stack([middle, ends], axis=1)), closed=[False] * len(middle), bulges=bulges)
+    position = random.uniform([1.0, 1.0], [199.0, 149.0], (COUNT, 2))
+    velocity = middle[random.integers(0, len(middle), COUNT)] - position + random.uniform(-1, 1, (COUNT, 2))
+    scene = Scene(walls, Balls(position, velocity, radius))
+    cells = prepare(scene, check=False).modelled.model.cells
+    counts = np.where(cells["end"] > cells["first"], cells["end"].astype(int) - cells["first"], 0)
+    assert counts.max() > 4 * PER_TURN
+    assert _assert_same(scene, until=30.0).bounces.sum() > 1000
 
 
 def test_flights_straight_along_the_axes():

@@ -10,7 +10,7 @@ from functools import cache
 from typing import Any
 
 AT_ONCE = 8
-"""Numbers looked up together."""
+"""Numbers looked up, or paired up, together."""
 
 
 def claim(counter: Any, count: int) -> int:
@@ -38,17 +38,23 @@ def look_up(table: Any, places: Any, first: int, found: Any, to: int) -> None:
         found[to + j] = table[places[first + j]]
 
 
-def fetch(records: Any, ids: Any, places: Any, first: int, columns: Any, to: int, step: int) -> None:
+def pair_up(ids: Any, at: int, who: int, pairs: Any, to: int, to_who: int) -> None:
+    """Write the next eight ids of a list one after the other, and as often who asks them."""
+    for k in range(AT_ONCE):
+        pairs[to + k] = ids[at + k]
+        pairs[to_who + k] = who
+
+
+def fetch(records: Any, ids: Any, first: int, columns: Any, to: int, step: int) -> None:
     """Turn some records into columns, as many at once as a record has floats (a power of two).
 
-    The record of the id at ``places[first + j]`` of ``ids`` fills place j of the columns that begin at ``to``, each
-    ``step`` behind the one before: first the id, then the numbers of the record. For an id too large for the records,
-    which is one of something else, it is the last record.
+    The record of the id ``ids[first + j]`` fills place j of the columns that begin at ``to``, each ``step`` behind the
+    one before: first the id, then the numbers of the record.
     """
     for j in range(len(records[0])):
-        number = ids[places[first + j]]
+        number = ids[first + j]
         columns[to + j] = float(number)
-        for k, value in enumerate(records[min(number, len(records) - 1)], 1):
+        for k, value in enumerate(records[number], 1):
             columns[to + k * step + j] = value
 
 
@@ -73,16 +79,23 @@ def register() -> None:
         )
     )
     turn: Any = intrinsic(
-        lambda _context, records, ids, places, first, columns, to, step: (
-            nothing(records, ids, places, number, columns, number, number),
+        lambda _context, records, ids, first, columns, to, step: (
+            nothing(records, ids, number, columns, number, number),
             _emit_fetch,
+        )
+    )
+    join: Any = intrinsic(
+        lambda _context, ids, at, who, pairs, to, to_who: (
+            nothing(ids, number, number, pairs, number, number),
+            _emit_pair_up,
         )
     )
     stand_in(claim, lambda counter, count: lambda counter, count: add(counter, count))
     stand_in(prefetch, lambda records, place: lambda records, place: ask(records, place))
     stand_in(lowest, lambda bits: lambda bits: zeros(bits))
     stand_in(look_up, lambda a, b, c, d, e: lambda a, b, c, d, e: gather(a, b, c, d, e))
-    stand_in(fetch, lambda a, b, c, d, e, f, g: lambda a, b, c, d, e, f, g: turn(a, b, c, d, e, f, g))
+    stand_in(pair_up, lambda a, b, c, d, e, f: lambda a, b, c, d, e, f: join(a, b, c, d, e, f))
+    stand_in(fetch, lambda a, b, c, d, e, f: lambda a, b, c, d, e, f: turn(a, b, c, d, e, f))
 
 
 def _place_in(context: Any, builder: Any, kind: Any, array: Any, index: Any) -> Any:
@@ -136,27 +149,38 @@ def _emit_look_up(context: Any, builder: Any, signature: Any, values: Any) -> An
     return context.get_dummy_value()
 
 
+def _emit_pair_up(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+    """One load for the ids, and two stores."""
+    from llvmlite import ir
+
+    together = ir.VectorType(ir.IntType(32), AT_ONCE)
+    (table, _at, _who, pairs, _to, _to_who), (ids, at, who, written, to, to_who) = signature.args, values
+    place = _place_in(context, builder, table, ids, at)
+    found = builder.load(builder.bitcast(place, together.as_pointer()), align=4)
+    ball = builder.insert_element(together(ir.Undefined), builder.trunc(who, together.element), together.element(0))
+    ball = builder.shuffle_vector(ball, ball, ir.Constant(together, [0] * AT_ONCE))
+    for numbers, first in ((found, to), (ball, to_who)):
+        place = _place_in(context, builder, pairs, written, first)
+        builder.store(numbers, builder.bitcast(place, together.as_pointer()), align=4)
+    return context.get_dummy_value()
+
+
 def _emit_fetch(context: Any, builder: Any, signature: Any, values: Any) -> Any:
     """One load for each record, and one store for each column."""
     from llvmlite import ir
-    from numba.np.arrayobj import make_array
 
     word, kinds = ir.IntType(32), signature.args
-    table, names, which, first, columns, to, step = values
+    table, names, first, columns, to, step = values
     size = kinds[0].dtype.size // 8
     floats = ir.VectorType(ir.DoubleType(), size)
-    last = builder.sub(make_array(kinds[0])(context, builder, table).nitems, first.type(1))
     found, rows = ir.VectorType(word, size)(ir.Undefined), []
     for j in range(size):
-        at = builder.load(_place_in(context, builder, kinds[2], which, builder.add(first, first.type(j))))
-        number = builder.load(_place_in(context, builder, kinds[1], names, at))
+        number = builder.load(_place_in(context, builder, kinds[1], names, builder.add(first, first.type(j))))
         found = builder.insert_element(found, number, word(j))
-        row = builder.zext(number, first.type)
-        row = builder.select(builder.icmp_unsigned("<", row, last), row, last)
-        row = _place_in(context, builder, kinds[0], table, row)
+        row = _place_in(context, builder, kinds[0], table, builder.zext(number, first.type))
         rows.append(builder.load(builder.bitcast(row, floats.as_pointer()), align=8))
     for k, column in enumerate([builder.uitofp(found, floats), *_transposed(builder, rows)]):
-        place = _place_in(context, builder, kinds[4], columns, builder.add(to, builder.mul(step, step.type(k))))
+        place = _place_in(context, builder, kinds[3], columns, builder.add(to, builder.mul(step, step.type(k))))
         builder.store(column, builder.bitcast(place, floats.as_pointer()), align=8)
     return context.get_dummy_value()
 

@@ -187,7 +187,7 @@ class Model(NamedTuple):
     """All that a flight needs to know of its scene."""
 
     ids: Any
-    """Edges and vertices cell by cell, unsigned; one more at the end."""
+    """Edges and vertices cell by cell, unsigned; with a grid AT_ONCE more at the end, so many are read at once."""
     cells: Any
     """``Cell``; without a grid one lists all."""
     grid: Any

@@ -9,7 +9,8 @@ from wallkit.kernels.jit import kernel
 def advance(time, lost, step):
     """Add a step to the time and keep what rounding loses (Neumaier's sum): (time, lost)."""
     total = time + step
-    rest = (time - total) + step if time >= step else (step - total) + time
+    more, less = max(time, step), min(time, step)
+    rest = (more - total) + less
     return total, lost + rest
 
 

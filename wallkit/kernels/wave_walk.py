@@ -10,6 +10,7 @@ from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import HALF, WIDEST
 from wallkit.kernels.wave_lanes import (
     ARCS,
+    ASKING,
     AT,
     BEST,
     BORDER_X,
@@ -19,17 +20,20 @@ from wallkit.kernels.wave_lanes import (
     CORNERS,
     CROSSES,
     END,
-    ENTERED,
+    FEATURE,
     FLIES,
     LANES,
     NEXT,
+    NEXT_ARC,
     NEXT_CORNER,
+    NONE,
     PER_U,
     PER_W,
     PX,
     PY,
     ROW,
     TOP,
+    TOUCHED,
     WAY,
     U,
     W,
@@ -40,17 +44,17 @@ ONE_BY_ONE = 1 + (1 << HALF)
 
 
 @kernel
-def decide(s, q, grid, radius):
-    """Find when every ball leaves its cell, and what it does next: look on, cross into the next cell, or turn.
+def decide(s, q, grid):
+    """Find when every ball leaves its cell, and what it does next: look on, cross into the next cell, turn, or end.
 
     As ``grid.ahead`` does, with the borders of the cell (or clearing) as they are. Also where the next cell is in
     ``Model.clearings``: some place within for balls that do not cross, too, for all of them look there.
 
     Returns:
-        The bits of the balls that turn.
+        The bits of the balls that turn, and of those that end their flight free.
     """
     columns, rows = float(grid.columns << grid.shift), float(grid.rows << grid.shift)
-    turning = 0
+    turning, ending, asking = 0, 0, int(q[ASKING])
     for i in range(LANES):
         px, py, u, w, per_u, per_w = s[PX + i], s[PY + i], s[U + i], s[W + i], s[PER_U + i], s[PER_W + i]
         border_x, border_y = s[BORDER_X + i], s[BORDER_Y + i]
@@ -69,21 +73,17 @@ def decide(s, q, grid, radius):
         y = there_y if sideways else (border_y if per_w > 0.0 else border_y - 1.0)
         outside = (x < 0.0) | (x >= columns) | (y < 0.0) | (y >= rows)
         turns = outside | (s[BEST + i] <= time)
-        following = q[NEXT + i] + int(q[NEXT + i] < q[CORNERS + i])
-        q[NEXT + i] = following
-        goes = (s[FLIES + i] == 1.0) & (following >= q[CORNERS + i])
-        if radius is not None:
-            following = q[NEXT_CORNER + i] + int(q[NEXT_CORNER + i] < q[END + i])
-            q[NEXT_CORNER + i] = following
-            goes = goes & (following >= q[END + i])
+        goes = (s[FLIES + i] == 1.0) & ((asking >> i) & 1 == 0)
         column, row = int(0.0 if outside else x), int(0.0 if outside else y)
         s[COLUMN + i], s[ROW + i] = float(column), float(row)
         top = top_at(grid, column, row)
         q[TOP + i] = top << grid.packed
         q[AT + i] = clearing_at(grid, q[WAY + i], top)
         q[CROSSES + i] = int(goes & (not turns))
-        turning |= int(goes & turns) << i
-    return turning
+        free = (s[FEATURE + i] == NONE) & (s[TOUCHED + i] == 0.0)
+        turning |= int(goes & turns & (not free)) << i
+        ending |= int(goes & turns & free) << i
+    return turning, ending
 
 
 @kernel
@@ -133,35 +133,22 @@ def _enter_part(model, s, q, i):
 @kernel
 def _open(cells, q, i, cell):
     """Look at what a cell lists."""
-    q[NEXT + i], q[ARCS + i], q[CORNERS + i] = cells[cell].first, cells[cell].arcs, cells[cell].corners
-    q[NEXT_CORNER + i], q[END + i] = cells[cell].corners, cells[cell].end
+    first, arcs, corners = cells[cell].first, cells[cell].arcs, cells[cell].corners
+    q[NEXT + i], q[ARCS + i], q[NEXT_ARC + i], q[CORNERS + i] = first, arcs, arcs, corners
+    q[NEXT_CORNER + i], q[END + i] = corners, cells[cell].end
 
 
 @kernel
 def cross(model, s, q, far):
     """Let balls cross into clearings and cells."""
     entering = _cross_clearings(model, s, q)
-    if far:
-        q[ENTERED] = entering
+    q[ASKING] |= entering
     while entering > 0:
         i = lowest(entering)
         entering &= entering - 1
         _enter(model, s, q, i)
         if far:
             prefetch(model.ids, q[NEXT + i])
-
-
-@kernel
-def rest(q, last):
-    """Let balls that have looked at all their cell lists look at the end of all lists: nothing is fetched for them."""
-    for i in range(LANES):
-        done = q[NEXT + i] >= q[CORNERS + i]
-        q[NEXT + i] = last if done else q[NEXT + i]
-        q[ARCS + i] = last if done else q[ARCS + i]
-        q[CORNERS + i] = last if done else q[CORNERS + i]
-        done = q[NEXT_CORNER + i] >= q[END + i]
-        q[NEXT_CORNER + i] = last if done else q[NEXT_CORNER + i]
-        q[END + i] = last if done else q[END + i]
 
 
 @kernel
@@ -177,10 +164,10 @@ def prefetch_cells(model, q):
 @kernel
 def prefetch_listed(model, radius, q):
     """Ask memory for all that the cells list which balls of another wave have entered."""
-    entered = int(q[ENTERED])
-    while entered > 0:
-        i = lowest(entered)
-        entered &= entered - 1
+    asking = int(q[ASKING])
+    while asking > 0:
+        i = lowest(asking)
+        asking &= asking - 1
         for at in range(q[NEXT + i], q[ARCS + i]):
             prefetch(model.lines, model.ids[at])
         if radius is not None:
