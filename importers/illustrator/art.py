@@ -16,7 +16,7 @@ from importers.findings import Findings, Kind
 from importers.illustrator import findings
 from importers.illustrator.state import Group, Paint, colour_of
 from importers.illustrator.text import decode
-from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, MAX_OPERATORS, limit_error
+from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, MAX_OPERATORS, good_coordinate, limit_error
 from importers.sources import Source
 
 Operands = list[Any]  # numbers as bytes or float, texts and names as Text
@@ -272,6 +272,7 @@ class Art:
             self._segments = [self._reopen]
             return True
         self.find(findings.NO_POINT, what=operator)
+        self._spoiled = self._spoiled or not (good_coordinate(x) and good_coordinate(y))
         self._segments = [("M", x, y)]
         return False
 

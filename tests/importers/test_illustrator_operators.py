@@ -269,6 +269,13 @@ def test_a_path_with_an_absurd_coordinate_is_left_out(number):
     assert [(problem.code, problem.line) for problem in drawing.problems] == [("bad-coordinate", 1)]
 
 
+@pytest.mark.parametrize("path", [b"%s 5 L", b"5 %s L", b"1 1 %s 5 v", b"1 1 5 %s v", b"1 1 5 %s y", b"1 1 2 2 %s 5 c"])
+def test_a_path_that_begins_at_an_absurd_end_is_left_out(path):
+    drawing = read_illustrator(path % b"1e999" + b" 9 9 L f\n1 1 m 2 2 L f")
+    assert [path.subpaths[0].segments[0] for path in drawing.paths] == [("M", 1, 1)]
+    assert [problem.code for problem in drawing.problems] == ["no-current-point", "bad-coordinate"]
+
+
 @pytest.mark.parametrize("number", [b"nan", b"inf", b"1_0", b"0x10", b"24,5"])
 def test_what_python_takes_for_a_number_is_none(number):
     drawing = read_illustrator(b"0 0 m 1 0 L f\n0 0 m " + number + b" 5 L f")
