@@ -75,34 +75,32 @@ def meet(model, radius, movers, s, q, pairs):
     """Let every ball ask what its cell lists, as much as a turn allows."""
     lines, arcs, corners = pair_all(model, radius, q, pairs)
     for first in range(0, lines, PAIRS):
-        count, padded = _part(lines - first)
+        padded, real = _part(lines - first)
         for i in range(0, padded, AT_ONCE):
             fetch(movers, pairs, LINE_MOVERS + first + i, s, WHO + i, PAIRS)
             fetch(model.lines, pairs, LINE_IDS + first + i, s, ID + i, PAIRS)
         if radius is None:
             met, near = _meet_lines_point(s, padded)
-            _touch(s, pairs, LINE_MOVERS + first, near & ((1 << count) - 1))
+            _touch(s, pairs, LINE_MOVERS + first, near & real)
         else:
             met = _meet_lines_disc(s, radius, padded)
-        _keep(s, pairs, LINE_MOVERS + first, met & ((1 << count) - 1))
-    if arcs > 0:
-        _meet_arcs(model, model.arcs, radius, movers, s, pairs, arcs)
+        _keep(s, pairs, LINE_MOVERS + first, met & real)
+    _meet_arcs(model, model.arcs, radius, movers, s, pairs, arcs)
     if radius is not None:
         for first in range(0, corners, PAIRS):
-            count, padded = _part(corners - first)
+            padded, real = _part(corners - first)
             for i in range(0, padded, AT_ONCE):
                 fetch(movers, pairs, CORNER_MOVERS + first + i, s, WHO + i, PAIRS)
                 for j in range(i, i + AT_ONCE, CORNER_FLOATS):
                     fetch(model.corners, pairs, CORNER_IDS + first + j, s, ID + j, PAIRS)
-            met = _meet_corners(s, radius, padded)
-            _keep(s, pairs, CORNER_MOVERS + first, met & ((1 << count) - 1))
+            _keep(s, pairs, CORNER_MOVERS + first, _meet_corners(s, radius, padded) & real)
 
 
 @kernel
 def _part(left):
-    """How many pairs to work on next, and how many with those that make them up to whole vectors."""
+    """How many pairs to work on next, with those that make them up to whole vectors; the bits of those there are."""
     count = min(left, PAIRS)
-    return count, (count + AT_ONCE - 1) // AT_ONCE * AT_ONCE
+    return (count + AT_ONCE - 1) // AT_ONCE * AT_ONCE, (1 << count) - 1
 
 
 @kernel
@@ -133,13 +131,13 @@ def _meet_arcs(model, arcs, radius, movers, s, pairs, listed):
     if arcs is None:
         return
     for first in range(0, listed, PAIRS):
-        count, padded = _part(listed - first)
+        padded, real = _part(listed - first)
         for i in range(0, padded, AT_ONCE):
             fetch(movers, pairs, ARC_MOVERS + first + i, s, WHO + i, PAIRS)
             fetch(arcs, pairs, ARC_IDS + first + i, s, ID + i, PAIRS)
         met, again = _meet_arcs_point(s, padded) if radius is None else _meet_arcs_disc(s, radius, padded)
-        _keep(s, pairs, ARC_MOVERS + first, met & ((1 << count) - 1))
-        again &= (1 << count) - 1
+        _keep(s, pairs, ARC_MOVERS + first, met & real)
+        again &= real
         while again > 0:
             j = lowest(again)
             again &= again - 1

@@ -80,5 +80,4 @@ def _take(ids, records, seldom, q, at, end, i, pairs, to):
 @kernel
 def _fill_up(ids, pairs, to_ids, to_movers, count):
     """Write as many pairs as a vector takes behind the last one: the first ball and the first of its kind."""
-    if count > 0:
-        pair_up(ids, len(ids) - AT_ONCE, 0, pairs, to_ids + count, to_movers + count)
+    pair_up(ids, len(ids) - AT_ONCE, 0, pairs, to_ids + count, to_movers + count)
