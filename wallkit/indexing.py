@@ -45,7 +45,10 @@ WORTH_EIGHTHS = 0.25
 """Part of the ways for which cells that list something must be clear, if eighths are to be told apart: half of them
 where cells are small beside discs, few where they are not. Quarters need less memory."""
 SPARSE = 0.25
-"""Part of the cells that may list something for departures to be worth making."""
+"""Part of the cells that may list something for departures to be worth making, and clearings to lie by way for long."""
+WORTH_PACKING, WORTH_PACKING_SPARSE = 2.0**17, 2.0**19
+"""Cells from which on memory is asked less often where clearings lie with their cells: earlier if many of these list
+something, for then both are read."""
 CROWDED = 16
 """A cell with more entries is divided."""
 MOST_BITS = 7
@@ -196,9 +199,10 @@ class _Work:
             ways[listing] = ALL_WAYS
         elif np.unpackbits(ways[listing, None], axis=1).mean() > 1.0 - WORTH_EIGHTHS:
             ways, count = ways | (ways >> np.uint8(4)), QUARTERS
-        packed = int(self.machine_code and cells > 2.0 * MOST_CELLS)
-        departs = int(fine and not packed and self.distance == 0.0 and len(listing) < SPARSE * cells)
-        return ways, count, departs, packed
+        sparse = len(listing) < SPARSE * cells
+        packed = self.machine_code and cells > (WORTH_PACKING_SPARSE if sparse else WORTH_PACKING)
+        departs = fine and sparse and not packed and self.distance == 0.0
+        return ways, count, int(departs), int(packed)
 
     def clearings(self, grid: Grid) -> Any:
         """Make room for clearings and departures by way."""

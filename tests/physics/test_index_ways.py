@@ -114,7 +114,8 @@ def test_interpreted_and_compiled_kernels_find_the_same_clearings(radius):
 
 @pytest.mark.parametrize("radius", [0.0, 5.0])
 def test_clearings_that_lie_beside_their_cells(radius, monkeypatch):
-    monkeypatch.setattr(indexing, "MOST_CELLS", 64.0)
+    monkeypatch.setattr(indexing, "WORTH_PACKING", 100.0)
+    monkeypatch.setattr(indexing, "WORTH_PACKING_SPARSE", 100.0)
     walls = wavy(300, 0.01, 3)
     scene = Scene(walls, balls_inside(walls, radius))
     one, modelled = flown(scene, **LIMITS)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wallkit.kernels.instructions import AT_ONCE, claim, fetch, look_up, lowest, pair_up, prefetch
+from wallkit.kernels.instructions import AT_ONCE, claim, fetch, look_up, lowest, pair_up, prefetch, prefetch_far
 from wallkit.kernels.jit import compiled, kernel
 from wallkit.kernels.model import CORNER, LINE
 
@@ -25,6 +25,7 @@ def look_up_all(table, places, found):
 def fetch_all(records, ids, columns, at_once):
     for i in range(0, len(ids), at_once):
         prefetch(records, 10**9)
+        prefetch_far(records, 10**9)
         fetch(records, ids, i, columns, i, len(ids))
 
 

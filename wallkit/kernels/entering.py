@@ -12,6 +12,7 @@ import math
 from typing import Any, NamedTuple
 
 from wallkit.kernels.arcs import is_wide, to_end
+from wallkit.kernels.instructions import prefetch_far
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import WAYS
 
@@ -27,6 +28,10 @@ its kind, which is where the next one begins: ``arcs``, ``corners``, and ``first
 ALL_WAYS = (1 << WAYS) - 1
 ASIDE = 2.0**-10
 """Cosine by which a flight must go away from what it is not to meet: far above what rounding may turn."""
+NEAR_CELLS = 1 << 16
+"""So many stay in the second cache: asking memory for them ahead would gain nothing."""
+AHEAD = 8
+"""Entered before what memory is asked for: by then it has come, and it is still there."""
 LATEST = 3
 """Where in a cell's numbers the latest entry stands, so that none is entered twice; later the ``moves_to_next``."""
 
@@ -52,10 +57,12 @@ def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
     """
     for b in range(len(blocks)):
         block = blocks[b]
-        count = 0
+        count, far = 0, block.columns * block.rows > NEAR_CELLS
         for k in range(block.start, block.end):
             if count > block.most:
                 break
+            if far and k + AHEAD < block.end:
+                _prefetch_cells(block, source[k + AHEAD], k + AHEAD >= block.corners, lines, corners, table.numbers)
             if k < block.arcs:
                 count += _enter_line(block, lines[source[k]], distance, k, source[k], table)
             elif k >= block.corners:
@@ -68,6 +75,20 @@ def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
             elif arcs is not None:
                 count += _enter_arc(block, arcs[source[k]], distance, k, source[k], table)
         entered[b] = count
+
+
+@kernel
+def _prefetch_cells(block, entry, is_corner, lines, corners, numbers):
+    """Ask memory for the cell in the middle of what is entered soon, and for those above and below it."""
+    if is_corner:
+        x, y = corners[entry].x, corners[entry].y
+    else:
+        line = lines[entry]
+        x, y = 0.5 * (line.ax + line.bx), 0.5 * (line.ay + line.by)
+    column, row = int((x - block.x0) * block.per_side), int((y - block.y0) * block.per_side)
+    at = 4 * (block.first + column + block.columns * row)
+    for neighbour in range(-1, 2):
+        prefetch_far(numbers, at + 4 * block.columns * neighbour)
 
 
 @kernel

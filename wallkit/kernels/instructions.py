@@ -11,6 +11,8 @@ from typing import Any
 
 AT_ONCE = 8
 """Numbers looked up, or paired up, together."""
+FIRST, SECOND = 3, 2
+"""The caches nearest to the processor, as LLVM numbers them."""
 
 
 def claim(counter: Any, count: int) -> int:
@@ -24,6 +26,14 @@ def prefetch(_records: Any, _place: int) -> None:
     """Ask memory for an item of an array that is read soon, so that machine code need not wait for it then.
 
     It changes no result, and the place may be anywhere, also beyond the array.
+    """
+
+
+def prefetch_far(_records: Any, _place: int) -> None:
+    """Ask for an item as ``prefetch`` does where there are so many that memory itself must give them.
+
+    It comes into the second cache, not the first: that one waits for few lines at a time, and when as many are on
+    their way it stands still. Random lines of memory come up to twice as fast so.
     """
 
 
@@ -70,7 +80,11 @@ def register() -> None:
 
     number, nothing = types.int64, types.none
     add: Any = intrinsic(lambda _context, counter, count: (number(counter, number), _emit_claim))
-    ask: Any = intrinsic(lambda _context, records, place: (nothing(records, types.uint64), _emit_prefetch))
+
+    def asking(cache: int) -> Any:
+        return intrinsic(lambda _context, records, place: (nothing(records, types.uint64), _prefetch_to(cache)))
+
+    ask, ask_far = asking(FIRST), asking(SECOND)
     zeros: Any = intrinsic(lambda _context, bits: (number(number), _emit_lowest))
     gather: Any = intrinsic(
         lambda _context, table, places, first, found, to: (
@@ -92,6 +106,7 @@ def register() -> None:
     )
     stand_in(claim, lambda counter, count: lambda counter, count: add(counter, count))
     stand_in(prefetch, lambda records, place: lambda records, place: ask(records, place))
+    stand_in(prefetch_far, lambda records, place: lambda records, place: ask_far(records, place))
     stand_in(lowest, lambda bits: lambda bits: zeros(bits))
     stand_in(look_up, lambda a, b, c, d, e: lambda a, b, c, d, e: gather(a, b, c, d, e))
     stand_in(pair_up, lambda a, b, c, d, e, f: lambda a, b, c, d, e, f: join(a, b, c, d, e, f))
@@ -115,16 +130,21 @@ def _emit_claim(context: Any, builder: Any, signature: Any, values: Any) -> Any:
     return builder.atomic_rmw("add", place, values[1], "monotonic")
 
 
-def _emit_prefetch(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-    from llvmlite import ir
-    from numba.core import cgutils
+def _prefetch_to(cache: int) -> Any:
+    """Give what emits the request for an item, into the FIRST cache or the SECOND."""
 
-    word, byte = ir.IntType(32), ir.IntType(8).as_pointer()
-    kind = ir.FunctionType(ir.VoidType(), [byte, word, word, word])
-    function = cgutils.get_or_insert_function(builder.module, kind, "llvm.prefetch")
-    place = _place_in(context, builder, signature.args[0], *values)
-    builder.call(function, [builder.bitcast(place, byte), word(0), word(3), word(1)])  # to read, keep it near
-    return context.get_dummy_value()
+    def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+        from llvmlite import ir
+        from numba.core import cgutils
+
+        word, byte = ir.IntType(32), ir.IntType(8).as_pointer()
+        kind = ir.FunctionType(ir.VoidType(), [byte, word, word, word])
+        function = cgutils.get_or_insert_function(builder.module, kind, "llvm.prefetch")
+        place = _place_in(context, builder, signature.args[0], *values)
+        builder.call(function, [builder.bitcast(place, byte), word(0), word(cache), word(1)])  # to read
+        return context.get_dummy_value()
+
+    return emit
 
 
 def _emit_lowest(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from wallkit.kernels.grid import clearing_at, is_divided, leaf, moves_to_next, top_at
-from wallkit.kernels.instructions import AT_ONCE, look_up, lowest, prefetch
+from wallkit.kernels.instructions import AT_ONCE, look_up, lowest, prefetch, prefetch_far
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import HALF, WIDEST
 from wallkit.kernels.wave_lanes import (
@@ -148,17 +148,26 @@ def cross(model, s, q, far):
         entering &= entering - 1
         _enter(model, s, q, i)
         if far:
-            prefetch(model.ids, q[NEXT + i])
+            prefetch_far(model.ids, q[NEXT + i])
+            prefetch_far(model.ids, q[NEXT + i] + (AT_ONCE - 1))  # so many are read at once, often from two lines
 
 
 @kernel
-def prefetch_cells(model, q):
+def prefetch_cells(model, q, far):
     """Ask memory for what balls need when they cross: it comes while others turn."""
     for i in range(LANES):
-        prefetch(model.clearings, q[AT + i])
+        _prefetch_one(model.clearings, q[AT + i], far)
     if model.grid.packed == 0:
         for i in range(LANES):
-            prefetch(model.cells, q[TOP + i])
+            _prefetch_one(model.cells, q[TOP + i], far)
+
+
+@kernel
+def _prefetch_one(records, place, far):
+    if far:
+        prefetch_far(records, place)
+    else:
+        prefetch(records, place)
 
 
 @kernel
@@ -168,8 +177,14 @@ def prefetch_listed(model, radius, q):
     while asking > 0:
         i = lowest(asking)
         asking &= asking - 1
-        for at in range(q[NEXT + i], q[ARCS + i]):
-            prefetch(model.lines, model.ids[at])
+        _prefetch_records(model.lines, model.ids, q[NEXT + i], q[ARCS + i])
+        _prefetch_records(model.arcs, model.ids, q[NEXT_ARC + i], q[CORNERS + i])
         if radius is not None:
-            for at in range(q[NEXT_CORNER + i], q[END + i]):
-                prefetch(model.corners, model.ids[at])
+            _prefetch_records(model.corners, model.ids, q[NEXT_CORNER + i], q[END + i])
+
+
+@kernel
+def _prefetch_records(records, ids, first, end):
+    if records is not None:
+        for at in range(first, end):
+            prefetch_far(records, ids[at])

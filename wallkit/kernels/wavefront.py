@@ -146,7 +146,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
         meet(model, radius, b, s, q, scratch.pairs)
         turning, ending = decide(s, q, model.grid)
         if len(model.cells) > NEAR_CELLS:
-            prefetch_cells(model, q)
+            prefetch_cells(model, q, far)
         if far:
             prefetch_listed(model, radius, scratch.counts[wave])
         turned = turning
