@@ -13,6 +13,14 @@ from wallkit.kernels.jit import kernel, rare_kernel
 
 WELL_KNOWN = 2.0**-20
 """The rounded power of a point on the arc is used while it changes the next chord by less than this part."""
+MOULD = 2.0**-26
+"""A disc fits into an arc as into a mould if their radii differ by less than this part: then it touches all of the arc
+at once, when its centre is where the arc's is, and no place tells where the normal lies. Its centre may go this part of
+the radius beyond, which is less than any drawing means; the rounding of its place (2^-52) then turns the normal by as
+little. The ends of the arc do not stop it: where the arc is half a circle it passes them at a right angle.
+"""
+FALLING_MOULD = 2.0**-20
+"""The same under gravity, where the distance of a centre from another is known to half the digits only."""
 
 
 @kernel
@@ -125,8 +133,9 @@ def scan_arcs_disc(
     """Earliest contact of a disc with the arcs of entries start to stop.
 
     From outside the centre meets the circle of R + r where it comes nearer, from inside that of R - r where it goes
-    away; a disc as large as the arc or larger meets its ends only. The contact counts if the arc lies in its
-    direction (with the overlap of ``scan_disc`` at the ends); an overlap on the way in counts as t = 0.
+    away; a larger disc than the arc meets its ends only, one as large all of it at once (see MOULD). The contact counts
+    if the arc lies in its direction (with the overlap of ``scan_disc`` at the ends); an overlap on the way in counts
+    as t = 0.
 
     A disc that rolls along a wall comes to a hollow arc on its tangent. Rounding may have it miss the circle of R - r,
     or touch it just before the arc begins, and then it is on the way out where it comes beside the arc: that counts
@@ -163,7 +172,10 @@ def scan_arcs_disc(
                     t = -1.0
         if t < 0.0 and from_inside:
             off = hidden_by_rounding(slack, arc.radius)
-            t = _time_to_inside(arc, radius, power, along, cross, speed, energy, off, ids[k] == last)
+            if is_mould(arc.radius, radius):
+                t = _time_in_mould(arc, ex, ey, power, along, cross, speed, energy)
+            else:
+                t = _time_to_inside(arc, radius, power, along, cross, speed, energy, off, ids[k] == last)
             if t >= 0.0 and not holds(arc, ex + t * vx, ey + t * vy, slack):
                 near = holds(arc, ex + t * vx, ey + t * vy, aside_of(slack, arc.radius))
                 t = _time_beside(arc, radius, t, ex, ey, vx, vy, off) if near else -1.0
@@ -219,6 +231,25 @@ def _time_to_inside(arc, radius, power, along, cross, speed, energy, off, again)
     if along <= 0.0:
         return (root - along) / energy
     return -c / (along + root)
+
+
+@kernel
+def is_mould(arc_radius, radius):
+    """Tell whether a disc is as large as an arc, see MOULD."""
+    return abs(arc_radius - radius) < MOULD * arc_radius
+
+
+@rare_kernel
+def _time_in_mould(arc, ex, ey, power, along, cross, speed, energy):
+    """Time at which the centre goes away from that of an arc as large as the disc, see MOULD; -1 if never."""
+    reach = MOULD * arc.radius
+    c = ex * ex + ey * ey - reach * reach
+    if c >= 0.0 and along > 0.0:
+        return 0.0 if power < 0.0 else -1.0
+    if reach * speed < cross:
+        return -1.0
+    root = math.sqrt((reach * speed - cross) * (reach * speed + cross))
+    return (root - along) / energy if along <= 0.0 else -c / (along + root)
 
 
 @rare_kernel

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from wallkit.kernels.arcs import is_wide, to_end
+from wallkit.kernels.arcs import FALLING_MOULD, MOULD, is_mould, is_wide, to_end
 from wallkit.kernels.instructions import prefetch_far
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import WAYS
@@ -118,7 +118,11 @@ def _enter_arc(block, arc, distance, item, entry, table):
     wide = 1.0 if is_wide(arc.sweep) else 0.0
     count = _arc(block, x, y, arc.radius + distance, ux, uy, wx, wy, wide, 1.0, OF_ARCS, item, entry, table)
     if distance > 0.0:
-        count += _arc(block, x, y, arc.radius - distance, ux, uy, wx, wy, wide, -1.0, OF_ARCS, item, entry, table)
+        inside = MOULD * arc.radius if is_mould(arc.radius, distance) else arc.radius - distance
+        count += _arc(block, x, y, inside, ux, uy, wx, wy, wide, -1.0, OF_ARCS, item, entry, table)
+        inside = FALLING_MOULD * arc.radius
+        if abs(arc.radius - distance) < inside:
+            count += _arc(block, x, y, inside, ux, uy, wx, wy, wide, -1.0, OF_ARCS, item, entry, table)
     return count
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.arcs import holds
+from wallkit.kernels.arcs import FALLING_MOULD, holds
 from wallkit.kernels.grid import around, leaf, moves_to_next, place
 from wallkit.kernels.impact import behind, precedes, slack_of
 from wallkit.kernels.jit import kernel, rare_kernel
@@ -166,15 +166,21 @@ def fall_arcs(
                 outside = along > 0.0
         for turn in range(2):
             side = 1.0 if turn == 0 else -1.0
-            if side < 0.0 and radius >= arc.radius:
+            reach, mould = arc.radius + side * radius, FALLING_MOULD * arc.radius
+            if reach <= -mould:
                 continue
             if one_sided is not None:
                 if one_sided[edge_wall[ids[k]]] != 0 and side * arc.sweep < 0.0:
                     continue
             c0 = side * power - radius * (2.0 * arc.radius + side * radius)
-            t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, 0.0, outside != (side > 0.0))
+            from_behind = outside != (side > 0.0)
+            if reach < mould:
+                reach = mould
+                c0 = reach * reach - (ex * ex + ey * ey)
+                from_behind = c0 < 0.0
+            t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, 0.0, from_behind)
             if 0.0 < t < NEVER:
-                t = _polished(t, arc.radius + side * radius, ex, ey, vx, vy, gx, gy)
+                t = _polished(t, reach, ex, ey, vx, vy, gx, gy)
             for _again in range(2):
                 if not (t < best or (t == best and precedes(ids[k], feature))):
                     break

@@ -13,6 +13,7 @@ from wallkit.kernels.arcs import (
     WELL_KNOWN,
     aside_of,
     hidden_by_rounding,
+    is_mould,
     is_wide,
     scan_arcs_disc,
     scan_arcs_point,
@@ -299,7 +300,7 @@ def _meet_arcs_disc(s, disc, padded):
 
     Returns:
         The bits of the balls that meet it, and of those that are to ask again, alone: from both sides, or as they are
-        near the end of an arc.
+        near the end of an arc, or as large as it.
     """
     _take_sides(s, disc, padded)
     _find_times(s, disc, padded)
@@ -340,6 +341,7 @@ def _take_sides(s, disc, padded):
         square = (reach * speed - cross) * (reach * speed + cross)
         asked = (power < 0.0) | (along < 0.0)
         side = (EITHER if enters else OUTSIDE) if outside else (INSIDE if inner > 0.0 else NEITHER)
+        side = INSIDE if is_mould(radius, disc) else side
         s[FROM + i] = side if asked else NEITHER
         s[E0 + i], s[E1 + i], s[E2 + i], s[E3 + i] = ex, ey, fx, fy
         square = square if square > 0.0 else 0.0
@@ -378,10 +380,11 @@ def _find_places(s, disc, padded):
         x, y = s[E0 + i] + t * s[VX + i], s[E1 + i] + t * s[VY + i]
         wide = is_wide(s[E7 + i])
         lies_there = spans(s[E4 + i], s[E5 + i], s[E2 + i], s[E3 + i], s[E6 + i], wide, x, y, slack)
-        meets = (t >= 0.0) & lies_there & (s[FROM + i] != NEITHER)
+        mould = is_mould(s[E6 + i], disc)
+        meets = (t >= 0.0) & lies_there & (s[FROM + i] != NEITHER) & (not mould)
         aside = aside_of(slack, s[E6 + i])
         beside = min(abs(s[E4 + i] * y - s[E5 + i] * x), abs(x * s[E3 + i] - y * s[E2 + i])) <= aside * s[E6 + i]
-        unclear = (s[FROM + i] == EITHER) | ((t >= 0.0) & beside)
+        unclear = (s[FROM + i] == EITHER) | ((t >= 0.0) & beside) | mould
         again |= int((s[FROM + i] != NEITHER) & unclear & (not meets)) << i
         meeting |= int(meets) << i
     return meeting, again
