@@ -37,9 +37,13 @@ SPEED, SECONDS = 50.0, 20.0
 TURNS, GOES = 9, 3
 
 
+def size_of_curve(angle):
+    return 200 * (1 + 0.15 * np.cos(3 * angle) + 0.07 * np.sin(5 * angle))
+
+
 def curve(count):
     angle = 2 * np.pi * np.arange(count) / count
-    size = 200 * (1 + 0.15 * np.cos(3 * angle) + 0.07 * np.sin(5 * angle))
+    size = size_of_curve(angle)
     return np.stack([size * np.cos(angle), size * np.sin(angle)], axis=1)
 
 
@@ -95,7 +99,7 @@ def as_arcs(tolerance):
     """The curve as arcs that are off by no more than that, fitted to so many cubics that they count as the curve."""
     count = 3000
     angle = 2 * np.pi * np.arange(count + 1) / count
-    size = 200 * (1 + 0.15 * np.cos(3 * angle) + 0.07 * np.sin(5 * angle))
+    size = size_of_curve(angle)
     slope = 200 * (-0.45 * np.sin(3 * angle) + 0.35 * np.cos(5 * angle))
     turn = np.exp(1j * angle)
     point, arm = size * turn, (slope + 1j * size) * turn * (2 * np.pi / count / 3)

@@ -29,6 +29,13 @@ def cup(place, bulge):
     return walls, shapely.Polygon(place(np.concatenate([CUP[:3], arc[1:-1], CUP[3:]]))), radius
 
 
+def shot_along_the_axis(walls, place, start, radius, gravity=None):
+    """Discs that fly into the hollow, from places in the drawing as it was before it was placed."""
+    axis = place(np.array([1.0, 0.0])) - place(np.zeros(2))
+    pull = None if gravity is None else tuple(gravity * axis)
+    return Scene(walls, Balls(place(start), np.tile(3.0 * axis, (len(start), 1)), radius), gravity=pull)
+
+
 def assert_outside_walls(region, totals, radius):
     """No disc is in a wall by more than what moulds give way, and what the region's chords leave out."""
     places = shapely.points(totals.position)
@@ -44,10 +51,8 @@ def test_no_disc_leaves_through_a_hollow_of_its_size(bulge, gravity):
         place, size = placed(rng)
         walls, region, hollow = cup(place, bulge)
         start = np.stack([np.full(len(ASIDE), -20.0), hollow * np.array(ASIDE)], axis=1)
-        axis = place(np.array([1.0, 0.0])) - place(np.zeros(2))
         radius = size * hollow * (1.0 - larger)
-        pull = None if gravity is None else tuple(gravity * axis)
-        scene = Scene(walls, Balls(place(start), np.tile(3.0 * axis, (len(start), 1)), radius), gravity=pull)
+        scene = shot_along_the_axis(walls, place, start, radius, gravity)
         for index in ("grid", "none"):
             totals, _ = flown(scene, index, until=14.3, bounces=400)
             assert_outside_walls(region, totals, radius)
@@ -69,7 +74,6 @@ def test_waves_fly_it_as_alone():
         walls, region, hollow = cup(place, 1.0)
         aside = np.concatenate([hollow * np.repeat(ASIDE, 4), rng.uniform(-20, 20, 100)])
         start = np.stack([rng.uniform(-30.0, -8.0, len(aside)), aside], axis=1)
-        axis = place(np.array([1.0, 0.0])) - place(np.zeros(2))
         radius = size * hollow * (1.0 - larger)
-        scene = Scene(walls, Balls(place(start), np.tile(3.0 * axis, (len(start), 1)), radius))
+        scene = shot_along_the_axis(walls, place, start, radius)
         assert_outside_walls(region, assert_as_alone(scene, 30, until=30.0, bounces=400), radius)

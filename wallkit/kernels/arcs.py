@@ -172,10 +172,7 @@ def scan_arcs_disc(
                     t = -1.0
         if t < 0.0 and from_inside:
             off = hidden_by_rounding(slack, arc.radius)
-            if is_mould(arc.radius, radius):
-                t = _time_in_mould(arc, ex, ey, power, along, cross, speed, energy)
-            else:
-                t = _time_to_inside(arc, radius, power, along, cross, speed, energy, off, ids[k] == last)
+            t = _time_to_inside(arc, radius, ex, ey, power, along, cross, speed, energy, off, ids[k] == last)
             if t >= 0.0 and not holds(arc, ex + t * vx, ey + t * vy, slack):
                 near = holds(arc, ex + t * vx, ey + t * vy, aside_of(slack, arc.radius))
                 t = _time_beside(arc, radius, t, ex, ey, vx, vy, off) if near else -1.0
@@ -212,12 +209,21 @@ def aside_of(slack, radius):
 
 
 @kernel
-def _time_to_inside(arc, radius, power, along, cross, speed, energy, off, again):
+def is_mould(arc_radius, radius):
+    """Tell whether a disc is as large as an arc, see MOULD."""
+    return abs(arc_radius - radius) < MOULD * arc_radius
+
+
+@kernel
+def _time_to_inside(arc, radius, ex, ey, power, along, cross, speed, energy, off, again):
     """Time at which the centre goes away through R - r from the arc's centre, or by it; -1 if never."""
     reach = arc.radius - radius
+    c = power + radius * (2.0 * arc.radius - radius)
+    if is_mould(arc.radius, radius):
+        reach = MOULD * arc.radius
+        c = ex * ex + ey * ey - reach * reach
     if reach <= 0.0:
         return -1.0
-    c = power + radius * (2.0 * arc.radius - radius)
     if c >= 0.0 and along > 0.0:
         return 0.0 if power < 0.0 else -1.0
     if again and energy * abs(c) > WELL_KNOWN * along * along:
@@ -231,25 +237,6 @@ def _time_to_inside(arc, radius, power, along, cross, speed, energy, off, again)
     if along <= 0.0:
         return (root - along) / energy
     return -c / (along + root)
-
-
-@kernel
-def is_mould(arc_radius, radius):
-    """Tell whether a disc is as large as an arc, see MOULD."""
-    return abs(arc_radius - radius) < MOULD * arc_radius
-
-
-@rare_kernel
-def _time_in_mould(arc, ex, ey, power, along, cross, speed, energy):
-    """Time at which the centre goes away from that of an arc as large as the disc, see MOULD; -1 if never."""
-    reach = MOULD * arc.radius
-    c = ex * ex + ey * ey - reach * reach
-    if c >= 0.0 and along > 0.0:
-        return 0.0 if power < 0.0 else -1.0
-    if reach * speed < cross:
-        return -1.0
-    root = math.sqrt((reach * speed - cross) * (reach * speed + cross))
-    return (root - along) / energy if along <= 0.0 else -c / (along + root)
 
 
 @rare_kernel
