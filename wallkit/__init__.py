@@ -19,6 +19,7 @@ except ImportError as error:  # a user's own ``importers`` folder or an unrelate
         "before it on the import path; rename or move that one"
     ) from error
 from importers.pictured import paint_with
+from wallkit.version import __version__
 
 if TYPE_CHECKING:
     from importers.drawing import Drawing, DrawnPath, Layer, Subpath
@@ -33,8 +34,6 @@ if TYPE_CHECKING:
     from wallkit.walls import Material, Wall, Walls
     from wallkit.walls.build import import_walls
     from wallkit.world import World
-
-__version__ = "0.1.0"
 
 _HOMES = {
     "importers.drawing": ("Drawing", "DrawnPath", "Layer", "Subpath"),
@@ -73,6 +72,7 @@ __all__ = [
     "WallkitError",
     "Walls",
     "World",
+    "__version__",
     "drawing_from_svgpathtools",
     "import_walls",
     "prepare",
