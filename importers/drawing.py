@@ -50,7 +50,8 @@ class DrawnPath:
         locked: it, a group around it or its layer is locked.
         guide: a guide of the drawing program, not art.
         clip: it clips other art and is not painted itself.
-        fill: colour as ``"#rrggbb"``, another paint's name (``"pattern"``, ``"gradient"``), None when not filled.
+        fill: colour as ``"#rrggbb"``, another paint's name (``"pattern"``, ``"gradient"``), None when nothing is
+            filled: no paint, or one without any opacity.
         stroke: the same for the outline.
         stroke_width: in the drawing's units, transforms applied (geometric mean of the two scales); None
             when not stroked.
