@@ -222,7 +222,7 @@ class _Reader:
         return int(number)
 
     def one_of(self, value: Any, key: str, words: tuple[Any, ...]) -> Any:
-        if value not in words or isinstance(value, int) and not isinstance(value, bool):
+        if not any(value is word or (isinstance(value, str) and value == word) for word in words):
             self.wrong.append(f"{key}: {value!r} is not {' or '.join(str(word).lower() for word in words)}")
             return words[0]
         return value

@@ -101,7 +101,8 @@ def _given(file: str, importing: ImportOptions) -> _Given:
     """Open FILE, whatever it is, as `simulate` does; a ball that would only be put somewhere does not count."""
     import numpy as np
 
-    from wallkit.cli.scene_input import Wishes, opened
+    from wallkit.cli.scene_input import opened
+    from wallkit.open_scene import Wishes
 
     found = opened(file, Wishes(importing=importing, may_be_empty=True))
     walls, balls = found.scene.walls, found.scene.balls

@@ -65,7 +65,9 @@ _OPTIONS: dict[str, tuple[Any, Any]] = {
 }
 
 
-def with_import_options(curves: Literal["lines", "arcs"] = "arcs") -> Callable[[Callable[..., None]], Callable[..., None]]:
+def with_import_options(
+    curves: Literal["lines", "arcs"] = "arcs",
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Give a command all options of the import; its parameter ``importing`` takes them as a function that makes them.
 
     Args:
@@ -90,7 +92,7 @@ def with_import_options(curves: Literal["lines", "arcs"] = "arcs") -> Callable[[
         parameters = [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in given] + added
         run.__signature__ = own.replace(parameters=parameters)  # type: ignore[attr-defined]
         run.__annotations__ = {p.name: p.annotation for p in parameters}
-        del run.__wrapped__  # type: ignore[attr-defined]
+        del run.__wrapped__
         return run
 
     return decorate

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from importers.errors import WallkitError
-
 from wallkit.cli import import_options as options
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -76,7 +76,7 @@ def report(
 
 
 def _check(file: str | None, out: list[str], hard: bool, scene: list[str] | None) -> None:
-    from wallkit.cli.scene_input import UsageError
+    from wallkit.open_scene import UsageError
 
     for target in out:
         if Path(target).suffix.lower() not in ENDINGS:
@@ -104,7 +104,7 @@ def _effort(quick: bool, precision: int | None) -> Effort:
 def _built_in(names: list[str] | None, quick: bool) -> list[Subject]:
     from wallkit.accuracy.contest import Subject
     from wallkit.accuracy.scenes import built_in
-    from wallkit.cli.scene_input import UsageError
+    from wallkit.open_scene import UsageError
 
     scenes = {scene.name: scene for scene in built_in()}
     unknown = [name for name in names or [] if name not in scenes]
@@ -119,7 +119,8 @@ def _built_in(names: list[str] | None, quick: bool) -> list[Subject]:
 def _of_file(file: str, importing: ImportOptions) -> Subject:
     from wallkit.accuracy.contest import Subject
     from wallkit.accuracy.own import first_ball, of_scene
-    from wallkit.cli.scene_input import UsageError, Wishes, opened
+    from wallkit.cli.scene_input import opened
+    from wallkit.open_scene import UsageError, Wishes
 
     name = "standard input" if file == "-" else Path(file).name
     try:
@@ -136,7 +137,7 @@ def _of_file(file: str, importing: ImportOptions) -> Subject:
     importing = replace(importing, arena=room, solid=not room, room="")
     balls = first_ball(found.scene.balls)
 
-    def walls(curves: str, tolerance: float) -> Scene:
+    def walls(curves: Literal["lines", "arcs"], tolerance: float) -> Scene:
         from wallkit.walls.build import build_walls
 
         imported = build_walls(drawing, replace(importing, curves=curves, tolerance=tolerance))

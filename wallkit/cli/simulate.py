@@ -94,7 +94,8 @@ def simulate_file(
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
-    from wallkit.cli.scene_input import Wishes, opened, pair, pairs
+    from wallkit.cli.scene_input import opened, pair, pairs
+    from wallkit.open_scene import Wishes
 
     wishes = Wishes(
         pairs(ball, "--ball"), None if velocity is None else pair(velocity, "--velocity"), speed, angle, radius,
@@ -115,7 +116,7 @@ def simulate_file(
 
 def _targets(out: list[str], form: Format | None) -> list[tuple[str, Format]]:
     """Pair each OUT with its format; a format alone goes to standard output."""
-    from wallkit.cli.scene_input import UsageError
+    from wallkit.open_scene import UsageError
 
     targets: list[tuple[str, Format]] = []
     for name in out or (["-"] if form else []):

@@ -30,9 +30,7 @@ from wallkit.walls.walls import Walls, WallsError
 Source = str | Path | IO[bytes] | IO[str] | Drawing
 
 
-def import_walls(
-    source: Source, options: ImportOptions | None = None, /, **wishes: Unpack[ImportWishes]
-) -> Walls:
+def import_walls(source: Source, options: ImportOptions | None = None, /, **wishes: Unpack[ImportWishes]) -> Walls:
     """Turn a drawing into walls.
 
     Args:

@@ -24,9 +24,7 @@ _REASONS = {
 }
 
 
-def choose(
-    drawing: Drawing, options: ImportOptions, balls: list[DrawnBall]
-) -> tuple[list[DrawnPath], list[Problem]]:
+def choose(drawing: Drawing, options: ImportOptions, balls: list[DrawnBall]) -> tuple[list[DrawnPath], list[Problem]]:
     """Take the paths that are walls.
 
     A path that paints nothing is none, unless no path that could be a wall is painted (pasted text, exported

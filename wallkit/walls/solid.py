@@ -177,8 +177,6 @@ def _named(nested: Nested, name: str) -> Solid:
 
 def _counted(inside: int, all_: int, room: bool) -> str:
     count = inside if room else all_ - inside
-    if count == all_:
-        words = "the ball is" if all_ == 1 else "all balls are"
-    else:
-        words = f"{count} of {all_} balls are"
+    whole = "the ball is" if all_ == 1 else "all balls are"
+    words = whole if count == all_ else f"{count} of {all_} balls are"
     return f"{words} {'in it' if room else 'free so'}"
