@@ -7,7 +7,7 @@ from pathlib import Path
 
 from wallkit import Run, simulate
 from wallkit.files import write_whole
-from wallkit.open_scene import Wishes, open_scene
+from wallkit.opening import Wishes, open_scene
 from wallkit.view.film import film
 from wallkit.view.picture import walls_svg
 from wallkit.view.raster import png

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from importers.problems import Problem
     from importers.read import read_drawing, read_drawing_text
     from importers.svg.from_svgpathtools import drawing_from_svgpathtools
-    from wallkit.open_scene import OpenedScene, Wishes, open_scene
+    from wallkit.opening import OpenedScene, Wishes, open_scene
     from wallkit.preparing import Prepared, prepare
     from wallkit.run import Ending, Kind, Run
     from wallkit.scene import Balls, Scene, SceneError
@@ -43,7 +43,7 @@ _HOMES = {
     "importers.problems": ("Problem",),
     "importers.read": ("read_drawing", "read_drawing_text"),
     "importers.svg.from_svgpathtools": ("drawing_from_svgpathtools",),
-    "wallkit.open_scene": ("OpenedScene", "Wishes", "open_scene"),
+    "wallkit.opening": ("OpenedScene", "Wishes", "open_scene"),
     "wallkit.run": ("Ending", "Kind", "Run"),
     "wallkit.scene": ("Balls", "Scene", "SceneError"),
     "wallkit.simulation": ("simulate",),

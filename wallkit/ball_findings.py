@@ -29,14 +29,15 @@ def ball_findings(walls: Walls, balls: Balls) -> list[Problem]:
     edges = straight_edges(walls)
     depth = _depth(walls, edges)
     home = innermost(*walls_around(edges, places), depth, len(places))
-    level = np.where(home >= 0, depth[home] + 1, 0) + _is_room(walls, np.where(home >= 0, depth[home] + 1, 0))
+    around = np.append(depth + 1, 0)[home]  # the -1 of no wall finds the 0 at the end
+    level = around + _is_room(walls, around)
     found = []
     for ball in np.flatnonzero((level % 2 == 1) | (level >= 4)).tolist():
         x, y = places[ball].tolist()
         if level[ball] % 2:
             code, what, fix = "ball-in-material", "stands in material", _FIX
         else:
-            code, what, fix = "ball-shut-in", "is shut in a room inside another one", "open its room, or move the ball"
+            code, what, fix = "shut-in", "is shut in a room inside another one", "open that room, or move the ball"
         wall = int(home[ball])
         layer, name = (walls.layers[wall], walls.names[wall]) if wall >= 0 else ("", "")
         found.append(Problem(code, "warning", f"ball {ball} {what}", fix, layer=layer, name=name, x=x, y=y))

@@ -54,7 +54,7 @@ def check(
     space = free_space(walls, free=given.places if len(given.places) else None)
     reach = reach_of(space, walls, radius, given.places)
     found = [*leak_problems(space, reach), *given.problems, *_without_walls(walls)]
-    problems = sorted(found, key=_rank)
+    problems = sorted(_once(found), key=_rank)
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
         _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
@@ -72,6 +72,15 @@ def _without_walls(walls: Walls) -> list[Problem]:
         return []
     fix = "see what the file holds with: wallkit inspect; take other layers (--layer) or hidden paths (--hidden)"
     return [Problem("no-walls", "warning", "there is nothing in it that makes a wall", fix)]
+
+
+def _once(problems: list[Problem]) -> list[Problem]:
+    """Leave out what was told before of the same place: the opening tells some of what is looked at closer here."""
+    told: dict[Any, Problem] = {}
+    for index, problem in enumerate(problems):
+        placed = problem.code in ("ball-in-material", "shut-in")
+        told.setdefault((problem.code, problem.x, problem.y) if placed else index, problem)
+    return list(told.values())
 
 
 def _rank(problem: Problem) -> int:
@@ -102,7 +111,7 @@ def _given(file: str, importing: ImportOptions) -> _Given:
     import numpy as np
 
     from wallkit.cli.scene_input import opened
-    from wallkit.open_scene import Wishes
+    from wallkit.opening import Wishes
 
     found = opened(file, Wishes(importing=importing, may_be_empty=True))
     walls, balls = found.scene.walls, found.scene.balls

@@ -14,7 +14,7 @@ import typer
 from wallkit.cli import import_options as drawing_options
 
 if TYPE_CHECKING:
-    from wallkit.open_scene import OpenedScene
+    from wallkit.opening import OpenedScene
     from wallkit.run import Run
 
 Format = Literal["csv", "json", "npz", "svg", "png", "gif", "mp4", "html"]
@@ -95,7 +95,7 @@ def simulate_file(
 ) -> None:
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
     from wallkit.cli.scene_input import opened, pair, pairs
-    from wallkit.open_scene import Wishes
+    from wallkit.opening import Wishes
 
     wishes = Wishes(
         pairs(ball, "--ball"), None if velocity is None else pair(velocity, "--velocity"), speed, angle, radius,
@@ -116,7 +116,7 @@ def simulate_file(
 
 def _targets(out: list[str], form: Format | None) -> list[tuple[str, Format]]:
     """Pair each OUT with its format; a format alone goes to standard output."""
-    from wallkit.open_scene import UsageError
+    from wallkit.opening import UsageError
 
     targets: list[tuple[str, Format]] = []
     for name in out or (["-"] if form else []):
@@ -218,7 +218,7 @@ def _summary(file: str, scene: OpenedScene, run: Run, trust: list[Any], targets:
         rows.append(("trust", worst.sentence() + (" (the worst ball)" if len(trust) > 1 else "")))
         rows += [("drawing", words) for words in drawing_words(run)]
     rows += [("assumed", words) for words in scene.assumed]
-    balls = [problem for problem in scene.problems if problem.code.startswith("ball-")]
+    balls = [problem for problem in scene.problems if problem.code in ("ball-in-material", "shut-in")]
     rows += [("doubtful", f"{ball.message}, at ({ball.x:.6g}, {ball.y:.6g})") for ball in balls[:3]]
     if scene.problems:
         counted = count_by_severity(scene.problems)

@@ -90,7 +90,7 @@ def decide(nested: Nested, options: ImportOptions, balls: FloatArray) -> Solid:
         return _named(nested, options.room)
     around, inner = walls_around(nested.edges, balls)
     home = innermost(around, inner, nested.depth, len(balls))
-    odd = np.where(home >= 0, nested.depth[home] + 1, 0) % 2 == 1
+    odd = np.append(nested.depth + 1, 0)[home] % 2 == 1  # the -1 of no wall finds the 0 at the end
     painted = _by_paint(nested, home, agreed=True)
     if painted:
         return painted

@@ -13,7 +13,7 @@ import numpy as np
 
 from importers.errors import WallkitError
 from importers.limits import MAX_COORDINATE
-from wallkit.open_scene import USUAL, OpenedScene, Wishes, open_scene
+from wallkit.opening import USUAL, OpenedScene, Wishes, open_scene
 from wallkit.run import Ending, Run
 from wallkit.samples import samples
 from wallkit.scene import Balls, Scene

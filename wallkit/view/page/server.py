@@ -97,7 +97,7 @@ class PageServer(ThreadingHTTPServer):
 
 def _drawn(sample: Sample) -> str:
     """Give the small picture of a sample: its walls alone."""
-    from wallkit.open_scene import Wishes, open_scene
+    from wallkit.opening import Wishes, open_scene
     from wallkit.view.frame import united, walls_box
     from wallkit.view.picture import draw_walls, started
 

@@ -207,16 +207,15 @@ def _repaired(walls: Walls, options: ImportOptions, what: str) -> Walls:
             code="usage",
             fix="leave it out, or give the drawing",
         )
-    changes: list[Problem] = []
-    if options.repairs is not None:
-        done = repair(walls, options.repairs)
-        walls, found = done.walls, done.violations
-        changes = [change.to_problem() for change in done.changes]
-    else:
-        found = validate(walls)
+    found = validate(walls)
     codes = {problem.code for problem in found}
-    kept = [problem for problem in walls.problems if problem.code not in codes]
-    return replace(walls, problems=[*kept, *changes, *found])
+    said = [problem for problem in walls.problems if problem.code not in codes]
+    if options.repairs is None:
+        return replace(walls, problems=said + found)
+    done = repair(walls, options.repairs)
+    codes = {problem.code for problem in done.violations}
+    said = [problem for problem in said if problem.code not in codes]
+    return replace(done.walls, problems=[*said, *(change.to_problem() for change in done.changes), *done.violations])
 
 
 def _completed(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> OpenedScene:
