@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from importers.errors import WallkitError
 from importers.pictured import Pictured
 from importers.problems import Problem
+from wallkit.walls.solid import Solid
 
 Sides = Literal["both", "outward"]
 FloatArray = NDArray[np.float64]
@@ -98,6 +99,7 @@ class Walls(Pictured):
         source_file: the drawing's name, or ``""``.
         source_sha256: hex digest of the drawing's bytes, or ``""``.
         problems: what was found on the way from the drawing.
+        solid: whether the outermost walls are rooms, how that was decided and why; None for walls given as numbers.
     """
 
     vertices: FloatArray
@@ -117,6 +119,7 @@ class Walls(Pictured):
     source_file: str = ""
     source_sha256: str = ""
     problems: list[Problem] = field(default_factory=list)
+    solid: Solid | None = None
 
     @classmethod
     def from_polylines(
