@@ -232,7 +232,7 @@ def _changed(balls: Balls, wishes: Wishes) -> Balls:
     if any(value is not None for value in (wishes.velocity, wishes.speed, wishes.angle)):
         velocity = np.tile(_velocity(wishes, []), (len(np.asarray(balls.position)), 1))
         balls = replace(balls, velocity=velocity)
-    return replace(balls, radius=wishes.radius) if wishes.radius is not None else balls
+    return replace(balls, radius=np.full(len(balls), wishes.radius)) if wishes.radius is not None else balls
 
 
 def _drawn(given: _Given, wishes: Wishes, assumed: list[str]) -> Balls:
