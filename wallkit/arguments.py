@@ -44,7 +44,7 @@ def number(
         try:
             found = float(value)
         except OverflowError:  # a whole number that no double reaches
-            found = math.inf if int(value) > 0 else -math.inf
+            found = math.nan
         if least <= found <= most and (infinite or math.isfinite(found)):
             return found
     raise refused(name, value, may_be, error, code)

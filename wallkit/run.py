@@ -179,9 +179,8 @@ class Run(Pictured):
         arguments.word(source, "source", ("rounding", "drawing"), error=WallkitError, code="bad-source")
         ends = self.final["time"].tolist()
         return [
-            trusted_until(self.scene, own[own["kind"] <= Kind.VERTEX], ball, tolerance, source, end)
+            trusted_until(self.scene, self.contacts_of(ball), ball, tolerance, source, end)
             for ball, end in enumerate(ends)
-            for own in [self.contacts_of(ball)]
         ]
 
     @cached_property

@@ -57,21 +57,22 @@ def thinned(run: Run, most: int) -> tuple[Run, str]:
     Returns:
         The run that is left, and a sentence on what is not in it; ``""`` where all is.
     """
-    total = len(run.contacts)
-    if total <= most:
+    if len(run.contacts) <= most:
         return run, ""
+    total = int(run.bounces.sum())
     balls = len(run.final)
     stride = 2
-    while stride < balls and run.bounces[::stride].sum() > most:
+    contacts = np.bincount(run.contacts["ball"], minlength=balls)
+    while stride < balls and contacts[::stride].sum() > most:
         stride += 1
     kept = np.arange(0, balls, min(stride, balls))
     small = _only(run, kept)
     words = f"{len(kept):,} of {balls:,} balls" if len(kept) < balls else ""
     if len(small.contacts) > most:
         small = _ended(small, most)
-        until = f"the first {most:,} bounces, up to {small.final['time'].max():.6g} s"
+        until = f"the first {int(small.bounces.sum()):,} bounces, up to {small.final['time'].max():.6g} s"
         words = f"{words}; {until}" if words else until
-    return small, f"Shown: {words}. The run has {total:,} bounces; a replay carries {most:,} at most."
+    return small, f"Shown: {words}. The run has {total:,} bounces; a replay carries {most:,} contacts at most."
 
 
 def _only(run: Run, kept: np.ndarray) -> Run:
