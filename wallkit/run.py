@@ -5,9 +5,10 @@ from __future__ import annotations
 import enum
 import math
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -152,6 +153,43 @@ class Run(Pictured):
         Arguments, shapes and errors are those of :meth:`position`.
         """
         return self._states(time)[..., 2:4]
+
+    def take(self, balls: ArrayLike | slice) -> Run:
+        """Choose balls: the run that these alone would have made, since balls do not meet.
+
+        Args:
+            balls: their numbers, each once, in the order wanted; a mask of n truth values; or a slice.
+
+        Raises:
+            WallkitError: there is no such ball, one is named twice, or the mask has another length.
+        """
+        kept = arguments.chosen(balls, len(self.final), "balls", error=WallkitError, code="bad-ball")
+        number = np.full(len(self.final), -1, dtype=np.int32)
+        number[kept] = np.arange(len(kept), dtype=np.int32)
+        if np.count_nonzero(number >= 0) < len(kept):
+            raise arguments.refused("balls", balls, "each number once", WallkitError, "bad-ball")
+        contacts = self.contacts[number[self.contacts["ball"]] >= 0]
+        contacts["ball"] = number[contacts["ball"]]
+        contacts = contacts[np.lexsort((contacts["ball"], contacts["time"]))]
+        scene = replace(self.scene, balls=self.scene.balls.take(kept))
+        ending = tuple(self.ending[ball] for ball in kept.tolist())
+        return Run(scene, contacts, self.final[kept], ending, np.asarray(self.start)[kept])
+
+    def save(self, path: str | Path) -> None:
+        """Write the run as JSON, scene included; see :func:`wallkit.run_files.save`."""
+        from wallkit.run_files import save
+
+        arguments.of_type(path, "path", (str, Path), "a path", error=WallkitError, code="bad-path")
+        save(self, path)
+
+    @staticmethod
+    def load(source: str | Path | IO[bytes] | IO[str]) -> Run:
+        """Read a run that :meth:`save` wrote, the same bits; see :func:`wallkit.run_files.load`."""
+        from wallkit.run_files import load
+
+        if not isinstance(source, str | Path) and not hasattr(source, "read"):
+            raise arguments.refused("source", source, "a path or an open file", WallkitError, "bad-path")
+        return load(source)
 
     def trusted_until(self, tolerance: float = 1e-6, source: Source = "rounding") -> list[Horizon]:
         """Say for each ball up to which bounce, and time, its contacts are good to ``tolerance``.

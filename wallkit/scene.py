@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -114,6 +115,32 @@ class Scene(Pictured):
 
     def __setattr__(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, _CHECKS[name](value) if name in _CHECKS else value)
+
+    def save(self, path: str | Path) -> None:
+        """Write the scene as JSON, walls and materials included: the ``wallkit-scene`` format of docs/files.md.
+
+        Raises:
+            WallkitError: the file cannot be written.
+        """
+        import json
+
+        from wallkit.files import write_whole
+        from wallkit.scene_files import scene_to_json
+
+        arguments.of_type(path, "path", (str, Path), "a path", error=SceneError, code="bad-path")
+        write_whole(path, json.dumps(scene_to_json(self), ensure_ascii=False, allow_nan=False) + "\n")
+
+    @staticmethod
+    def load(path: str | Path) -> Scene:
+        """Read a scene from a TOML or JSON file; see :func:`wallkit.scene_files.load_scene`.
+
+        Raises:
+            SceneError: it cannot be read, or says what a scene cannot; the message lists every such place.
+        """
+        from wallkit.scene_files import load_scene
+
+        arguments.of_type(path, "path", (str, Path), "a path", error=SceneError, code="bad-path")
+        return load_scene(path).scene
 
     def __repr__(self) -> str:
         parts = [repr(self.walls), repr(self.balls)]

@@ -87,6 +87,21 @@ def test_walls_are_taken_with_all_that_belongs_to_them():
     assert walls.take([True, False, False])[0].name == "room"
 
 
+def test_a_run_of_some_balls_is_the_run_that_they_make_alone():
+    balls = Balls([(1, 5), (5, 1), (9, 9)], [(3.0, 2.0), (1.0, 4.0), (-2.0, -5.0)], [0.1, 0.2, 0.3])
+    scene = Scene(Walls.from_polylines([SQUARE]), balls, sensors=Walls.from_polylines([[(0, 4), (9, 4)]], False))
+    run = wallkit.simulate(scene, until=20.0)
+    for choice in ([2, 0], [1], [], slice(None, None, -1)):
+        taken, alone = (
+            run.take(choice),
+            wallkit.simulate(Scene(scene.walls, balls.take(choice), sensors=scene.sensors), 20.0),
+        )
+        assert taken.contacts.tobytes() == alone.contacts.tobytes()
+        assert taken.final.tobytes() == alone.final.tobytes()
+        assert taken.ending == alone.ending
+        assert taken.position(7.5).tobytes() == alone.position(7.5).tobytes()
+
+
 def test_straightened_walls_are_lines_within_the_distance_asked_for():
     circle = Walls.from_polylines([[(-1.0, 0.0), (1.0, 0.0)]], bulges=[[1.0, 1.0]])
     lines = circle.straightened(1e-3)

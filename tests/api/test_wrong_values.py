@@ -103,6 +103,11 @@ CALLS = {
     "Run.contacts_of": (RUN.contacts_of, {}, {"ball": (*NO_WHOLE_NUMBERS, 1, None)}),
     "Run.position": (RUN.position, {}, {"time": (-1.0, "1", None, math.nan, [0.0, -1.0], [[1.0], [1.0, 2.0]], ["1"])}),
     "Run.velocity": (RUN.velocity, {}, {"time": (-1.0, "1", None, math.nan, [0.0, -1.0], [[1.0], [1.0, 2.0]], ["1"])}),
+    "Run.save": (RUN.save, {}, {"path": (5, None, "/no/such/folder/run.json", "/")}),
+    "Run.load": (wallkit.Run.load, {}, {"source": (5, None, "/no/such/run.json", "/", RUN)}),
+    "Scene.save": (SCENE.save, {}, {"path": (5, None, "/no/such/folder/scene.json", "/")}),
+    "Scene.load": (Scene.load, {}, {"path": (5, None, "/no/such/scene.json", "/", SCENE)}),
+    "Run.take": (RUN.take, {}, {"balls": (1, -1, 0.0, "0", [0, 0], [True, False], [[0]], None, slice("a", None))}),
     "Run.trusted_until": (RUN.trusted_until, {}, {
         "tolerance": (*NO_NUMBERS, 0.0, -1.0),
         "source": ("round", None, 1),
