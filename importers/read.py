@@ -54,6 +54,9 @@ def read_drawing(source: str | os.PathLike[str] | IO[Any]) -> Drawing:
         name = os.fspath(source)
         data = _read_stream(sys.stdin, "-") if name == "-" else _read_path(name)
         return read_drawing_text(data, name)
+    if not hasattr(source, "read"):
+        fix = "give a path or an open file; a text goes to read_drawing_text"
+        raise DrawingError(f"source is a {type(source).__name__}", code="unreadable", fix=fix)
     name = getattr(source, "name", "")
     return read_drawing_text(_read_stream(source, name), name if isinstance(name, str) else "")
 
@@ -69,6 +72,9 @@ def read_drawing_text(text: str | bytes, file: str = "") -> Drawing:
         DrawingError: it is no drawing; the message says what it looks like.
         LimitError: it is larger than one of the limits in importers.limits.
     """
+    for name, value, kinds in (("text", text, (str, bytes, bytearray)), ("file", file, (str,))):
+        if not isinstance(value, kinds):
+            raise DrawingError(f"{name} is a {type(value).__name__}", code="unreadable", fix="give a text")
     if isinstance(text, str):
         text = _to_bytes(text.removeprefix("\ufeff"))
     check_input_size(len(text), file)

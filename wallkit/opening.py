@@ -272,7 +272,7 @@ def _changed(balls: Balls, drawn: Drawn | None, wishes: Wishes, assumed: list[st
         assumed += [f"{SPEED:g} units/s (--speed)", f"direction {ANGLE:g} degrees (--angle)"]
     if drawn is not None and drawn.used:
         assumed.append(f"{len(balls)} {'ball' if len(balls) == 1 else 'balls'} drawn on the layer 'balls'")
-    return replace(balls, radius=wishes.radius) if wishes.radius is not None else balls
+    return Balls(balls.position, balls.velocity, wishes.radius) if wishes.radius is not None else balls
 
 
 def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, Balls]:
