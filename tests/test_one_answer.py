@@ -257,6 +257,18 @@ def test_a_wrong_option_is_an_error_with_its_name_in_the_library_and_in_a_file(k
         wallkit.open_scene(tmp_path / "s.toml")
 
 
+def test_the_schema_of_scenes_and_the_command_line_know_every_option(said):
+    from importlib.resources import files
+
+    from wallkit.walls.import_options import as_option, option_names
+
+    schema = json.loads((files("wallkit.schemas") / "scene.schema.json").read_text())
+    assert set(schema["properties"]["import"]["properties"]) == set(option_names())
+    for command in ("import", "check", "simulate", "play", "report"):
+        told = said(command, "--help")[1]
+        assert [name for name in option_names() if as_option(name) not in told] == []
+
+
 def test_walls_given_as_numbers_follow_their_winding():
     room, island = [(0, 0), (0, 300), (400, 300), (400, 0)], [(150, 100), (250, 100), (250, 200), (150, 200)]
     space = free_space(wallkit.Walls.from_polylines([room, island]))
