@@ -49,6 +49,7 @@ def check(
     snap: options.Snap = 0.0,
 ) -> None:
     """Find problems and leaks, with places and fixes; exit with 1 when there are findings."""
+    from wallkit.walls.ball_places import ball_problems, goal_problems
     from wallkit.walls.free_space import free_space
     from wallkit.walls.leaks import leak_problems, reach_of
     from wallkit.walls.repair import Repairs
@@ -69,9 +70,11 @@ def check(
     if radius is None and len(given.radii):
         radius = float(given.radii.min())
         given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
-    space = free_space(walls, free=given.places if len(given.places) else None)
+    space = free_space(walls)
     reach = reach_of(space, walls, radius, given.places)
-    found = [*leak_problems(space, reach), *walls.problems, *given.problems, *_without_walls(walls)]
+    found = ball_problems(space, walls, given.places, given.radii)
+    found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)
+    found += [*leak_problems(space, reach), *walls.problems, *given.problems, *_without_walls(walls)]
     problems = sorted(found, key=_rank)
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
@@ -113,6 +116,7 @@ class _Given:
     radii: NDArray[np.float64]
     problems: list[Problem] = field(default_factory=list)
     assumed: list[str] = field(default_factory=list)
+    sensors: Walls | None = None
 
 
 def _read(file: str, importing: dict[str, Any]) -> _Given:
@@ -131,7 +135,8 @@ def _read(file: str, importing: dict[str, Any]) -> _Given:
         return _Given(_checked_again(loads(data, file)), np.empty((0, 2)), np.empty(0))
     scene = read_scene(data, file=file, folder=Path() if file == "-" else Path(file).parent).scene
     balls = scene.balls
-    return _Given(_checked_again(scene.walls), np.asarray(balls.position), np.asarray(balls.radius))
+    places, radii = np.asarray(balls.position), np.asarray(balls.radius)
+    return _Given(_checked_again(scene.walls), places, radii, sensors=scene.sensors)
 
 
 def _checked_again(walls: Walls) -> Walls:
