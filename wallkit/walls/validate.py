@@ -18,6 +18,7 @@ from wallkit.walls.rings import signed_areas
 from wallkit.walls.shapes import straightened
 from wallkit.walls.strokes import FloatArray, IntArray
 from wallkit.walls.walls import Walls
+from wallkit.walls.widths import is_thin
 
 MOST_PLACES = 1000  # of one code; further ones are counted
 ROUNDING = 1e-14  # of the largest coordinate: an end so near a wall was put onto it
@@ -156,7 +157,11 @@ def _shared(findings: Findings, pairs: IntArray, at: FloatArray, length: FloatAr
 
 
 def _slivers(findings: Findings, edges: Edges) -> None:
-    """Closed walls thinner than the tolerance: twice the area over the perimeter is the width of a thin strip."""
+    """Closed walls that no disc as wide as the tolerance fits into.
+
+    The largest disc in a ring has at least the radius area / perimeter, so only rings below that are looked at. Of a
+    ring that crosses itself the signed area is no area, but not more than that.
+    """
     if not len(edges.closed) or not len(edges):
         return
     area = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
@@ -164,8 +169,10 @@ def _slivers(findings: Findings, edges: Edges) -> None:
     width = 2 * area / np.where(perimeter > 0, perimeter, 1.0)
     limit = findings.walls.tolerance or 1e-6 * diagonal(edges.vertices)
     for wall in np.flatnonzero(edges.closed & (width < limit)).tolist():
+        if not is_thin(edges.vertices[edges.offsets[wall] : edges.offsets[wall + 1]], limit):
+            continue
         message = f"{findings.called(wall)} is a sliver about {width[wall]:.3g} wide"
-        fix = f"delete it, or remove slivers (--min-width {at_least(float(width[wall]) * 1.01)})"
+        fix = f"delete it, or remove slivers (--min-width {at_least(limit)})"
         findings.add(wall, "sliver", "warning", message, fix, edges.vertices[edges.offsets[wall]])
 
 
