@@ -143,7 +143,8 @@ def test_a_leak_and_a_ball_in_material_are_findings_whichever_is_drawn_first(bal
     assert (ball["x"], ball["y"], ball["name"]) == (190, 100, "block")
 
 
-DIVIDED = """<svg xmlns="http://www.w3.org/2000/svg"><rect id="frame" width="300" height="200" fill="none" stroke="#000"/>
+DIVIDED = """<svg xmlns="http://www.w3.org/2000/svg">
+<rect id="frame" width="300" height="200" fill="none" stroke="#000"/>
 <rect x="145" width="10" height="90" fill="#555"/><rect x="145" y="102" width="10" height="98" fill="#555"/></svg>"""
 
 

@@ -265,8 +265,8 @@ def _crossing(one: ExactEdges, two: ExactEdges) -> ComplexArray:
     """Where lines cross; with the very coordinate of a line that is level or upright."""
     point = meetings(one, two)[:, 0]
     for e in (one, two):
-        point = np.where(e.a.real == e.b.real, e.a.real + 1j * point.imag, point)
-        point = np.where(e.a.imag == e.b.imag, point.real + 1j * e.a.imag, point)
+        point.real = np.where(e.a.real == e.b.real, e.a.real, point.real)
+        point.imag = np.where(e.a.imag == e.b.imag, e.a.imag, point.imag)
     return point
 
 
