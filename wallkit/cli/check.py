@@ -42,6 +42,7 @@ def check(
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Find problems and leaks, with places and fixes; exit with 1 when there are findings."""
+    from wallkit.walls.ball_places import ball_problems, goal_problems
     from wallkit.walls.free_space import free_space
     from wallkit.walls.leaks import leak_problems, reach_of
 
@@ -51,9 +52,11 @@ def check(
     if radius is None and len(given.radii):
         radius = float(given.radii.min())
         given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
-    space = free_space(walls, free=given.places if len(given.places) else None)
+    space = free_space(walls)
     reach = reach_of(space, walls, radius, given.places)
-    found = [*leak_problems(space, reach), *given.problems, *_without_walls(walls)]
+    found = ball_problems(space, walls, given.places, given.radii)
+    found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)
+    found += [*leak_problems(space, reach), *given.problems, *_without_walls(walls)]
     problems = sorted(_once(found), key=_rank)
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
@@ -104,6 +107,7 @@ class _Given:
     radii: NDArray[np.float64]
     problems: list[Problem] = field(default_factory=list)
     assumed: list[str] = field(default_factory=list)
+    sensors: Walls | None = None
 
 
 def _given(file: str, importing: ImportOptions) -> _Given:
@@ -117,8 +121,9 @@ def _given(file: str, importing: ImportOptions) -> _Given:
     walls, balls = found.scene.walls, found.scene.balls
     assumed = [] if walls.solid is None or walls.solid.how == "asked" else [walls.solid.sentence()]
     if found.found_place:
-        return _Given(walls, np.empty((0, 2)), np.empty(0), found.problems, assumed)
-    return _Given(walls, np.asarray(balls.position), np.asarray(balls.radius), found.problems, assumed)
+        return _Given(walls, np.empty((0, 2)), np.empty(0), found.problems, assumed, found.scene.sensors)
+    places, radii = np.asarray(balls.position), np.asarray(balls.radius)
+    return _Given(walls, places, radii, found.problems, assumed, found.scene.sensors)
 
 
 def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, findings: int) -> dict[str, Any]:
