@@ -201,6 +201,16 @@ def test_what_paints_nothing_is_no_wall_unless_asked_for_or_nothing_is_painted(t
     assert len(wallkit.import_walls(tmp_path / "outlines.svg")) == 1
 
 
+def test_the_picture_of_walls_says_what_was_assumed():
+    from wallkit.view.picture import walls_svg
+
+    for name in ("caverns.svg", "platforms.svg"):
+        walls = wallkit.import_walls(LEVELS / name)
+        assert f"assumed: {walls.solid.sentence()}".replace("'", "&#x27;")[:60] in walls_svg(walls).replace(
+            "'", "&#x27;"
+        )
+
+
 def test_an_option_or_a_key_goes_before_every_guess(tmp_path, said):
     file = LEVELS / "block-in-a-room.svg"
     for words, room in ((["--solid"], False), (["--arena"], True), (["--room", "block"], False)):
