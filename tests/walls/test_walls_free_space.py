@@ -270,5 +270,5 @@ def test_a_room_whose_outline_closes_with_an_edge_as_short_as_rounding_is_a_room
     free = shapely.difference(shapely.Polygon(corners), shapely.box(-100, -20, -40, 40))
     largest = shapely.length(shapely.maximum_inscribed_circle(free, tolerance=0.01))
     assert space.gaps == []
-    # shapely's answer is short by at most its tolerance
-    assert max(r for _, _, r in space.closed_rooms.tolist()) == pytest.approx(largest, abs=0.011)
+    # Without the room the block's own inside would be all that there is, of radius 30.
+    assert max(r for _, _, r in space.closed_rooms.tolist()) == pytest.approx(largest, rel=2e-3)
