@@ -120,10 +120,10 @@ def _given(file: str, importing: ImportOptions) -> _Given:
     found = opened(file, Wishes(importing=importing, may_be_empty=True))
     walls, balls = found.scene.walls, found.scene.balls
     assumed = [] if walls.solid is None or walls.solid.how == "asked" else [walls.solid.sentence()]
-    sensors = found.scene.sensors
     if found.found_place:
-        return _Given(walls, np.empty((0, 2)), np.empty(0), found.problems, assumed, sensors)
-    return _Given(walls, np.asarray(balls.position), np.asarray(balls.radius), found.problems, assumed, sensors)
+        return _Given(walls, np.empty((0, 2)), np.empty(0), found.problems, assumed, found.scene.sensors)
+    places, radii = np.asarray(balls.position), np.asarray(balls.radius)
+    return _Given(walls, places, radii, found.problems, assumed, found.scene.sensors)
 
 
 def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, findings: int) -> dict[str, Any]:
