@@ -14,6 +14,8 @@ _SLACK = 1e-12  # of an edge: what rounding does to the part of it at which a po
 def meetings(e: ExactEdges, f: ExactEdges) -> ComplexArray:
     """The common points of the whole lines or circles that edges are on, pair by pair: (n, 2), NaN where none.
 
+    Of lines alone (n, 1).
+
     Lines: e.a + t d with t = ((f.a - e.a) x d') / (d x d'). A line and a circle: the foot of the centre, and along
     the line by sqrt(R^2 - distance^2). Two circles at a distance D: a = (R^2 - R'^2 + D^2) / (2 D) along the line
     of centres, and across it by sqrt(R^2 - a^2).
@@ -21,6 +23,8 @@ def meetings(e: ExactEdges, f: ExactEdges) -> ComplexArray:
     d, other = e.b - e.a, f.b - f.a
     with np.errstate(divide="ignore", invalid="ignore"):
         straight = e.a + d * (cross(f.a - e.a, other) / cross(d, other))
+        if not e.radius.any() and not f.radius.any():
+            return straight[:, None]
         foot, half = _on_circle(e, f.centre, f.radius)
         ahead = half * d / np.abs(d)
         back_foot, back_half = _on_circle(f, e.centre, e.radius)
@@ -48,7 +52,9 @@ def part_of(e: ExactEdges, point: ComplexArray) -> FloatArray:
     """The part of an edge's length at which a point of its line or circle lies: 0 at its start, 1 at its end."""
     d = e.b - e.a
     with np.errstate(divide="ignore", invalid="ignore"):
-        part = ((point - e.a) * d.conj()).real / np.abs(d) ** 2
+        part: FloatArray = ((point - e.a) * d.conj()).real / np.abs(d) ** 2
+        if not e.radius.any():
+            return part
         turned = np.angle((point - e.centre) / (e.a - e.centre)) * np.sign(e.angle)
         turned = np.where(turned < -_SLACK, turned + 2 * np.pi, turned)
         round_ = turned / np.abs(e.angle)

@@ -27,7 +27,8 @@ def resolve_crossings(lines: list[Line], tolerance: float) -> Outcome:
     touching = contacts.touch_walls[:, 0] == contacts.touch_walls[:, 1]
     bad = {int(w) for w in contacts.crossing_walls[own, 0]} | {int(w) for w in pairs[folded, 0]}
     bad |= {int(w) for w in contacts.touch_walls[touching, 0]}
-    bad = {wall for wall in bad if lines[wall].closed}
+    copy_of = contacts.copy_of.tolist()
+    bad = {wall for wall, line in enumerate(lines) if line.closed and copy_of[wall] in bad}
     result: list[Line] = []
     at = None
     for index, line in enumerate(lines):

@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
+from wallkit.walls.copies import copies
 from wallkit.walls.lines import Line, edges_of
-from wallkit.walls.nesting import copies
 from wallkit.walls.strokes import FloatArray
 
 Outcome = tuple[list[Line], int, float, str, "FloatArray | None"]

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from wallkit.walls.lines import Line, from_lines
-from wallkit.walls.loose_ends import LooseEnd, loose_ends
+from wallkit.walls.loose_ends import LooseEnd, landed, loose_ends
 from wallkit.walls.repair_lines import Outcome
 from wallkit.walls.strokes import FloatArray
 from wallkit.walls.walls import Walls
@@ -23,7 +23,7 @@ def snap_ends(lines: list[Line], reach: float) -> Outcome:
     moved, count, at = 0.0, 0, None
     for _ in range(_ROUNDS):
         walls = from_lines(Walls.from_polylines([]), lines)
-        found = [loose for loose in loose_ends(walls, reach) if loose.need <= reach]
+        found = landed(walls, [loose for loose in loose_ends(walls, reach) if loose.need <= reach])
         if not found:
             break
         lines = list(lines)

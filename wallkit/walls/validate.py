@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from importers.problems import Problem, Severity
 from wallkit.walls.contacts import Contacts, find_contacts
+from wallkit.walls.copies import copies
 from wallkit.walls.edges import Edges
 from wallkit.walls.loose_ends import LooseEnd, loose_ends, settled_places
-from wallkit.walls.nesting import copies
 from wallkit.walls.rings import signed_areas
 from wallkit.walls.shapes import straightened
 from wallkit.walls.strokes import FloatArray, IntArray
@@ -88,7 +88,7 @@ def validate(
     edges = straight_edges(walls) if edges is None else edges
     contacts = find_contacts(edges) if contacts is None else contacts
     findings = Findings(walls, lines)
-    loose = loose_ends(walls, _NEAR * diagonal(edges.vertices))
+    loose = loose_ends(walls, _NEAR * diagonal(edges.vertices)) if contacts.complete else []
     _crossings(findings, contacts, _at_ends(walls, contacts, loose))
     _duplicates(findings, edges, contacts)
     _slivers(findings, edges)
@@ -136,7 +136,7 @@ def _crossings(findings: Findings, contacts: Contacts, known: NDArray[np.bool_])
         fix = "draw them apart, or unite the solids (--union)" if solids else "draw them apart, or end one at the other"
         findings.add(one, "crossing", "warning", message, fix, contacts.crossing_at[row])
     if not contacts.complete:
-        message = "more edges lie close together than are looked at: not all crossings are known"
+        message = "more edges meet or lie close together than are looked at: not all crossings and gaps are known"
         findings.problems.append(Problem("tangled", "warning", message, "take fewer layers, or a larger tolerance"))
 
 
