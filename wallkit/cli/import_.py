@@ -23,7 +23,10 @@ def register(app: typer.Typer) -> None:
 def import_drawing(
     file: options.File,
     out: Annotated[
-        str, typer.Option("-o", "--out", metavar="OUT", help="Where to write (.json); - is standard output.")
+        str,
+        typer.Option(
+            "-o", "--out", metavar="OUT", help="Where to write: .json, or as export does; - is standard output."
+        ),
     ] = "-",
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls and all findings (.svg, .png).")] = "",
     tolerance: options.Tolerance = None,
@@ -44,14 +47,18 @@ def import_drawing(
     outline_strokes: options.OutlineStrokes = False,
 ) -> None:
     """Turn a drawing into walls: closed and open polylines with outward normals."""
+    from importers.read import read_drawing
+    from wallkit.cli.export import page_of, write_level
     from wallkit.cli.messages import show_problems
+    from wallkit.export.formats import known_ending
     from wallkit.walls.build import import_walls
     from wallkit.walls.repair import Repairs
 
     _check_ending(out)
+    drawing = read_drawing(source(file))
     repairs = Repairs(snap, join, drop_duplicates, resolve, union, min_width, simplify)
     walls = import_walls(
-        source(file),
+        drawing,
         tolerance=tolerance,
         curves=curves,
         layers=layer or None,
@@ -65,8 +72,12 @@ def import_drawing(
     )
     if preview:
         draw(walls, preview)
-    walls.save(out)
-    show_problems(walls.problems, walls.source_file)
+    problems = walls.problems
+    if out == "-" or not known_ending(out):
+        walls.save(out)
+    else:
+        problems = problems + write_level(walls, out, None, page=page_of(drawing, scale, flip_y))
+    show_problems(problems, walls.source_file)
     summarise(walls)
 
 
@@ -82,13 +93,15 @@ def source(file: str) -> Any:
 
 
 def _check_ending(out: str) -> None:
+    from wallkit.export.formats import formats, known_ending
     from wallkit.walls.walls import WallsError
 
-    if out != "-" and Path(out).suffix.lower() != ".json":
+    if out != "-" and Path(out).suffix.lower() != ".json" and not known_ending(out):
+        endings = ", ".join(each.endings[0] for each in formats().values())
         raise WallsError(
             f"walls cannot be written as {Path(out).suffix or 'a file without an ending'}",
             code="unknown-ending",
-            fix="use an ending of these: .json",
+            fix=f"use .json, or for a level an ending of these: {endings}",
             file=out,
         )
 
