@@ -102,3 +102,32 @@ def wallkit_command(*arguments, **kwargs):
 def same_points(read, wall):
     """What was read is the wall's vertices, to the bit."""
     return np.array_equal(np.asarray(read, dtype=float), wall.vertices)
+
+
+class Start:
+    """A place for a ball inside a level, six directions, and the question whether a ball has got out.
+
+    The place is the roomiest spot of the same walls as placed; a ball is lost when its centre is not in the face of
+    free space that it started in. The ball has a twentieth of the room, so that it comes through every passage.
+    """
+
+    def __init__(self, walls, y_axis, metres, **options):
+        from wallkit.export import build_level
+        from wallkit.starts import roomiest
+
+        level = build_level(walls, ExportOptions(**options), y_axis=y_axis, metres=metres)
+        placed = wallkit.Walls.from_polylines([w.vertices for w in level], [w.closed for w in level])
+        placed.depth = walls.depth
+        spot = roomiest(placed)
+        self.x, self.y, self.radius, self.face = spot.x, spot.y, spot.room / 20, spot.face
+        self.angles = [0.3 + k * np.pi / 3 for k in range(6)]
+
+    def velocities(self, speed):
+        return [(speed * float(np.cos(angle)), speed * float(np.sin(angle))) for angle in self.angles]
+
+    def lost(self, places):
+        import shapely
+
+        assert len(places) == len(self.angles)
+        assert np.isfinite(places).all()
+        return int((~shapely.contains_xy(self.face, *np.asarray(places, dtype=float).T)).sum())

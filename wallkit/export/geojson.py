@@ -12,7 +12,7 @@ import numpy as np
 
 from wallkit.export.json_text import spread
 from wallkit.export.level import Level, LevelWall, signed_area
-from wallkit.export.material_shapes import polygons_of
+from wallkit.export.material_shapes import areas_of, is_ring
 
 
 def write(level: Level) -> str:
@@ -21,13 +21,13 @@ def write(level: Level) -> str:
         level.findings.say("export-planar", "coordinates are plane; programs for maps take GeoJSON for degrees")
     kind = "room" if level.is_room else "material"
     areas = [
-        _feature({"type": "Polygon", "coordinates": _rings(polygon)}, {"kind": kind}) for polygon in polygons_of(level)
+        _feature({"type": "Polygon", "coordinates": _rings(area.polygon)}, {"kind": kind}) for area in areas_of(level)
     ]
     return spread({"type": "FeatureCollection", "features": areas + [_wall(wall) for wall in level]}, 2) + "\n"
 
 
 def _wall(wall: LevelWall) -> dict[str, Any]:
-    ring = wall.closed and len(wall.vertices) > 2
+    ring = is_ring(wall)
     properties = {
         "kind": "ring" if ring else "line",
         "name": wall.name,

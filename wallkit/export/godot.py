@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wallkit.export.level import Level, LevelWall
-from wallkit.export.losses import say_friction
+from wallkit.export.losses import say_friction, say_single_precision
 from wallkit.export.names import say_renamed, unique
 from wallkit.walls.strokes import FloatArray
 
@@ -64,7 +64,7 @@ GODOT3 = Dialect(2, "PoolVector2Array", "physics_material_override")
 def write_scene(level: Level, dialect: Dialect) -> str:
     """Write a level as a scene of one Node2D with a body for each wall."""
     say_friction(level, "metadata")
-    _say_rounding(level)
+    say_single_precision(level, "Godot")
     names = unique((wall.name for wall in level), _FORBIDDEN)
     say_renamed(level.walls, names, "the metadata wallkit_name", level.findings)
     resources = _Resources(dialect)
@@ -139,16 +139,6 @@ def _one_way(wall: LevelWall, resources: _Resources) -> Iterable[list[str]]:
             f"shape = {shape}",
             "one_way_collision = true",
         ]
-
-
-def _say_rounding(level: Level) -> None:
-    moved = [float(np.abs(wall.vertices - wall.vertices.astype(np.float32)).max(initial=0.0)) for wall in level]
-    if max(moved, default=0.0) > 0:
-        level.findings.note(
-            "export-rounded",
-            [wall for wall, distance in zip(level, moved, strict=True) if distance],
-            f"the file has all digits, but Godot keeps 32-bit numbers: vertices move by up to {max(moved):.1g}",
-        )
 
 
 def _value(value: str | float) -> str:

@@ -74,6 +74,7 @@ class Level:
         options: as given.
         findings: where exporters say what they could not.
         source_file: the drawing's name.
+        units: of the drawing, where the scale left them; else ``""``.
     """
 
     walls: list[LevelWall]
@@ -84,6 +85,7 @@ class Level:
     options: ExportOptions
     findings: Findings
     source_file: str
+    units: str
 
     def __iter__(self) -> Iterator[LevelWall]:
         return iter(self.walls)
@@ -136,7 +138,17 @@ def build_level(
         made = _spaced(made, spacing, findings)
     everything = np.concatenate([wall.vertices for wall in made]) if made else np.empty((0, 2))
     page = frame.page and (scale * (frame.page[2] - frame.page[0]), scale * (frame.page[3] - frame.page[1]))
-    level = Level(made, y_axis, scale, _box(everything), page, options, findings, walls.source_file)
+    level = Level(
+        made,
+        y_axis,
+        scale,
+        _box(everything),
+        page,
+        options,
+        findings,
+        walls.source_file,
+        walls.units if scale == 1 else "",
+    )
     _say(level, walls, lines, placed, frame.place(lines, 0.0) if options.grid else placed)
     if metres and options.scale is None and made:
         findings.say(
@@ -222,8 +234,8 @@ def _walls(walls: Walls, placed: Walls, curves: Walls | None) -> list[LevelWall]
         result.append(
             LevelWall(
                 number=number,
-                name=name,
-                layer=layer,
+                name=_sound(name),
+                layer=_sound(layer),
                 closed=closed,
                 depth=depth,
                 sides=sides,
@@ -235,6 +247,11 @@ def _walls(walls: Walls, placed: Walls, curves: Walls | None) -> list[LevelWall]
             )
         )
     return result
+
+
+def _sound(text: str) -> str:
+    """Give a text that every file can hold: half a surrogate pair becomes a question mark."""
+    return text if text.isascii() else text.encode("utf-8", "replace").decode("utf-8")
 
 
 def _curve(curves: Walls, number: int) -> FloatArray | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from wallkit.export.level import Level
 
 
@@ -37,4 +39,14 @@ def say_two_sided(level: Level, engine: str) -> None:
         lambda wall: wall.closed and not wall.one_way,
         f"{engine} stops balls from outside the material only; one that starts inside it gets out",
         "for balls inside a ring import with --arena",
+    )
+
+
+def say_single_precision(level: Level, engine: str) -> None:
+    """Say how far an engine that keeps 32-bit numbers moves the vertices of the file."""
+    moved = [float(np.abs(wall.vertices - wall.vertices.astype(np.float32)).max(initial=0.0)) for wall in level]
+    level.findings.note(
+        "export-rounded",
+        [wall for wall, distance in zip(level, moved, strict=True) if distance],
+        f"the file has all digits, but {engine} keeps 32-bit numbers: up to {max(moved, default=0):.1g} away",
     )

@@ -13,13 +13,14 @@ import numpy as np
 from wallkit.export.box2d import is_loop, say_box2d
 from wallkit.export.json_text import spread
 from wallkit.export.level import Level, LevelWall
-from wallkit.export.losses import say_two_sided
+from wallkit.export.losses import say_single_precision, say_two_sided
 
 
 def write(level: Level) -> str:
     """Write a level as R.U.B.E. JSON."""
     say_box2d(level, "a custom property", keeps=lambda wall: True)
     say_two_sided(level, "Box2D from 2.4 on")
+    say_single_precision(level, "Box2D")
     whole = {
         "gravity": {"x": 0.0, "y": 0.0},
         "allowSleep": True,

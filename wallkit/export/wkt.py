@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from wallkit.export.level import Level
-from wallkit.export.material_shapes import polygons_of
+from wallkit.export.material_shapes import areas_of, is_ring
 
 
 def write(level: Level) -> str:
@@ -16,8 +16,10 @@ def write(level: Level) -> str:
     level.findings.note(
         "export-names", level.walls, "well-known text has shapes only: names, layers and materials are left out"
     )
-    lines = [shapely.LineString(_line(wall)) for wall in level if not (wall.closed and len(wall.vertices) > 2)]
-    whole = shapely.GeometryCollection([shapely.MultiPolygon(polygons_of(level)), shapely.MultiLineString(lines)])
+    lines = [shapely.LineString(_line(wall)) for wall in level if not is_ring(wall)]
+    whole = shapely.GeometryCollection(
+        [shapely.MultiPolygon([area.polygon for area in areas_of(level)]), shapely.MultiLineString(lines)]
+    )
     return str(shapely.to_wkt(whole, rounding_precision=-1)) + "\n"
 
 
