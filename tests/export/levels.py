@@ -78,14 +78,14 @@ def program(*names):
     return None
 
 
-def node(script, *arguments, needs=()):
-    """Run a program of node's that prints JSON; skipped without node or one of the packages it needs."""
+def node(script, argument, needs):
+    """Run a program of tests/export/engines that prints JSON; skipped without node or the package that it needs."""
     command = program("node")
-    for package in needs:
-        found = subprocess.run([command, "-e", f"require.resolve({package!r})"], capture_output=True)
-        if found.returncode:
-            pytest.skip(f"node does not find the package {package} (npm install {package}; NODE_PATH names the folder)")
-    return json.loads(run([command, "-e", script, "--", *map(str, arguments)], env=os.environ))
+    found = subprocess.run([command, "-e", f"require.resolve({needs!r})"], capture_output=True, timeout=60)
+    if found.returncode:
+        pytest.skip(f"node does not find the package {needs} (npm install it; NODE_PATH names the folder)")
+    file = Path(__file__).parent / "engines" / script
+    return json.loads(run([command, str(file), json.dumps(argument)], env=os.environ))
 
 
 def wallkit_command(*arguments, **kwargs):

@@ -74,7 +74,9 @@ def test_tiled_itself_opens_the_map_and_writes_the_same_numbers(name, ending, tm
         # Tiled's JSON has 15 digits: half a unit of the last of a number below 1000 is 5e-13, and there are two
         assert np.abs(np.subtract(ours_at, theirs_at)).max() <= 1e-12
         assert (mine["name"], mine["type"]) == (other["name"], other["type"])
-        assert {p["name"]: p["value"] for p in mine["properties"]} == {p["name"]: p["value"] for p in other["properties"]}
+        assert {p["name"]: p["value"] for p in mine["properties"]} == {
+            p["name"]: p["value"] for p in other["properties"]
+        }
 
 
 @pytest.mark.parametrize("ending", [".tmj", ".tmx"])
