@@ -24,21 +24,33 @@ def register(app: typer.Typer) -> None:
 def import_drawing(
     file: options.File,
     out: Annotated[
-        str, typer.Option("-o", "--out", metavar="OUT", help="Where to write (.json); - is standard output.")
+        str,
+        typer.Option(
+            "-o", "--out", metavar="OUT", help="Where to write: .json, or as export does; - is standard output."
+        ),
     ] = "-",
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls and all findings (.svg, .png).")] = "",
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Turn a drawing into walls: closed and open polylines with outward normals."""
+    from importers.read import read_drawing
+    from wallkit.cli.export import page_of, write_level
     from wallkit.cli.messages import show_problems
+    from wallkit.export.formats import known_ending
     from wallkit.walls.build import import_walls
 
     _check_ending(out)
-    walls = import_walls(source(file), options.options_of(importing or {}))
+    asked = options.options_of(importing or {})
+    drawing = read_drawing(source(file))
+    walls = import_walls(drawing, asked)
     if preview:
         draw(walls, preview)
-    walls.save(out)
-    show_problems(walls.problems, walls.source_file)
+    problems = walls.problems
+    if out == "-" or not known_ending(out):
+        walls.save(out)
+    else:
+        problems = problems + write_level(walls, out, None, page=page_of(drawing, asked.scale, asked.flip_y))
+    show_problems(problems, walls.source_file)
     summarise(walls)
     if walls.solid is not None and walls.solid.how != "asked":
         print(f"assumed: {walls.solid.sentence()}", file=sys.stderr)
@@ -56,13 +68,15 @@ def source(file: str) -> Any:
 
 
 def _check_ending(out: str) -> None:
+    from wallkit.export.formats import formats, known_ending
     from wallkit.walls.walls import WallsError
 
-    if out != "-" and Path(out).suffix.lower() != ".json":
+    if out != "-" and Path(out).suffix.lower() != ".json" and not known_ending(out):
+        endings = ", ".join(each.endings[0] for each in formats().values())
         raise WallsError(
             f"walls cannot be written as {Path(out).suffix or 'a file without an ending'}",
             code="unknown-ending",
-            fix="use an ending of these: .json",
+            fix=f"use .json, or for a level an ending of these: {endings}",
             file=out,
         )
 

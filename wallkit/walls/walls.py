@@ -284,6 +284,12 @@ class Walls(Pictured):
             raise arguments.refused("source", source, "a path or an open file", WallsError, "bad-path")
         return load(source)
 
+    def export(self, path: str | Path, format: str | None = None, **options: Any) -> list[Problem]:
+        """Write the walls as a level for an engine or editor, see :func:`wallkit.export.export`."""
+        from wallkit.export import export
+
+        return export(self, path, format, **options)
+
     def to_shapely(self, tolerance: float | None = None) -> Any:
         """Give the material and the open walls as shapely geometry, see :func:`wallkit.walls.shapes.to_shapely`."""
         from wallkit.walls.shapes import to_shapely
