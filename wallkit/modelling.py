@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from wallkit.damping import damping_of
 from wallkit.edges import arcs_of, corners_of, lines_of, no_corners
 from wallkit.indexing import build_grid
+from wallkit.joints import joints_of
 from wallkit.kernels.model import CELL, Model, in_lists
 from wallkit.scene import Balls, FloatArray, Scene, SceneError
 from wallkit.walls import Walls
@@ -72,6 +73,8 @@ class Modelled:
         is_arc = arcs["radius"] > 0.0 if arcs is not None else np.zeros(len(lines), dtype=np.bool_)
         is_line = (lines["length"] > 0.0) & ~is_arc
         kinds = [np.flatnonzero(which).astype(np.uint32) for which in (is_line, is_arc, corners.open)]
+        gravity = _gravity(scene)
+        joints, spokes = (None, None) if gravity is None else joints_of(vertices, lines, bulges, starts, ends)
         ids = np.concatenate([*kinds, np.zeros(1, dtype=np.uint32)])
         model = Model(
             ids=ids,
@@ -85,9 +88,11 @@ class Modelled:
             corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)),
             restitution=_restitution(scene),
             one_sided=_one_sided(scene),
-            gravity=_gravity(scene),
+            gravity=gravity,
             damping=damping_of(scene),
             extent=float(np.abs(vertices).max(initial=0.0)) + radius,
+            joints=joints,
+            spokes=spokes,
         )
         many = len(kinds[0]) + len(kinds[1]) > BRUTE_FORCE
         if index != "grid" and not (index == "auto" and many):

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from importers.pictured import Pictured
 from wallkit.damping import carried_on, damping_of
+from wallkit.gliding import glide, guides
 
 if TYPE_CHECKING:
     from wallkit.horizon import Horizon, Source
@@ -50,9 +51,10 @@ class Kind(enum.IntEnum):
     EDGE = 0
     VERTEX = 1
     SLIDE = 2
-    """From here on the ball keeps to the wall (gravity has brought it to rest against it)."""
+    """From here on the ball keeps to the wall, without friction: it slides on a line, glides along an arc, or pivots
+    about a vertex (where the edge is -1); or it rests."""
     LEAVE = 3
-    """The ball leaves the wall on which it slid."""
+    """The ball leaves the wall to which it kept."""
     ENTER = 4
     """The centre crosses a sensor against its outward normal; wall and edge are the sensor's."""
     EXIT = 5
@@ -74,11 +76,14 @@ class Ending(enum.IntEnum):
     COLLAPSE = 4
     AMBIGUOUS_CORNER = 5
     ABSORBED = 6
+    SWINGING = 7
+    """It keeps to the walls and meets nothing ever again: a run without an end in time stops there."""
 
     @property
     def label(self) -> str:
         """The words for people and files: "time reached", "left the scene"."""
-        return "left the scene" if self is Ending.LEFT_SCENE else self.name.lower().replace("_", " ")
+        words = {Ending.LEFT_SCENE: "left the scene", Ending.SWINGING: "swings for ever"}
+        return words.get(self, self.name.lower().replace("_", " "))
 
 
 @dataclass(eq=False)
@@ -162,9 +167,22 @@ class Run(Pictured):
                 state[ball] = carried_on(self._damping, state[ball], span)
             elif (span := min(time, end) - since) > 0.0:
                 pull = self.pull_after(contact)
+                if contact is not None and contact["kind"] == Kind.SLIDE:
+                    normal = np.array([contact["nx"], contact["ny"]])
+                    state[ball] = glide(self._gravity, state[ball], normal, self._bends[ball][passed - 1], span)
+                    continue
                 x, v = state[ball, 0:2], state[ball, 2:4]
                 state[ball] = np.concatenate([x + span * (v + 0.5 * span * pull), v + span * pull])
         return state
+
+    @cached_property
+    def _gravity(self) -> NDArray[np.float64]:
+        return np.asarray(self.scene.gravity if self.scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
+
+    @cached_property
+    def _bends(self) -> list[NDArray[np.float64]]:
+        """By ball what :func:`wallkit.gliding.guides` says of the contacts in ``_turns``."""
+        return [guides(self.scene.walls, own) for own in self._turns]
 
     @cached_property
     def _damping(self) -> NDArray[np.float64] | None:
@@ -177,7 +195,7 @@ class Run(Pictured):
 
     def pull_after(self, contact: Any) -> NDArray[np.float64]:
         """Acceleration after a contact (None: at the start): gravity, or the part of it along a wall that holds."""
-        pull = np.asarray(self.scene.gravity if self.scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
+        pull = self._gravity
         if contact is None or contact["kind"] != Kind.SLIDE:
             return pull
         along = np.array([-contact["ny"], contact["nx"]])

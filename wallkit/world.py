@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wallkit.damping import carried_on, damping_of
+from wallkit.gliding import glide, guides
+from wallkit.kernels.leaving import LEVEL_SPEED
 from wallkit.kernels.model import NO_HIT
 from wallkit.run import CONTACT, Kind
 from wallkit.scene import FloatArray, Scene, SceneError
@@ -68,6 +70,8 @@ class World:
         self._since = np.zeros(len(self._base))  # ... when: after its last contact or change
         self._gravity = np.zeros(2) if scene.gravity is None else np.array(scene.gravity, dtype=np.float64)
         self._pull = np.tile(self._gravity, (len(self._base), 1))  # what accelerates each ball since
+        self._keeps = np.zeros(len(self._base), dtype=np.bool_)  # whether a wall holds it since then, ...
+        self._bend = np.zeros(len(self._base))  # ... and on what circle: see guides
         self._end = np.full(len(self._base), math.inf)  # when it rests for good, or is caught
         self._normal = np.zeros((len(self._base), 2))  # of that contact, and what was touched
         self._touched = np.full(len(self._base), NO_HIT, dtype=np.int64)
@@ -99,7 +103,12 @@ class World:
             return np.array([carried_on(self._damping, *now) for now in zip(self._base, span.tolist(), strict=True)])
         position, velocity = self._base[:, 0:2], self._base[:, 2:4]
         grown = span[:, None] * self._pull
-        return np.hstack([position + span[:, None] * (velocity + 0.5 * grown), velocity + grown])
+        state = np.hstack([position + span[:, None] * (velocity + 0.5 * grown), velocity + grown])
+        for ball in np.flatnonzero(self._bend).tolist():
+            state[ball] = glide(
+                self._gravity, self._base[ball], self._normal[ball], self._bend[ball], float(span[ball])
+            )
+        return state
 
     def step(self, dt: float) -> NDArray[Any]:
         """Move everything on by ``dt`` seconds.
@@ -144,16 +153,32 @@ class World:
         Raises:
             SceneError: a number is not finite.
         """
-        touched = int(self._touched[ball]) if position is None and self._since[ball] == self.time else NO_HIT
         here = self.position[ball] if position is None else np.asarray(position, dtype=np.float64)
         speed = self.velocity[ball] if velocity is None else np.asarray(velocity, dtype=np.float64)
         if here.shape != (2,) or speed.shape != (2,) or not (np.isfinite(here).all() and np.isfinite(speed).all()):
             raise SceneError(f"ball {ball} cannot be put at {position!r}, {velocity!r}", code="bad-ball")
-        normal = self._normal[ball]
-        if touched != NO_HIT and speed @ normal < 0.0:
-            speed = speed - 2.0 * (speed @ normal) * normal
-        self._restart(ball, here, speed, self.time, touched)
+        touched, normal = (NO_HIT, None) if position is not None else self._contact(ball, here)
+        if normal is None or touched == NO_HIT:
+            self._restart(ball, here, speed, self.time, NO_HIT)
+        else:
+            away = float(speed @ normal)
+            along = abs(away) <= LEVEL_SPEED * float(np.abs(speed).sum()) and float(self._gravity @ normal) < 0.0
+            if away < 0.0 and not along:
+                speed = speed - 2.0 * away * normal
+            self._restart(ball, here, speed, self.time, touched, normal if along else None)
         self._soonest = float(self._next_time.min())
+
+    def _contact(self, ball: int, here: FloatArray) -> tuple[int, FloatArray | None]:
+        """What a ball touches now, and the unit normal towards it: what holds it, or what it has just hit."""
+        touched, normal = int(self._touched[ball]), self._normal[ball]
+        if touched == NO_HIT or not (
+            self._keeps[ball] or self._since[ball] == self.time or self.time >= self._end[ball]
+        ):
+            return NO_HIT, None
+        if (bend := float(self._bend[ball])) != 0.0:  # the normal turns as the ball goes round
+            turned: FloatArray = normal + (here - self._base[ball, 0:2]) / bend
+            normal = turned / np.hypot(*turned)
+        return touched, normal
 
     def _look_ahead(self, ball: int) -> None:
         """Find the ball's next contact; the frames catch up with it later."""
@@ -185,6 +210,11 @@ class World:
         self._base[ball, 2:4] = row[3:5]
         self._since[ball], self._pull[ball] = row[0], self._pull_after(row)
         self._normal[ball], self._touched[ball] = row[7:9], row[9]
+        self._keeps[ball] = row[10] == Kind.SLIDE
+        self._bend[ball] = 0.0
+        if self._keeps[ball]:
+            contact = self._flights.contacts([row[None]], [np.array([ball], dtype=np.int32)])
+            self._bend[ball] = guides(self.scene.walls, contact)[0]
         self._look_ahead(ball)
 
     def _pull_after(self, row: FloatArray) -> FloatArray:
@@ -205,8 +235,17 @@ class World:
         else:
             self._restart(ball, self.position[ball] + dt * after, after, end, NO_HIT)
 
-    def _restart(self, ball: int, position: FloatArray, velocity: FloatArray, time: float, last: int) -> None:
-        self._flights.place(ball, position, velocity, time, last)
+    def _restart(
+        self,
+        ball: int,
+        position: FloatArray,
+        velocity: FloatArray,
+        time: float,
+        last: int,
+        normal: FloatArray | None = None,
+    ) -> None:
+        self._flights.place(ball, position, velocity, time, last, normal)
         self._base[ball] = *position, *velocity
         self._since[ball], self._touched[ball], self._pull[ball] = time, last, self._gravity
+        self._keeps[ball], self._bend[ball] = False, 0.0
         self._look_ahead(ball)

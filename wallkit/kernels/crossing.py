@@ -7,9 +7,9 @@ import math
 from wallkit.kernels.damping import free_time, slowed
 from wallkit.kernels.flight import fly, normal_of
 from wallkit.kernels.jit import kernel
-from wallkit.kernels.model import EDGE, FREE, LOG_STRIDE, NO_HIT, RUNNING, SLIDE, SLIDING
+from wallkit.kernels.model import EDGE, FREE, LOG_STRIDE, NO_HIT, RUNNING, SLIDE
 from wallkit.kernels.motion import advance
-from wallkit.kernels.pull import first_contact, move, pull_on
+from wallkit.kernels.pull import first_contact, move
 
 
 @kernel
@@ -35,11 +35,13 @@ def next_crossing(sensors, pull, x, y, vx, vy, time, lost, until, last, toleranc
     remaining = (until - time) - lost
     energy = vx * vx + vy * vy
     best = free_time(sensors.damping, energy, remaining)
-    t, edge, _touched = first_contact(sensors, pull, 0.0, x, y, vx, vy, energy, last, NO_HIT, FREE, tolerance, best)
+    t, edge, _touched = first_contact(
+        sensors, pull, 0.0, x, y, vx, vy, energy, last, NO_HIT, FREE, 1.0, tolerance, best
+    )
     if edge == NO_HIT:
         return x, y, vx, vy, time, lost, edge
     passed, kept = slowed(sensors.damping, energy, t, remaining)
-    x, y, vx, vy = move(sensors, pull, NO_HIT, FREE, x, y, vx, vy, t)
+    x, y, vx, vy = move(pull, x, y, vx, vy, t)
     time, lost = advance(time, lost, passed)
     return x, y, kept * vx, kept * vy, time, lost, edge
 
@@ -78,7 +80,11 @@ def count_crossings(sensors, pull, x, y, vx, vy, since, until, found, first):
 def set_pull(model, gravity, pull, kind, feature):
     """Write what accelerates a ball after a contact: gravity, or the part of it along the wall on which it slides."""
     if pull is not None:
-        pull[0], pull[1] = pull_on(model, gravity, feature, SLIDING if kind == SLIDE else FREE)
+        pull[0], pull[1] = gravity[0], gravity[1]
+        if kind == SLIDE and feature >= 0:
+            line = model.lines[feature]
+            along = gravity[1] * line.nx - gravity[0] * line.ny
+            pull[0], pull[1] = -along * line.ny, along * line.nx
 
 
 @kernel

@@ -13,10 +13,11 @@ from wallkit.kernels.arcs import FALLING_MOULD, holds
 from wallkit.kernels.grid import around, leaf, moves_to_next, place
 from wallkit.kernels.impact import behind, precedes, slack_of
 from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.leaving import LEVEL_SPEED, left_along
 from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
 
-LEVEL_SPEED = 2.0**-40
-"""A smaller part of the speed, towards a wall or from it, may be rounding: that of v + g t and of a product with n."""
+PARALLEL = 1.0 - 2.0**-20
+"""Cosine between the normals of a wall that a point has left and of an arc that goes on from it."""
 
 
 @rare_kernel
@@ -92,20 +93,18 @@ def _fall_after(c4, c3, c2, c1, c0, time, from_behind):
 
 
 @rare_kernel
-def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, best, feature):
+def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, last, best, feature):
     """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls."""
+    speed = abs(vx) + abs(vy)
     for k in range(start, stop):
         corner = corners[ids[k]]
         ex, ey = x - corner.x, y - corner.y
-        t = _fall_after(
-            0.25 * (gx * gx + gy * gy),
-            vx * gx + vy * gy,
-            vx * vx + vy * vy + ex * gx + ey * gy,
-            2.0 * (ex * vx + ey * vy),
-            ex * ex + ey * ey - radius * radius,
-            0.0,
-            False,
-        )
+        c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
+        c0 = ex * ex + ey * ey - radius * radius
+        from_behind = False
+        if -2 - ids[k] == last:
+            c2, c1, c0, from_behind = left_along(c2, c1, c0, radius, speed, abs(gx) + abs(gy), from_behind)
+        t = _fall_after(0.25 * (gx * gx + gy * gy), vx * gx + vy * gy, c2, c1, c0, 0.0, from_behind)
         if not (t < best or (t == best and precedes(-2 - ids[k], feature))):
             continue
         if one_sided is not None:
@@ -134,7 +133,7 @@ def _polished(t, limit, ex, ey, vx, vy, gx, gy):
 
 @rare_kernel
 def fall_arcs(
-    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference,
+    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference,
     best, feature,
 ):  # fmt: skip
     """Earliest contact with the arcs of entries start to stop: |e(t)|^2 - (R + r)^2 or (R - r)^2 - |e(t)|^2 falls.
@@ -162,7 +161,7 @@ def fall_arcs(
             touched += 1 if ids[k] != last else 0
             along = ex * reference[0] + ey * reference[1]
             outside = c1 > 0.0 if abs(c1) > 2.0 * arc.radius * noise else c2 < 0.0
-            if along != 0.0:
+            if abs(along) > PARALLEL * arc.radius:
                 outside = along > 0.0
         for turn in range(2):
             side = 1.0 if turn == 0 else -1.0
@@ -178,7 +177,14 @@ def fall_arcs(
                 reach = mould
                 c0 = reach * reach - (ex * ex + ey * ey)
                 from_behind = c0 < 0.0
-            t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, 0.0, from_behind)
+            if from_behind and side < 0.0:  # it may come in along a wall that joins the hollow, out by rounding
+                c0 += 2.0 * reach * slack
+            b2, b1 = side * c2, side * c1
+            if ids[k] in (last, skipped):
+                b2, b1, c0, from_behind = left_along(
+                    b2, b1, c0, reach, noise / LEVEL_SPEED, abs(gx) + abs(gy), from_behind
+                )
+            t = _fall_after(side * c4, side * c3, b2, b1, c0, 0.0, from_behind)
             if 0.0 < t < NEVER:
                 t = _polished(t, reach, ex, ey, vx, vy, gx, gy)
             for _again in range(2):
@@ -189,7 +195,7 @@ def fall_arcs(
                 ):
                     best, feature = t, ids[k]
                     break
-                t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, t, True)
+                t = _fall_after(side * c4, side * c3, b2, b1, c0, t, True)
     return best, feature, touched
 
 
@@ -203,11 +209,12 @@ def fall_scan(model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, 
     )  # fmt: skip
     best, feature, more = fall_arcs(
         model.arcs, model.ids, cell.arcs, cell.corners,
-        model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference, best, feature,
+        model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference,
+        best, feature,
     )  # fmt: skip
     best, feature = fall_corners(
         model.corners, model.ids, cell.corners, cell.end,
-        model.one_sided, model.corner_wall, radius, x, y, vx, vy, gx, gy, best, feature,
+        model.one_sided, model.corner_wall, radius, x, y, vx, vy, gx, gy, last, best, feature,
     )  # fmt: skip
     return best, feature, touched + more
 

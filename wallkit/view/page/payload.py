@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from wallkit.gliding import guides
 from wallkit.run import Ending, Kind, Run
 from wallkit.view.frame import walls_box
 from wallkit.view.outline import solid_areas
@@ -100,6 +101,7 @@ def run_table(run: Run, *, left_out: str = "", horizon: bool = True) -> Table:
             "ny": column(contacts["ny"], real),
             "wall": column(contacts["wall"], "i4"),
             "kind": column(contacts["kind"], "u1"),
+            **({"bend": column(bend, "f8")} if (bend := guides(run.scene.walls, contacts)).any() else {}),
         },
         "trusted": horizon_table(run) if horizon else None,
         "left_out": left_out,
