@@ -195,8 +195,13 @@ class Run(Pictured):
 
     def pull_after(self, contact: Any) -> NDArray[np.float64]:
         """Acceleration after a contact (None: at the start): gravity, or the part of it along a wall that holds."""
-        pull = self._gravity
-        if contact is None or contact["kind"] != Kind.SLIDE:
-            return pull
-        along = np.array([-contact["ny"], contact["nx"]])
-        return along * float(along @ pull)
+        return pull_of(self.scene, contact)
+
+
+def pull_of(scene: Scene, contact: Any) -> NDArray[np.float64]:
+    """Acceleration after a contact (None: at the start): gravity, or its part along a straight wall that holds."""
+    pull = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
+    if contact is None or contact["kind"] != Kind.SLIDE:
+        return pull
+    along = np.array([-contact["ny"], contact["nx"]])
+    return along * float(along @ pull)

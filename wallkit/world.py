@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -78,7 +79,10 @@ class World:
         self._next_time = np.full(len(self._base), math.inf)
         self._next: list[FloatArray | None] = [None] * len(self._base)
         self._sensors = sensors_of(scene)
-        self._coming: list[list[tuple[Any, ...]]] = [[] for _ in self._base]  # crossings of sensors before that contact
+        self._coming: list[tuple[Any, ...] | None] = [None] * len(
+            self._base
+        )  # next crossing of a sensor before that, ...
+        self._later: list[Iterator[tuple[Any, ...]]] = [iter(())] * len(self._base)  # ... and those after it
         self._lost = 0.0  # what the sum of the frames loses to rounding
         for ball in range(len(self)):
             self._look_ahead(ball)
@@ -187,22 +191,26 @@ class World:
         self._end[ball] = math.inf if end is None else end
         if self._sensors is not None:
             until = self._end[ball] if row is None else row[0]
-            flight = float(self._since[ball]), self._base[ball], float(until), self._pull[ball]
-            self._coming[ball] = list(self._sensors.crossings(ball, *flight))
+            kind, (nx, ny) = Kind.SLIDE if self._keeps[ball] else Kind.LEAVE, self._normal[ball].tolist()
+            contact, bend = {"kind": kind, "nx": nx, "ny": ny}, float(self._bend[ball])
+            flight = float(self._since[ball]), self._base[ball].copy(), float(until), contact, bend
+            self._later[ball] = self._sensors.crossings_on(self.scene, ball, *flight)
+            self._coming[ball] = next(self._later[ball], None)
         self._set_next_time(ball)
 
     def _set_next_time(self, ball: int) -> None:
         """Note when the next contact or crossing is."""
         row, coming = self._next[ball], self._coming[ball]
-        self._next_time[ball] = coming[0][0] if coming else math.inf if row is None else row[0]
+        self._next_time[ball] = coming[0] if coming else math.inf if row is None else row[0]
 
     def _cross(self, ball: int, end: float) -> list[tuple[Any, ...]]:
         """Take from the coming crossings those up to a time."""
-        coming = self._coming[ball]
-        passed = sum(crossing[0] <= end for crossing in coming)
-        self._coming[ball] = coming[passed:]
+        passed = []
+        while (crossing := self._coming[ball]) is not None and crossing[0] <= end:
+            passed.append(crossing)
+            self._coming[ball] = next(self._later[ball], None)
         self._set_next_time(ball)
-        return coming[:passed]
+        return passed
 
     def _accept(self, ball: int, row: FloatArray) -> None:
         """The frame has reached the contact: from there the ball goes on."""

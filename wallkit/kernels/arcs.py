@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.impact import precedes, slack_of
+from wallkit.kernels.impact import precedes, slack_of, stands_across
 from wallkit.kernels.jit import kernel, rare_kernel
 
 WELL_KNOWN = 2.0**-20
@@ -160,8 +160,13 @@ def scan_arcs_disc(
         from_outside = True
         from_inside = True
         if one_sided is not None and one_sided[edge_wall[ids[k]]] != 0:
-            from_outside = arc.sweep > 0.0
-            from_inside = arc.sweep < 0.0
+            off = 2.0 * arc.radius * slack
+            out_gap, in_gap = (
+                power - radius * (2.0 * arc.radius + radius),
+                -power - radius * (2.0 * arc.radius - radius),
+            )
+            from_outside = arc.sweep > 0.0 and not stands_across(one_sided, edge_wall, ids[k], out_gap, off)
+            from_inside = arc.sweep < 0.0 and not stands_across(one_sided, edge_wall, ids[k], in_gap, off)
         t = -1.0
         if power >= 0.0:
             if along >= 0.0:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 
+from wallkit.kernels.crossing_round import next_crossing_round
 from wallkit.kernels.damping import free_time, slowed
 from wallkit.kernels.flight import fly, normal_of
+from wallkit.kernels.guide import STRAIGHT, guide
+from wallkit.kernels.hold import side_of
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.model import EDGE, FREE, LOG_STRIDE, NO_HIT, RUNNING, SLIDE
 from wallkit.kernels.motion import advance
@@ -77,6 +80,36 @@ def count_crossings(sensors, pull, x, y, vx, vy, since, until, found, first):
 
 
 @kernel
+def count_round(sensors, gravity, rho, away, nx, ny, x, y, vx, vy, since, until, found, first):
+    """Count what a ball crosses that glides along an arc, or pivots about a vertex: see ``count_crossings``."""
+    ex, ey = away * nx, away * ny
+    v, last = vy * ex - vx * ey, NO_HIT
+    while True:
+        x, y, ex, ey, v, since, last = next_crossing_round(
+            sensors, gravity[0], gravity[1], rho, x, y, ex, ey, v, since, until, last
+        )
+        if last == NO_HIT:
+            break
+        mx, my = outward(sensors, last, x, y)
+        found[first + 2 * sensors.edge_wall[last] + (0 if v * (ex * my - ey * mx) < 0.0 else 1)] += 1
+
+
+@kernel
+def count_kept(model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx, vy, since, until, found, first):
+    """Count what a ball crosses after a contact if a curve holds it from there on: whether one does."""
+    if gravity is None:
+        return False
+    if kind != SLIDE:
+        return False
+    side = side_of(model, model.arcs, feature, x, y, nx, ny)
+    rho, away, nx, ny = guide(model, model.arcs, feature, side, radius, x, y)
+    if rho == STRAIGHT:
+        return False
+    count_round(sensors, gravity, rho, away, nx, ny, x, y, vx, vy, since, until, found, first)
+    return True
+
+
+@kernel
 def set_pull(model, gravity, pull, kind, feature):
     """Write what accelerates a ball after a contact: gravity, or the part of it along the wall on which it slides."""
     if pull is not None:
@@ -109,11 +142,20 @@ def fly_sensed(model, gravity, pull, sensors, walls, radii, states, counts, unti
     for ball in range(len(radii)):
         x, y, vx, vy, since = states[ball, 0], states[ball, 1], states[ball, 2], states[ball, 3], states[ball, 4]
         set_pull(model, gravity, pull, EDGE, NO_HIT)
+        feature, kind, nx, ny, radius = NO_HIT, EDGE, 0.0, 0.0, radii[ball]
         while counts[ball, 2] == RUNNING:
             noted = fly(model, gravity, radii[ball], states[ball], counts[ball], until, limit, found, log, capacity)
             for row in range(noted):
                 o = LOG_STRIDE * row
-                count_crossings(sensors, pull, x, y, vx, vy, since, log[o], found, walls)
+                if not count_kept(
+                    model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx, vy, since, log[o], found, walls
+                ):
+                    count_crossings(sensors, pull, x, y, vx, vy, since, log[o], found, walls)
                 since, x, y, vx, vy = log[o], log[o + 1], log[o + 2], log[o + 3], log[o + 4]
-                set_pull(model, gravity, pull, int(log[o + 10]), int(log[o + 9]))
-        count_crossings(sensors, pull, x, y, vx, vy, since, states[ball, 4] + states[ball, 5], found, walls)
+                nx, ny, feature, kind = log[o + 7], log[o + 8], int(log[o + 9]), int(log[o + 10])
+                set_pull(model, gravity, pull, kind, feature)
+        end = states[ball, 4] + states[ball, 5]
+        if not count_kept(
+            model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx, vy, since, end, found, walls
+        ):
+            count_crossings(sensors, pull, x, y, vx, vy, since, end, found, walls)

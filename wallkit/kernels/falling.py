@@ -11,7 +11,7 @@ import math
 
 from wallkit.kernels.arcs import FALLING_MOULD, holds
 from wallkit.kernels.grid import around, leaf, moves_to_next, place
-from wallkit.kernels.impact import behind, precedes, slack_of
+from wallkit.kernels.impact import behind, precedes, slack_of, stands_across
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.leaving import LEVEL_SPEED, left_along
 from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
@@ -51,7 +51,9 @@ def fall_line(
             if side < 0.0 and one_sided is not None:
                 if one_sided[edge_wall[ids[k]]] != 0:
                     continue
-            t = _fall_of_side(0.5 * side * gn, side * vn, side * d - radius, above != (side > 0.0))
+            gap = side * d - radius
+            from_behind = above != (side > 0.0) or stands_across(one_sided, edge_wall, ids[k], gap, slack)
+            t = _fall_of_side(0.5 * side * gn, side * vn, gap, from_behind)
             if not (t < best or (t == best and precedes(ids[k], feature))):
                 continue
             foot = u + t * (vu + 0.5 * t * gu)
@@ -93,7 +95,9 @@ def _fall_after(c4, c3, c2, c1, c0, time, from_behind):
 
 
 @rare_kernel
-def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, last, best, feature):
+def fall_corners(
+    corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, best, feature
+):
     """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls."""
     speed = abs(vx) + abs(vy)
     for k in range(start, stop):
@@ -101,7 +105,7 @@ def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
         ex, ey = x - corner.x, y - corner.y
         c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
         c0 = ex * ex + ey * ey - radius * radius
-        from_behind = False
+        from_behind = stands_across(one_sided, corner_wall, ids[k], c0, 2.0 * radius * tolerance)
         if -2 - ids[k] == last:
             c2, c1, c0, from_behind = left_along(c2, c1, c0, radius, speed, abs(gx) + abs(gy), from_behind)
         t = _fall_after(0.25 * (gx * gx + gy * gy), vx * gx + vy * gy, c2, c1, c0, 0.0, from_behind)
@@ -179,6 +183,7 @@ def fall_arcs(
                 from_behind = c0 < 0.0
             if from_behind and side < 0.0:  # it may come in along a wall that joins the hollow, out by rounding
                 c0 += 2.0 * reach * slack
+            from_behind = from_behind or stands_across(one_sided, edge_wall, ids[k], c0, 2.0 * arc.radius * slack)
             b2, b1 = side * c2, side * c1
             if ids[k] in (last, skipped):
                 b2, b1, c0, from_behind = left_along(
@@ -214,7 +219,7 @@ def fall_scan(model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, 
     )  # fmt: skip
     best, feature = fall_corners(
         model.corners, model.ids, cell.corners, cell.end,
-        model.one_sided, model.corner_wall, radius, x, y, vx, vy, gx, gy, last, best, feature,
+        model.one_sided, model.corner_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, best, feature,
     )  # fmt: skip
     return best, feature, touched + more
 

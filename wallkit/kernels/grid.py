@@ -38,7 +38,7 @@ def scan(model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
     )  # fmt: skip
     best, feature = scan_corners(
         model.corners, model.ids, cell.corners, cell.end,
-        model.one_sided, model.corner_wall, radius, x, y, vx, vy, energy, last, best, feature,
+        model.one_sided, model.corner_wall, radius, x, y, vx, vy, energy, last, tolerance, best, feature,
     )  # fmt: skip
     return best, feature, touched
 

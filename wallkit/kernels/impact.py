@@ -120,7 +120,7 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
         if closing <= 0.0:
             continue
         gap = d - radius
-        if gap > reach * closing:
+        if gap > reach * closing or stands_across(one_sided, edge_wall, ids[k], gap, slack):
             continue
         t = gap / closing
         if t < 0.0:
@@ -136,7 +136,9 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
 
 
 @kernel
-def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, energy, last, best, feature):
+def scan_corners(
+    corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, energy, last, tolerance, best, feature
+):
     """Earliest contact of a disc with the corners of entries start to stop.
 
     With e = p - corner, |e + t v| = r has the discriminant D = r^2 - (e x v)^2 / v^2, taken from the distance at
@@ -160,6 +162,8 @@ def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
         if discriminant < 0.0:
             continue
         c = ex * ex + ey * ey - square
+        if stands_across(one_sided, corner_wall, ids[k], c, 2.0 * radius * tolerance):
+            continue
         t = c / (math.sqrt(energy * discriminant) - along)
         if t < 0.0:
             t = 0.0
@@ -172,6 +176,17 @@ def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
             best = t
             feature = -2 - ids[k]
     return best, feature
+
+
+@kernel
+def stands_across(one_sided, wall_of, index, gap, slack):
+    """Tell whether a disc overlaps what belongs to a one-sided wall, by more than rounding.
+
+    It has come from behind and is on its way through: it meets the wall only after it has left it.
+    """
+    if one_sided is None:
+        return False
+    return one_sided[wall_of[index]] != 0 and gap < -slack
 
 
 @kernel

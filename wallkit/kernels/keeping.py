@@ -183,7 +183,9 @@ def _met(model, grid, radius, held, side, last, rho, ex, ey, tx, ty, x, y, start
         model, model.arcs, cell.arcs, cell.corners, radius, held, side, last, rho, ex, ey, tx, ty, x, y, start_of,
         tolerance, best, feature,
     )  # fmt: skip
-    best, feature = meet_corners(model, cell.corners, cell.end, radius, held, rho, ex, ey, tx, ty, x, y, best, feature)
+    best, feature = meet_corners(
+        model, cell.corners, cell.end, radius, held, rho, ex, ey, tx, ty, x, y, tolerance, best, feature
+    )
     return (best, feature) if feature != NO_HIT else (way, event)
 
 

@@ -21,7 +21,7 @@ import math
 from wallkit.kernels.arcs import FALLING_MOULD, holds
 from wallkit.kernels.corner import came_from
 from wallkit.kernels.guide import STRAIGHT
-from wallkit.kernels.impact import behind, precedes, slack_of
+from wallkit.kernels.impact import behind, precedes, slack_of, stands_across
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import NO_HIT
 from wallkit.kernels.roots import NEVER, first_fall_quadratic
@@ -134,7 +134,8 @@ def meet_lines(
             if out < 0.0 and one_sided(model.one_sided, model.edge_wall[edge]):
                 continue
             c = out * d - radius
-            way = falls(rho, ex, ey, tx, ty, c, out * line.nx, out * line.ny, 0.0, above != (out > 0.0))
+            from_behind = above != (out > 0.0) or stands_across(model.one_sided, model.edge_wall, edge, c, slack)
+            way = falls(rho, ex, ey, tx, ty, c, out * line.nx, out * line.ny, 0.0, from_behind)
             if not (way < best or (way == best and precedes(edge, feature))):
                 continue
             fx, fy = place_at(rho, ex, ey, tx, ty, x, y, way)
@@ -179,7 +180,11 @@ def meet_arcs(
             if out * arc.sweep < 0.0 and one_sided(model.one_sided, model.edge_wall[edge]):
                 continue
             c = out * power - radius * (2.0 * arc.radius + out * radius)
-            way = falls(rho, ex, ey, tx, ty, c, 2.0 * out * px, 2.0 * out * py, out, beyond != (out > 0.0))
+            from_behind = beyond != (out > 0.0)
+            from_behind = from_behind or stands_across(
+                model.one_sided, model.edge_wall, edge, c, 2.0 * arc.radius * slack
+            )
+            way = falls(rho, ex, ey, tx, ty, c, 2.0 * out * px, 2.0 * out * py, out, from_behind)
             if not (way < best or (way == best and precedes(edge, feature))):
                 continue
             fx, fy = place_at(rho, ex, ey, tx, ty, x, y, way)
@@ -194,7 +199,7 @@ def meet_arcs(
 
 
 @rare_kernel
-def meet_corners(model, start, stop, radius, held, rho, ex, ey, tx, ty, x, y, best, feature):
+def meet_corners(model, start, stop, radius, held, rho, ex, ey, tx, ty, x, y, tolerance, best, feature):
     """First contact with the corners of entries start to stop on the way ahead: (way, feature)."""
     for k in range(start, stop):
         vertex = int(model.ids[k])
@@ -203,7 +208,8 @@ def meet_corners(model, start, stop, radius, held, rho, ex, ey, tx, ty, x, y, be
         corner = model.corners[vertex]
         px, py = x - corner.x, y - corner.y
         c = px * px + py * py - radius * radius
-        way = falls(rho, ex, ey, tx, ty, c, 2.0 * px, 2.0 * py, 1.0, False)
+        from_behind = stands_across(model.one_sided, model.corner_wall, vertex, c, 2.0 * radius * tolerance)
+        way = falls(rho, ex, ey, tx, ty, c, 2.0 * px, 2.0 * py, 1.0, from_behind)
         if not (way < best or (way == best and precedes(-2 - vertex, feature))):
             continue
         if one_sided(model.one_sided, model.corner_wall[vertex]):
