@@ -10,6 +10,8 @@ from wallkit.kernels.model import NO_HIT
 from wallkit.kernels.obstacles import falls, place_at
 from wallkit.kernels.pendulum import speed_at, swing_time, to_quarter, turned, turning
 
+MORE = 2.0**-45
+"""Rounding of a place on the circle, in parts of its radius."""
 PIECES = 14
 """More than a full swing, or a full turn, has: quarters, divided at right angles and where the ball turns."""
 
@@ -44,8 +46,10 @@ def next_crossing_round(sensors, gx, gy, rho, x, y, ex, ey, v, time, until, last
         tx, ty, square = -turn * ey, turn * ex, v * v
         t, t_turn = to_quarter(ex, ey, tx, ty, gx, gy), turning(rho, gx, gy, ex, ey, tx, ty, square)
         turns = t_turn < t
-        t, edge = _first_sensor(sensors, sensors.arcs, rho, ex, ey, tx, ty, x, y, last, min(t, t_turn))
-        turns = turns and edge == NO_HIT
+        t = min(t, t_turn)
+        # a sensor at the very end of a quarter, as below the circle's middle, is crossed on this side of the end
+        way, edge = _first_sensor(sensors, sensors.arcs, rho, ex, ey, tx, ty, x, y, last, t if turns else t + MORE)
+        t, turns = way if edge != NO_HIT else t, turns and edge == NO_HIT
         fx, fy, _ux, _uy = turned(ex, ey, tx, ty, t)
         then = 0.0 if turns else speed_at(rho, gx, gy, ex, ey, tx, ty, square, t)
         time += swing_time(rho, gx, gy, ex, ey, fx, fy, t, abs(v), then)
