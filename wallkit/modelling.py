@@ -87,6 +87,7 @@ class Modelled:
             edge_wall=np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)),
             corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)),
             restitution=_restitution(scene),
+            static_friction=None if gravity is None else _static_friction(scene),
             one_sided=_one_sided(scene),
             gravity=gravity,
             damping=damping_of(scene),
@@ -181,6 +182,11 @@ def _restitution(scene: Scene) -> FloatArray | None:
         return None
     pairs = np.array([(m.restitution, m.tangential_restitution) for m in materials], dtype=np.float64)
     return np.ascontiguousarray(pairs).reshape(-1)
+
+
+def _static_friction(scene: Scene) -> FloatArray | None:
+    friction = np.array([m.static_friction for m in scene.walls.materials], dtype=np.float64)
+    return friction if friction.any() else None
 
 
 def _gravity(scene: Scene) -> FloatArray | None:

@@ -129,6 +129,27 @@ def test_a_ball_with_loss_along_the_wall_rests_on_no_slope():
     assert moved == pytest.approx(fallen, rel=1e-12)
 
 
+@pytest.mark.parametrize(("friction", "ending"), [(0.76, Ending.AT_REST), (0.74, Ending.TIME_REACHED)])
+@pytest.mark.parametrize("radius", [0.0, 5.0])
+def test_static_friction_holds_a_ball_on_a_slope_of_no_more_than_its_coefficient(friction, ending, radius):
+    slope = Walls.from_polylines([[[-400, 300], [400, -300]]], closed=False, material=Material(0.5, 0.9, friction))
+    run = simulate(Scene(slope, Balls([-200.0, 160.0], [0.0, 0.0], radius), gravity=DOWN), until=4.0)
+    assert run.ending == (ending,)
+
+
+def test_static_friction_holds_a_ball_that_turns_on_a_slope_and_lets_one_pass_that_moves():
+    valley = Walls.from_polylines(
+        [[[-400, 300], [0, 0], [400, 0], [1200, 80]]], closed=False, material=Material(0.0, 1.0, 0.2)
+    )
+    run = simulate(Scene(valley, Balls([-40.0, 30.0], [-1e-3, 0.0], 0.0), gravity=DOWN), until=60.0)
+    # down 3 in 4, steeper than it holds; on over the floor; up 1 in 10 to where v^2 = 2 g h, and held there
+    assert run.ending == (Ending.AT_REST,)
+    assert run.final["x"][0] > 400.0
+    bounce = run.contacts[run.contacts["kind"] == Kind.SLIDE][1]
+    speed = math.hypot(bounce["vx"], bounce["vy"]) * (10.0 / math.sqrt(101.0))  # less the normal part at the next joint
+    assert run.final["y"][0] == pytest.approx(speed * speed / (2.0 * G), rel=1e-9)
+
+
 @pytest.mark.parametrize(("radius", "height"), [(0.0, 87.5), (5.0, 82.5)])
 @pytest.mark.parametrize("tangential", [1.0, 0.9])
 def test_a_ball_that_a_dead_ceiling_has_stopped_falls_from_it(radius, height, tangential):

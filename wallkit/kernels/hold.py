@@ -125,11 +125,21 @@ def _struck(model, radius, x, y, vx, vy, gravity, last, tolerance):
 
 @kernel
 def stays(model, gravity, radius, held, side, x, y, vx, vy):
-    """Tell whether a ball that keeps to a wall is at rest on it: it stands still, and nothing pulls it along."""
+    """Tell whether a ball that keeps to a wall is at rest: it stands, and no more pulls it along than friction holds."""
     if vx != 0.0 or vy != 0.0:
         return False
     _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
-    return abs(gravity[1] * nx - gravity[0] * ny) <= LEVEL * (abs(gravity[0]) + abs(gravity[1]))
+    along, pressed = abs(gravity[1] * nx - gravity[0] * ny), -(gravity[0] * nx + gravity[1] * ny)
+    least = LEVEL * (abs(gravity[0]) + abs(gravity[1]))
+    return along <= least or along <= _grip(model, model.static_friction, held) * pressed
+
+
+@kernel
+def _grip(model, static_friction, feature):
+    """Coefficient of the static friction of a feature."""
+    if static_friction is None:
+        return 0.0
+    return static_friction[model.edge_wall[feature] if feature >= 0 else model.corner_wall[-2 - feature]]
 
 
 @kernel

@@ -229,6 +229,8 @@ class Model(NamedTuple):
     corner_wall: Any
     restitution: Any
     """By wall: normal, tangential; None when all are 1."""
+    static_friction: Any
+    """By wall: its coefficient; None when all are 0, or without gravity."""
     one_sided: Any
     """By wall: 1 when solid from its outward side alone; None when all are two-sided."""
     gravity: Any

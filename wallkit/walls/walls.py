@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -30,16 +31,23 @@ class Material:
     Attributes:
         restitution: 0 to 1, the part of the normal speed that a bounce leaves.
         tangential_restitution: 0 to 1, the same along the wall. 0.9 for both slows a ball down by 10 %.
+        static_friction: 0 or more, the coefficient of the friction that holds a ball which stands on the wall under
+            gravity: the tangent of the steepest slope on which it stays. One that moves along the wall is not slowed.
     """
 
     restitution: float = 1.0
     tangential_restitution: float = 1.0
+    static_friction: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("restitution", "tangential_restitution"):
             value = getattr(self, name)
             if not 0.0 <= value <= 1.0:
                 raise WallsError(f"{name} is {value!r}", code="bad-material", fix="give a number from 0 to 1")
+        if not 0.0 <= self.static_friction < math.inf:
+            raise WallsError(
+                f"static_friction is {self.static_friction!r}", code="bad-material", fix="give a number, 0 or more"
+            )
 
 
 @dataclass(frozen=True, slots=True)
