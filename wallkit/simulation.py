@@ -28,7 +28,18 @@ PATIENCE = 60_000
 """Entries looked at by interpreted kernels, a few microseconds each, before a run waits for the compiler."""
 CHUNK = 8192
 _compiled_features: set[tuple[bool, ...]] = set()  # combinations whose kernels this process has compiled or loaded
-START = Counts(last=NO_HIT, bounces=0, ending=RUNNING, still=0, held=NO_HIT, hold=STARTING, side=1, turns=0, changes=0)
+START = Counts(
+    last=NO_HIT,
+    bounces=0,
+    ending=RUNNING,
+    still=0,
+    held=NO_HIT,
+    hold=STARTING,
+    side=1,
+    turns=0,
+    changes=0,
+    before=NO_HIT,
+)
 
 
 def simulate(

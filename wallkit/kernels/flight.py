@@ -32,7 +32,7 @@ from wallkit.kernels.model import (
     WEDGED,
 )
 from wallkit.kernels.motion import advance
-from wallkit.kernels.pull import bounce, facing, first_contact, kept_energy, move, side_kept
+from wallkit.kernels.pull import bounce, facing, first_contact, kept_energy, move, way_back
 
 TOLERANCE = 2.0**-47
 """Positions are off by less than this part of the extent: p + t v by some 8 roundings (2^-53), (p - a).n by as many;
@@ -67,8 +67,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
     from_x, from_y, from_vx, from_vy = state[7], state[8], state[9], state[10]
     tolerance = state[11]
     last, bounces, still, held, hold, side = counts[0], counts[1], counts[3], counts[4], counts[5], float(counts[6])
-    turns, changes = counts[7], counts[8]
-    before = NO_HIT
+    turns, changes, before = counts[7], counts[8], counts[9]
     ending = RUNNING
     noted = 0
     while ending == RUNNING and noted < capacity:
@@ -77,7 +76,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             break
         remaining = (until - time) - lost
         if gravity is not None and hold in HELD:
-            start_of = (x, y, *side_kept(model, gravity, radius, held, hold, side, x, y, vx, vy))
+            keeps = hold in (SLIDING, LEAVING)
             x, y, vx, vy, t, energy, last, held, hold, side, turns, changes, kind, feature, ending = keep(
                 model, gravity, radius, x, y, vx, vy, energy, last, held, hold, side, turns, changes,
                 (from_x, from_y, from_vx, from_vy), tolerance, remaining,
@@ -86,8 +85,9 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             if kind != NO_ROW:
                 nx, ny = normal_from(model, gravity, radius, held, side, x, y)
                 noted = note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, held, kind)
-            elif t > 0.0 or feature != NO_HIT:
-                from_x, from_y, from_vx, from_vy = start_of
+            if keeps:
+                from_x, from_y = x, y
+                from_vx, from_vy = way_back(model, gravity, radius, held, side, x, y, vx, vy)
             if feature == NO_HIT:
                 continue
             passed = t
@@ -100,7 +100,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                 met = settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still)
                 if met != NO_HIT:
                     t, feature = 0.0, met
-            if feature in (NO_HIT, AMBIGUOUS, COLLAPSES):
+            if feature in (NO_HIT, AMBIGUOUS) or (feature == COLLAPSES and before == NO_HIT):
                 ending = ending_without(model.damping, feature, until)
                 break
             passed, kept = slowed(model.damping, energy, t, remaining)
@@ -110,6 +110,8 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                 vx, vy, energy = kept * vx, kept * vy, kept * kept * energy
                 time, lost = advance(time, lost, passed)
         still = 0 if passes(time, passed, t, vx, vy, tolerance) else still + 1
+        if feature == COLLAPSES:
+            still += still_limit(model.restitution)
         if still > still_limit(model.restitution):
             ending = COLLAPSE
             if gravity is not None and model.restitution is not None:
@@ -145,7 +147,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
     state[0], state[1], state[2], state[3], state[4], state[5], state[6] = x, y, vx, vy, time, lost, energy
     state[7], state[8], state[9], state[10] = from_x, from_y, from_vx, from_vy
     counts[0], counts[1], counts[2], counts[3], counts[4], counts[5] = last, bounces, ending, still, held, hold
-    counts[6], counts[7], counts[8] = int(side), turns, changes
+    counts[6], counts[7], counts[8], counts[9] = int(side), turns, changes, before
     return noted
 
 

@@ -125,7 +125,7 @@ def _struck(model, radius, x, y, vx, vy, gravity, last, tolerance):
 
 @kernel
 def stays(model, gravity, radius, held, side, x, y, vx, vy):
-    """Tell whether a ball that keeps to a wall is at rest: it stands, and no more pulls it along than friction holds."""
+    """Tell whether a ball that keeps to a wall rests: it stands, and no more pulls it along than friction holds."""
     if vx != 0.0 or vy != 0.0:
         return False
     _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)

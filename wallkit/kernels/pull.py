@@ -12,7 +12,7 @@ from wallkit.kernels.grid import search
 from wallkit.kernels.guide import guide
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.leaving import LEVEL_SPEED
-from wallkit.kernels.model import LEFT, NO_HIT, SLIDING
+from wallkit.kernels.model import LEFT, NO_HIT
 from wallkit.kernels.motion import reflect
 
 LEVEL = 2.0**-48
@@ -135,16 +135,14 @@ def curvature(model, arcs, feature, radius, x, y, nx, ny):
 
 
 @kernel
-def side_kept(model, gravity, radius, held, hold, side, x, y, vx, vy):
-    """Velocity at a flight's start as corners remember it: a ball that keeps to a wall is on its side of that.
+def way_back(model, gravity, radius, held, side, x, y, vx, vy):
+    """Velocity with which a ball that keeps to a wall came here, as corners remember it: back, and on its side.
 
     The lift off the wall, 2^-40 of the speed, is far above rounding and far below what corners tell apart.
     """
     if gravity is None:
         return vx, vy
-    if hold != SLIDING:
-        return vx, vy
     _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
     speed = abs(vx) + abs(vy)
     lift = 2.0**-40 * speed if speed > 0.0 else 1.0
-    return vx + lift * nx, vy + lift * ny
+    return lift * nx - vx, lift * ny - vy
