@@ -98,6 +98,8 @@ def keep(
         last, hold = held, LEAVING
     elif event == END_OF_EDGE:
         held, hold, side, last, feature = _pass_on(model, gravity, radius, held, side, last, x, y, vx, vy, tolerance)
+        if hold == WEDGED:
+            vx, vy, ending = 0.0, 0.0, AT_REST
     elif event != GOES_ON:
         feature = event
     return x, y, vx, vy, time, energy, last, held, hold, side, turns, changes, NO_ROW, feature, ending
@@ -213,7 +215,11 @@ def _pass_on(model, gravity, radius, held, side, last, x, y, vx, vy, tolerance):
     there = model.joints[next_end]
     rise, ahead = there.tx * nx + there.ty * ny, there.tx * dx + there.ty * dy
     square = speed * speed
-    if not free and ahead > 0.0 and abs(rise) < 0.5:
+    if not free and rise > 0.0:  # in a hollow it rests, where what pulls it in on either side is more than its speed
+        back, on = -(gravity[0] * there.tx + gravity[1] * there.ty), gravity[0] * dx + gravity[1] * dy
+        if back > 0.0 and on > 0.0 and square <= 2.0 * min(back, on) * tolerance:
+            return held, WEDGED, side, last, NO_HIT
+    if not free and ahead > 0.0 and rise < SMOOTH_JOINT and rise > -0.5:
         other_rho, other_away, mx, my = guide(model, model.arcs, other, next_side, radius, x, y)
         pressed = press(gravity, other_rho, other_away, mx, my, square)
         level = LEVEL * (abs(gravity[0]) + abs(gravity[1]))
@@ -275,8 +281,9 @@ def _if_pressed(model, gravity, radius, held, side, x, y, vx, vy):
 def held_after(model, gravity, radius, feature, held, hold, side, x, y, vx, vy, nx, ny, tolerance):
     """What holds a ball after a bounce off a feature (normal n towards it), and how: (feature, hold, side).
 
-    It goes on along the wall to which it kept until now, where its speed off that is less than rounding; wedged, where
-    the pull along that wall presses it on what it met there. Else it keeps to what it has met.
+    It goes on along the wall to which it kept until now, where its speed off that is less than rounding. It is wedged
+    where the pull along either presses it on the other, and its speed takes it no farther than rounding up either.
+    Else it keeps to what it has met.
     """
     length = math.sqrt(nx * nx + ny * ny)
     nx, ny = nx / length, ny / length
@@ -284,14 +291,17 @@ def held_after(model, gravity, radius, feature, held, hold, side, x, y, vx, vy, 
     level = LEVEL * (abs(gravity[0]) + abs(gravity[1]))
     other_side = side_of(model, model.arcs, feature, x, y, nx, ny)
     clings = _clings(model, gravity, radius, feature, other_side, x, y, vx, vy, tolerance)
-    if hold == SLIDING and feature != held and _clings(model, gravity, radius, held, side, x, y, vx, vy, tolerance):
+    if hold == SLIDING and feature != held:
         _rho, _away, mx, my = guide(model, model.arcs, held, side, radius, x, y)
-        pull = gravity[1] * mx - gravity[0] * my
-        pressed = -pull * (mx * ny - my * nx)
-        if pressed > 2.0**8 * level and w * w <= 2.0 * pressed * tolerance:
+        on, back = _pushed(gravity, mx, my, nx, ny), _pushed(gravity, nx, ny, mx, my)
+        least = min(abs(gravity[1] * mx - gravity[0] * my), abs(gravity[1] * nx - gravity[0] * ny))
+        if min(on, back) > 2.0**8 * level and vx * vx + vy * vy <= 2.0 * least * tolerance:
             return held, WEDGED, side
-        if not (clings and mx * nx + my * ny > SAME_WAY):
-            return held, PASSING, side
+        if _clings(model, gravity, radius, held, side, x, y, vx, vy, tolerance):
+            if clings and on > 2.0**8 * level and back <= 0.0:
+                return feature, PASSING, other_side  # it is less steep there, and goes on
+            if not (clings and mx * nx + my * ny > SAME_WAY):
+                return held, PASSING, side
     if _fits(model, model.arcs, feature, other_side, radius):
         if vx * vx + vy * vy <= -2.0 * (gravity[0] * nx + gravity[1] * ny) * tolerance:
             return feature, WEDGED, other_side
@@ -300,6 +310,13 @@ def held_after(model, gravity, radius, feature, held, hold, side, x, y, vx, vy, 
     if clings or (dead and _is_plumb(model, gravity, radius, feature, other_side, x, y)):
         return feature, PASSING if dead else JOINING, other_side
     return feature, LEFT if dead else FREE, other_side
+
+
+@kernel
+def _pushed(gravity, nx, ny, mx, my):
+    """What the pull along a wall with unit normal n presses a ball with on another one with unit normal m."""
+    pull = gravity[1] * nx - gravity[0] * ny
+    return -pull * (nx * my - ny * mx)
 
 
 @kernel
@@ -358,11 +375,9 @@ def stopped_between(model, gravity, radius, one, other, x, y, start_of):
     other_side, bx, by = _normal_to(model, gravity, radius, other, x, y, start_of)
     gx, gy = gravity[0], gravity[1]
     on_one, on_other = -(gx * ax + gy * ay), -(gx * bx + gy * by)
-    along_one = -((gx + on_one * ax) * bx + (gy + on_one * ay) * by)  # what the pull along the one does to the other
-    along_other = -((gx + on_other * bx) * ax + (gy + on_other * by) * ay)
-    if on_one > 0.0 and along_one <= 0.0:
+    if on_one > 0.0 and _pushed(gravity, ax, ay, bx, by) <= 0.0:
         return one, PASSING, one_side, RUNNING
-    if on_other > 0.0 and along_other <= 0.0:
+    if on_other > 0.0 and _pushed(gravity, bx, by, ax, ay) <= 0.0:
         return other, PASSING, other_side, RUNNING
     if on_one <= 0.0 and on_other <= 0.0:
         return one, LEFT, one_side, RUNNING

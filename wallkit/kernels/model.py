@@ -250,7 +250,7 @@ class Counts(NamedTuple):
 
     Last feature; bounces; ending or RUNNING; contacts in a row without time; feature that holds it, or NO_HIT; how it
     does, see FREE and the following; on which side of it the ball is, 1 the outward one of its wall, -1 the other; how
-    often, in a row, it turned there; changes from feature to feature since the last bounce; what it met before the last.
+    often, in a row, it turned there; changes from feature to feature since the last bounce; what it met before that.
     """
 
     last: int
