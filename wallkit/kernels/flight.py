@@ -32,7 +32,7 @@ from wallkit.kernels.model import (
     WEDGED,
 )
 from wallkit.kernels.motion import advance
-from wallkit.kernels.pull import bounce, facing, first_contact, kept_energy, move, way_back
+from wallkit.kernels.pull import bounce, facing, first_contact, kept_energy, lifted, move
 
 TOLERANCE = 2.0**-47
 """Positions are off by less than this part of the extent: p + t v by some 8 roundings (2^-53), (p - a).n by as many;
@@ -86,8 +86,8 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                 nx, ny = normal_from(model, gravity, radius, held, side, x, y)
                 noted = note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, held, kind)
             if keeps:
-                from_x, from_y = x, y
-                from_vx, from_vy = way_back(model, gravity, radius, held, side, x, y, vx, vy)
+                from_x, from_y = x, y  # it came back along the wall, on its side of that
+                from_vx, from_vy = lifted(model, gravity, radius, held, hold, side, x, y, -vx, -vy)
             if feature == NO_HIT:
                 continue
             passed = t
@@ -105,7 +105,8 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                 break
             passed, kept = slowed(model.damping, energy, t, remaining)
             if t > 0.0:
-                from_x, from_y, from_vx, from_vy = x, y, vx, vy
+                from_x, from_y = x, y
+                from_vx, from_vy = lifted(model, gravity, radius, held, hold, side, x, y, vx, vy)
                 x, y, vx, vy = move(gravity, x, y, vx, vy, t)
                 vx, vy, energy = kept * vx, kept * vy, kept * kept * energy
                 time, lost = advance(time, lost, passed)

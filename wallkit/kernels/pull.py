@@ -12,7 +12,7 @@ from wallkit.kernels.grid import search
 from wallkit.kernels.guide import guide
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.leaving import LEVEL_SPEED
-from wallkit.kernels.model import LEFT, NO_HIT
+from wallkit.kernels.model import FREE, LEFT, NO_HIT, STARTING
 from wallkit.kernels.motion import reflect
 
 LEVEL = 2.0**-48
@@ -135,14 +135,16 @@ def curvature(model, arcs, feature, radius, x, y, nx, ny):
 
 
 @kernel
-def way_back(model, gravity, radius, held, side, x, y, vx, vy):
-    """Velocity with which a ball that keeps to a wall came here, as corners remember it: back, and on its side.
+def lifted(model, gravity, radius, held, hold, side, x, y, vx, vy):
+    """Velocity at a flight's start as corners remember it: a ball that leaves a wall along it is on its side of that.
 
     The lift off the wall, 2^-40 of the speed, is far above rounding and far below what corners tell apart.
     """
     if gravity is None:
         return vx, vy
+    if hold in (FREE, STARTING):
+        return vx, vy
     _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
     speed = abs(vx) + abs(vy)
     lift = 2.0**-40 * speed if speed > 0.0 else 1.0
-    return lift * nx - vx, lift * ny - vy
+    return vx + lift * nx, vy + lift * ny
