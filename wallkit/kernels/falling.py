@@ -181,7 +181,9 @@ def fall_arcs(
                 reach = mould
                 c0 = reach * reach - (ex * ex + ey * ey)
                 from_behind = c0 < 0.0
-            if from_behind and side < 0.0:  # it may come in along a wall that joins the hollow, out by rounding
+            if (
+                from_behind and side < 0.0 and radius > 0.0
+            ):  # it may come in along a wall that joins the hollow, out by rounding
                 c0 += 2.0 * reach * slack
             from_behind = from_behind or stands_across(one_sided, edge_wall, ids[k], c0, 2.0 * arc.radius * slack)
             b2, b1 = side * c2, side * c1
@@ -201,6 +203,8 @@ def fall_arcs(
                     best, feature = t, ids[k]
                     break
                 t = _fall_after(side * c4, side * c3, b2, b1, c0, t, True)
+                if t < NEVER:
+                    t = _polished(t, reach, ex, ey, vx, vy, gx, gy)
     return best, feature, touched
 
 

@@ -118,7 +118,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             if gravity is not None and model.restitution is not None:
                 vx, vy, still = 0.0, 0.0, 0
                 held, hold, side, ending = stopped_between(
-                    model, gravity, radius, last, before, x, y, (from_x, from_y, from_vx, from_vy)
+                    model, gravity, radius, last, side, before, x, y, (from_x, from_y, from_vx, from_vy), tolerance
                 )
                 energy = kept_energy(gravity, x, y, 0.0, 0.0)
             continue

@@ -362,17 +362,18 @@ def side_of(model, arcs, feature, x, y, nx, ny):
 
 
 @rare_kernel
-def stopped_between(model, gravity, radius, one, other, x, y, start_of):
+def stopped_between(model, gravity, radius, one, one_side, other, x, y, start_of, tolerance):
     """What becomes of a ball whose speed endless bounces between two features, in no time, have taken.
 
     Returns:
         (feature, hold, side, ending): it rests where each of the two presses it on the other, slides along the one that
         holds it, or falls, by the forces alone.
     """
-    one_side, ax, ay = _normal_to(model, gravity, radius, one, x, y, start_of)
     if other == NO_HIT:
         return one, FREE, one_side, COLLAPSE
-    other_side, bx, by = _normal_to(model, gravity, radius, other, x, y, start_of)
+    _rho, _away, ax, ay = guide(model, model.arcs, one, one_side, radius, x, y)
+    other_side = _side_now(model, radius, other, x, y, start_of, tolerance)
+    _rho, _away, bx, by = guide(model, model.arcs, other, other_side, radius, x, y)
     gx, gy = gravity[0], gravity[1]
     on_one, on_other = -(gx * ax + gy * ay), -(gx * bx + gy * by)
     if on_one > 0.0 and _pushed(gravity, ax, ay, bx, by) <= 0.0:
@@ -385,19 +386,17 @@ def stopped_between(model, gravity, radius, one, other, x, y, start_of):
 
 
 @kernel
-def _normal_to(model, gravity, radius, feature, x, y, start_of):
-    """Side of a feature on which a ball is, and the unit normal there: (side, nx, ny)."""
-    side = 1.0
-    if feature >= 0:
-        nx, ny, _twice = normal_at(model, model.arcs, feature, x, y)
-        if radius > 0.0:
-            out = _is_out(model, model.arcs, feature, x, y)
-        else:
-            from_x, from_y, from_vx, from_vy = start_of
-            out = came_from(model, feature, x, y, from_x, from_y, from_vx, from_vy, 0.0)
-        side = side_of(model, model.arcs, feature, x, y, out * nx, out * ny)
-    _rho, _away, nx, ny = guide(model, model.arcs, feature, side, radius, x, y)
-    return side, nx, ny
+def _side_now(model, radius, feature, x, y, start_of, tolerance):
+    """Side of a feature's wall on which a ball is that has just bounced off it: a point's is told by where it went."""
+    if feature < 0:
+        return 1.0
+    nx, ny, _twice = normal_at(model, model.arcs, feature, x, y)
+    if radius > 0.0:
+        out = _is_out(model, model.arcs, feature, x, y)
+    else:
+        from_x, from_y, from_vx, from_vy = start_of
+        out = came_from(model, feature, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+    return side_of(model, model.arcs, feature, x, y, out * nx, out * ny)
 
 
 @kernel
