@@ -9,6 +9,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from wallkit.arguments import flag, floats, number, of_type, refused, whole_number, word
 from wallkit.damping import carried_on, damping_of
 from wallkit.gliding import glide, guides
 from wallkit.kernels.leaving import LEVEL_SPEED
@@ -58,10 +59,9 @@ class World:
     """
 
     def __init__(self, scene: Scene, way: Way = "exact", *, compile: bool = False) -> None:
-        if way not in get_args(Way):
-            raise SceneError(
-                f"there is no way {way!r} to treat a contact", code="bad-way", fix=f"one of {', '.join(get_args(Way))}"
-            )
+        of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
+        word(way, "way", get_args(Way), error=SceneError, code="bad-way")
+        flag(compile, "compile", error=SceneError, code="bad-argument")
         self.scene = scene
         self.way: Way = way
         self.time = 0.0
@@ -90,6 +90,9 @@ class World:
 
     def __len__(self) -> int:
         return len(self._base)
+
+    def __repr__(self) -> str:
+        return f"<World: {self.way!r} at {self.time:.6g} s, {self.scene!r}>"
 
     @property
     def position(self) -> FloatArray:
@@ -123,8 +126,7 @@ class World:
         Raises:
             SceneError: ``dt`` is negative or not finite.
         """
-        if not (math.isfinite(dt) and dt >= 0.0):
-            raise SceneError(f"a step of {dt!r} seconds", code="bad-step", fix="give seconds, 0 or more")
+        dt = number(dt, "dt", "finite seconds, 0 or more", error=SceneError, code="bad-step", least=0.0)
         whole = dt + self._lost  # Kahan's sum: what one frame loses to rounding the next one gets
         end = self.time + whole
         self._lost = whole - (end - self.time)
@@ -155,12 +157,12 @@ class World:
         A velocity into the wall that the ball touches is turned at once, without a loss.
 
         Raises:
-            SceneError: a number is not finite.
+            SceneError: there is no such ball, or a place or velocity is not two finite numbers.
         """
-        here = self.position[ball] if position is None else np.asarray(position, dtype=np.float64)
-        speed = self.velocity[ball] if velocity is None else np.asarray(velocity, dtype=np.float64)
-        if here.shape != (2,) or speed.shape != (2,) or not (np.isfinite(here).all() and np.isfinite(speed).all()):
-            raise SceneError(f"ball {ball} cannot be put at {position!r}, {velocity!r}", code="bad-ball")
+        most, may_be = len(self) - 1, f"a whole number from 0 to {len(self) - 1}"
+        ball = whole_number(ball, "ball", may_be, error=SceneError, code="bad-ball", least=0, most=most)
+        here = self.position[ball] if position is None else _pair(position, "position")
+        speed = self.velocity[ball] if velocity is None else _pair(velocity, "velocity")
         touched, normal = (NO_HIT, None) if position is not None else self._contact(ball, here)
         if normal is None or touched == NO_HIT:
             self._restart(ball, here, speed, self.time, NO_HIT)
@@ -257,3 +259,11 @@ class World:
         self._since[ball], self._touched[ball], self._pull[ball] = time, last, self._gravity
         self._keeps[ball], self._bend[ball] = False, 0.0
         self._look_ahead(ball)
+
+
+def _pair(value: ArrayLike, name: str) -> FloatArray:
+    may_be = "two finite numbers"
+    pair = floats(value, name, may_be, error=SceneError, code="bad-ball")
+    if pair.shape != (2,) or not np.isfinite(pair).all():
+        raise refused(name, value, may_be, SceneError, "bad-ball")
+    return pair
