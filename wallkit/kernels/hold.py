@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.corner import rises_ahead
-from wallkit.kernels.falling import fall_search
+from wallkit.kernels.falling_walk import fall_search
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import (
     AT_REST,

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.falling import LEVEL_SPEED, fall_search
+from wallkit.kernels.falling import LEVEL_SPEED
+from wallkit.kernels.falling_walk import fall_search
 from wallkit.kernels.grid import search
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.model import END_OF_EDGE, LEFT, NO_HIT, SLIDING
