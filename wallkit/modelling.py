@@ -85,6 +85,7 @@ class Modelled:
             corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)),
             restitution=_restitution(scene),
             one_sided=_one_sided(scene),
+            fans=corners.fans if radius > 0.0 and _one_sided(scene) is not None else None,
             gravity=_gravity(scene),
             damping=damping_of(scene),
             extent=float(np.abs(vertices).max(initial=0.0)) + radius,

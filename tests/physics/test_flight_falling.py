@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from wallkit import Balls, Ending, Scene, Walls, simulate, survey
-from wallkit.kernels.falling import fall_corners, fall_line
-from wallkit.kernels.model import NO_HIT, Corner, Line
+from wallkit.edges import arcs_of, lines_of
+from wallkit.kernels.falling import fall_arcs, fall_corners
+from wallkit.kernels.model import NO_HIT, Corner, in_lists
 from wallkit.kernels.roots import NEVER
 
 ROOM = [[0, 0], [0, 280], [400, 280], [400, 0]]
@@ -55,8 +56,8 @@ def test_a_contact_with_a_corner_is_known_to_the_rounding_of_its_place():
             x, y, vx, vy = (float(v) for v in rng.uniform(-200, 200, 4))
             radius, gravity = float(rng.choice([0.5, 5.0])), -100.0
             t, feature = fall_corners(
-                [Corner(0.0, 0.0, 0.0, 0.0)], [0], 0, 1, None, [0], radius, x, y, vx, vy, 0.0, gravity, 1e-9,
-                0.0, NEVER, math.inf, NO_HIT,
+                [Corner(0.0, 0.0, 0.0, 0.0)], [0], 0, 1, None, [0], None, radius, x, y, vx, vy, 0.0, gravity,
+                1e-9, 0.0, NEVER, math.inf, NO_HIT,
             )  # fmt: skip
             if feature == NO_HIT:
                 continue
@@ -71,24 +72,32 @@ def test_a_contact_with_a_corner_is_known_to_the_rounding_of_its_place():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_window_of_time_leaves_out_no_contact_in_it(seed):
-    # any line asked for all time, and for windows that end after its contact: the same bits
+    # any arc and corner asked for all time, and for windows that end or begin at the contact: the same bits
     rng = np.random.default_rng(seed)
-    for _ in range(300):
-        a, b, place = rng.uniform(-100, 100, (3, 2)).tolist()
-        velocity, radius = rng.uniform(-60, 60, 2).tolist(), float(rng.choice([0.0, 3.0]))
-        dx, dy = b[0] - a[0], b[1] - a[1]
-        length = math.hypot(dx, dy)
-        line = Line(*a, *b, dy / length, -dx / length, length, 2.0)
+    found = 0
+    for _ in range(400):
+        a, b, place = rng.uniform(-100, 100, (3, 2))
+        velocity, radius, bulge = rng.uniform(-60, 60, 2), float(rng.choice([0.0, 3.0])), float(rng.uniform(-3, 3))
+        lines = lines_of(np.array([a, b]), np.array([0]), np.array([1]))
+        arcs = in_lists(arcs_of(lines, np.array([bulge])))
+        corners = [Corner(*a.tolist(), 0.0, 0.0)]
+        flight = *place.tolist(), *velocity.tolist(), 0.0, -50.0
 
-        def ask(now, until, best, line=line, radius=radius, place=place, velocity=velocity):
-            return fall_line(
-                [line], [0], 0, 1, None, [0], radius, *place, *velocity, 0.0, -50.0, NO_HIT, NO_HIT, 1e-10, now, until,
-                best, NO_HIT,
-            )  # fmt: skip
+        def ask(now, until, best, radius=radius, arcs=arcs, corners=corners, flight=flight):
+            best, feature, _touched = fall_arcs(
+                arcs, [0], 0, 1, None, [0], radius, *flight, NO_HIT, 1e-10, (0.0, 0.0), now, until, best, NO_HIT
+            )
+            if radius > 0.0:
+                best, feature = fall_corners(
+                    corners, [0], 0, 1, None, [0], None, radius, *flight, 1e-10, now, until, best, feature
+                )
+            return best, feature
 
         free = ask(0.0, NEVER, math.inf)
         if free[1] == NO_HIT:
             continue
+        found += 1
         for before, after in itertools.product((1.0, 0.5, 0.0), (1.0, 1.5)):
             assert ask(before * free[0], after * free[0], math.inf) == free
         assert ask(0.0, NEVER, math.nextafter(free[0], math.inf)) == free
+    assert found > 100

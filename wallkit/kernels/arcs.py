@@ -135,7 +135,7 @@ def scan_arcs_disc(
     From outside the centre meets the circle of R + r where it comes nearer, from inside that of R - r where it goes
     away; a larger disc than the arc meets its ends only, one as large all of it at once (see MOULD). The contact counts
     if the arc lies in its direction (with the overlap of ``scan_disc`` at the ends); an overlap on the way in counts
-    as t = 0.
+    as t = 0, but for a one-sided wall only one by rounding, as there.
 
     A disc that rolls along a wall comes to a hollow arc on its tangent. Rounding may have it miss the circle of R - r,
     or touch it just before the arc begins, and then it is on the way out where it comes beside the arc: that counts
@@ -159,9 +159,10 @@ def scan_arcs_disc(
         cross = abs(ex * vy - ey * vx)
         from_outside = True
         from_inside = True
+        deep = 2.0 * (arc.radius + radius) * slack
         if one_sided is not None and one_sided[edge_wall[ids[k]]] != 0:
-            from_outside = arc.sweep > 0.0
-            from_inside = arc.sweep < 0.0
+            from_outside = arc.sweep > 0.0 and power > radius * (2.0 * arc.radius + radius) - deep
+            from_inside = arc.sweep < 0.0 and power < -radius * (2.0 * arc.radius - radius) + deep
         t = -1.0
         if power >= 0.0:
             if along >= 0.0:

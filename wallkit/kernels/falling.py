@@ -4,9 +4,9 @@ A gap that falls through zero is a contact; ``roots`` finds when. A ball may mee
 (up past its end, and down on it), so each side is asked; from behind, the gap must rise above zero before it falls.
 Where a contact counts only on part of a line or circle, the parts overlap by the rounding of positions.
 
-Most of what a cell lists is not met, and mostly its *hull* shows that: a part of a parabola is a Bezier curve, and a
-linear form of the place lies between those of its three points, a quadratic one between five made of them. That look
-may only save work, never decide: it keeps off all that is within rounding.
+Most of what a cell lists is not met, and mostly the *hull* of the flight shows that: a part of a parabola is a Bezier
+curve, and a linear form of the place lies between those of its three points, a quadratic one between five made of them.
+That look may only save work, never decide: it keeps off all that is within rounding.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.arcs import FALLING_MOULD, is_wide, to_end
-from wallkit.kernels.impact import behind, precedes, slack_of
+from wallkit.kernels.impact import precedes, slack_of, stands_across
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
 
@@ -24,6 +24,8 @@ SMOOTH_ON = 1.0 - 2.0**-20
 """Cosine between the normals of a line and of an arc on to which a point slides smoothly: they differ by some 2^-10."""
 HULL_ROUNDING = 2.0**-45
 """Of the size of a hull, beyond the rounding of its points and of what is made of them."""
+LATER = 1.0 + 2.0**-18
+"""Roots are looked for up to so much after the time that matters: ``_polished`` moves them by less."""
 
 
 @kernel
@@ -43,13 +45,13 @@ def hull_of(x, y, vx, vy, gx, gy, start, stop, tolerance):
 
 @rare_kernel
 def fall_line(
-    lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, now, until,
-    best, feature,
-):  # fmt: skip
+    lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature
+):
     """Earliest contact with the lines of entries start to stop: +-(d + vn t + gn t^2 / 2) - r falls through 0.
 
-    ``skipped`` is the line on which the ball slides or has just slid. Contacts before ``now`` or after ``until`` are
-    found in other cells.
+    ``skipped`` is the line on which the ball slides or has just slid. A disc that overlaps a one-sided wall by more
+    than rounding has come through it, and meets it once it has left it. The far side can be met only by a ball that
+    comes through the gap to the near one, beside the edge: it is asked only if that is before ``best``.
 
     Returns:
         (time, feature, number of other lines that a point touches where it starts).
@@ -57,61 +59,45 @@ def fall_line(
     touched = 0
     slack = slack_of(tolerance, radius)
     noise = LEVEL_SPEED * (abs(vx) + abs(vy))
-    hull = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
     for k in range(start, stop):
         if ids[k] == skipped:
             continue
         line = lines[ids[k]]
-        nx, ny = line.nx, line.ny
-        if _keeps_off(line, hull, radius, slack):
-            continue
         ex, ey = x - line.ax, y - line.ay
+        nx, ny = line.nx, line.ny
         d, vn, gn = ex * nx + ey * ny, vx * nx + vy * ny, gx * nx + gy * ny
         u, vu, gu = ey * nx - ex * ny, vy * nx - vx * ny, gy * nx - gx * ny
         above = d > 0.0
         if radius == 0.0 and abs(d) <= tolerance and -tolerance <= u <= line.length + tolerance:
             touched += 1 if ids[k] != last else 0
             above = vn > 0.0 if abs(vn) > noise else gn < 0.0  # pressed on it, it lies on it
-        for turn in range(2):
-            side = 1.0 if turn == 0 else -1.0
-            if side < 0.0 and one_sided is not None:
-                if one_sided[edge_wall[ids[k]]] != 0:
-                    continue
-            t = _fall_of_side(0.5 * side * gn, side * vn, side * d - radius, above != (side > 0.0))
-            if not (t < best or (t == best and precedes(ids[k], feature))):
+        side = 1.0 if above else -1.0
+        if one_sided is None or side > 0.0 or one_sided[edge_wall[ids[k]]] == 0:
+            t = first_fall_quadratic(0.5 * side * gn, side * vn, side * d - radius, math.inf)
+            if one_sided is not None:
+                if side * d - radius < -slack and one_sided[edge_wall[ids[k]]] != 0:
+                    t = _fall_from_behind(0.5 * gn, vn, d - radius)
+            if not t <= best:
                 continue
-            foot = u + t * (vu + 0.5 * t * gu)
-            if -slack <= foot <= line.length + slack:
+            if -slack <= u + t * (vu + 0.5 * t * gu) <= line.length + slack:
+                if t < best or precedes(ids[k], feature):
+                    best, feature = t, ids[k]
+                continue
+        if one_sided is not None:
+            if side > 0.0 and one_sided[edge_wall[ids[k]]] != 0:
+                continue
+        t = _fall_from_behind(-0.5 * side * gn, -side * vn, -side * d - radius)
+        if t < best or (t == best and precedes(ids[k], feature)):
+            if -slack <= u + t * (vu + 0.5 * t * gu) <= line.length + slack:
                 best, feature = t, ids[k]
-                hull = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
     return best, feature, touched
 
 
-@rare_kernel
-def _keeps_off(line, hull, radius, slack):
-    """Tell whether all of a hull lies farther from a line than the radius, on one side, or beside it."""
-    px, py, qx, qy, rx, ry, margin, _size = hull
-    nx, ny, reach = line.nx, line.ny, radius + margin
-    ax, ay = px - line.ax, py - line.ay
-    bx, by = qx - line.ax, qy - line.ay
-    cx, cy = rx - line.ax, ry - line.ay
-    p, q, r = ax * nx + ay * ny, bx * nx + by * ny, cx * nx + cy * ny
-    if (p > reach and q > reach and r > reach) or (p < -reach and q < -reach and r < -reach):
-        return True
-    p, q, r = ay * nx - ax * ny, by * nx - bx * ny, cy * nx - cx * ny
-    low, high = -slack - margin, line.length + slack + margin
-    return (p < low and q < low and r < low) or (p > high and q > high and r > high)
-
-
 @kernel
-def _fall_of_side(a, b, c, from_behind):
-    """First fall of a t^2 + b t + c through 0; from behind (below 0 now) only after it has risen."""
-    if not from_behind:
-        return first_fall_quadratic(a, b, c, math.inf)
-    if a >= 0.0 or b <= 0.0:
-        return NEVER
+def _fall_from_behind(a, b, c):
+    """First fall of a t^2 + b t + c through 0, below which it is now, after it has risen above."""
     discriminant = b * b - 4.0 * a * c
-    if discriminant <= 0.0:
+    if a >= 0.0 or b <= 0.0 or discriminant <= 0.0:
         return NEVER
     return -0.5 * (b + math.sqrt(discriminant)) / a
 
@@ -131,31 +117,44 @@ def _range_of(ax, ay, bx, by, cx, cy, sx, sy):
 
 @rare_kernel
 def fall_corners(
-    corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, tolerance, now, until,
+    corners, ids, start, stop, one_sided, corner_wall, fans, radius, x, y, vx, vy, gx, gy, tolerance, now, until,
     best, feature,
 ):  # fmt: skip
-    """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls."""
+    """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls.
+
+    A corner of a one-sided wall may be passed from behind and met later on the same flight.
+    """
     px, py, qx, qy, rx, ry, margin, size = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
+    left, right = min(min(px, qx), rx), max(max(px, qx), rx)
+    low, high = min(min(py, qy), ry), max(max(py, qy), ry)
     most = radius * radius + margin * (4.0 * radius + size)
+    slack = slack_of(tolerance, radius)
+    c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
     for k in range(start, stop):
         corner = corners[ids[k]]
         cx, cy = corner.x, corner.y
+        off_x, off_y = max(max(left - cx, cx - right), 0.0), max(max(low - cy, cy - high), 0.0)
+        if off_x * off_x + off_y * off_y > most:
+            continue
         least, _largest = _range_of(px - cx, py - cy, qx - cx, qy - cy, rx - cx, ry - cy, 0.0, 0.0)
         if least > most:
             continue
         ex, ey = x - cx, y - cy
         c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
-        c0, c3 = ex * ex + ey * ey - radius * radius, vx * gx + vy * gy
-        t = first_fall_quartic(0.25 * (gx * gx + gy * gy), c3, c2, c1, c0, best, False)
-        t = _polished(t, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy)
-        if not (t < best or (t == best and precedes(-2 - ids[k], feature))):
-            continue
+        c0 = ex * ex + ey * ey - radius * radius
+        from_behind = False
         if one_sided is not None:
-            if one_sided[corner_wall[ids[k]]] != 0 and behind(
-                corner, ex + t * (vx + 0.5 * t * gx), ey + t * (vy + 0.5 * t * gy)
-            ):
-                continue
-        best, feature = t, -2 - ids[k]
+            from_behind = one_sided[corner_wall[ids[k]]] != 0 and c0 < -2.0 * radius * slack
+        t = first_fall_quartic(c4, c3, c2, c1, c0, LATER * min(best, until), from_behind)
+        t = _polished(t, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy)
+        if one_sided is not None:
+            if one_sided[corner_wall[ids[k]]] != 0 and t <= best:
+                there_x, there_y = ex + t * (vx + 0.5 * t * gx), ey + t * (vy + 0.5 * t * gy)
+                if stands_across(corner, fans[ids[k]], radius, slack, there_x, there_y):
+                    t = _fall_after(c4, c3, c2, c1, c0, t, LATER * min(best, until))
+                    t = _polished(t, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy)
+        if t < best or (t == best and precedes(-2 - ids[k], feature)):
+            best, feature = t, -2 - ids[k]
     return best, feature
 
 
@@ -200,11 +199,9 @@ def fall_arcs(
 ):  # fmt: skip
     """Earliest contact with the arcs of entries start to stop: |e(t)|^2 - (R + r)^2 or (R - r)^2 - |e(t)|^2 falls.
 
-    With w from a, the start of the arc, and s from its centre to a, |e|^2 - R^2 is w.(w + 2 s): a nearly straight arc
-    is judged as the line is that it comes to.
-
-    ``reference`` is the normal, towards the ball, of the line on which a point slides or has just slid, or zero: a
-    point that comes smoothly onto an arc is on that side of it.
+    Contacts before ``now`` or after ``until`` are found in other cells. ``reference`` is the normal, towards the ball,
+    of the line on which a point slides or has just slid, or zero: a point that comes smoothly onto an arc is on that
+    side of it.
 
     Returns:
         (time, feature, number of other arcs that a point touches where it starts).
@@ -212,69 +209,144 @@ def fall_arcs(
     touched = 0
     if arcs is None:
         return best, feature, touched
-    slack = slack_of(tolerance, radius)
-    c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
-    noise = LEVEL_SPEED * (abs(vx) + abs(vy))
     px, py, qx, qy, rx, ry, margin, size = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
+    slack = slack_of(tolerance, radius)
     for k in range(start, stop):
         arc = arcs[ids[k]]
-        mould = FALLING_MOULD * arc.radius
-        outer = radius * (2.0 * arc.radius + radius)
-        inner = -radius * (2.0 * arc.radius - radius)
-        if arc.radius - radius < mould:
-            inner = -(arc.radius - mould) * (arc.radius + mould)
+        wx, wy = x - arc.ax, y - arc.ay
+        solid_in, solid_out, one_way = True, True, False
+        if one_sided is not None:
+            one_way = one_sided[edge_wall[ids[k]]] != 0
+            solid_out, solid_in = not one_way or arc.sweep > 0.0, not one_way or arc.sweep < 0.0
+        ax, ay, bx, by, cx, cy = px - arc.ax, py - arc.ay, qx - arc.ax, qy - arc.ay, rx - arc.ax, ry - arc.ay
+        if _goes_by(arc, ax, ay, bx, by, cx, cy, slack + margin):
+            continue
+        least, most = _range_of(ax, ay, bx, by, cx, cy, arc.sx, arc.sy)
         near = margin * (4.0 * (arc.radius + radius) + size)
-        ax, ay = arc.ax, arc.ay
-        least, most = _range_of(px - ax, py - ay, qx - ax, qy - ay, rx - ax, ry - ay, arc.sx, arc.sy)
+        outer, inner = levels_of(arc.radius, radius)
         if least > outer + near or most < inner - near:
             continue
-        wx, wy = x - ax, y - ay
-        ex, ey = wx + arc.sx, wy + arc.sy
-        power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
-        c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
-        outside = power >= 0.0
-        if (
-            radius == 0.0
-            and abs(power) <= (2.0 * arc.radius + tolerance) * tolerance
-            and _beside(arc, wx, wy, tolerance)
-        ):
-            touched += 1 if ids[k] != last else 0
-            along = ex * reference[0] + ey * reference[1]
-            outside = c1 > 0.0 if abs(c1) > 2.0 * arc.radius * noise else c2 < 0.0
-            if abs(along) > SMOOTH_ON * arc.radius:
-                outside = along > 0.0
-        for turn in range(2):
-            side = 1.0 if turn == 0 else -1.0
-            level = outer if turn == 0 else inner
-            from_behind = outside != (side > 0.0)
-            if turn == 1 and arc.radius - radius <= -mould:
-                continue
-            if one_sided is not None:
-                if one_sided[edge_wall[ids[k]]] != 0 and side * arc.sweep < 0.0:
-                    continue
-            if (least > level + near) if turn == 0 else (most < level - near):
-                continue
-            if turn == 1 and arc.radius - radius < mould:
-                from_behind = power > level
-            if from_behind and ((most < level - near) if turn == 0 else (least > level + near)):
-                continue
-            c0 = side * (power - level)
-            t = first_fall_quartic(side * c4, side * c3, side * c2, side * c1, c0, best, from_behind)
-            t = _polished(t, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy)
-            for _again in range(2):
-                if not (t < best or (t == best and precedes(ids[k], feature))):
-                    break
-                if (t > 0.0 or ids[k] != last) and _beside(
-                    arc, wx + t * (vx + 0.5 * t * gx), wy + t * (vy + 0.5 * t * gy), slack
-                ):
-                    best, feature = t, ids[k]
-                    px, py, qx, qy, rx, ry, margin, size = hull_of(
-                        x, y, vx, vy, gx, gy, now, min(best, until), tolerance
-                    )
-                    break
-                t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, t, best)
-                t = _polished(t, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy)
+        again = ids[k] == last
+        outside, on = _side_of(arc, radius, wx, wy, vx, vy, gx, gy, tolerance, reference)
+        touched += 1 if on and not again else 0
+        t = _time_to_arc(
+            arc, radius, outside, solid_out, solid_in, one_way, wx, wy, vx, vy, gx, gy, again, slack,
+            min(best, LATER * until), least - near, most + near,
+        )  # fmt: skip
+        if t < best or (t == best and precedes(ids[k], feature)):
+            best, feature = t, ids[k]
+            px, py, qx, qy, rx, ry, margin, size = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
     return best, feature, touched
+
+
+@kernel
+def levels_of(arc_radius, radius):
+    """Power |e|^2 - R^2 of a centre that touches an arc from outside, and of one that does so from inside.
+
+    With w from a, the start of the arc, and s from its centre to a, it is w.(w + 2 s): a nearly straight arc is
+    judged as the line is that it comes to. For a disc as large as the arc see ``FALLING_MOULD``.
+    """
+    mould = FALLING_MOULD * arc_radius
+    inner = -radius * (2.0 * arc_radius - radius)
+    if arc_radius - radius < mould:
+        inner = -(arc_radius - mould) * (arc_radius + mould)
+    return radius * (2.0 * arc_radius + radius), inner
+
+
+@rare_kernel
+def _goes_by(arc, ax, ay, bx, by, cx, cy, slack):
+    """Tell whether a hull, given from the start of the arc, lies all beyond one of its ends; see ``_beside``."""
+    if is_wide(arc.sweep):
+        return False
+    least = -slack * arc.radius
+    sx, sy = arc.sx, arc.sy
+    if sx * ay - sy * ax < least and sx * by - sy * bx < least and sx * cy - sy * cx < least:
+        return True
+    fx, fy = to_end(arc)
+    dx, dy = arc.bx - arc.ax, arc.by - arc.ay
+    a, b, c = (ax - dx) * fy - (ay - dy) * fx, (bx - dx) * fy - (by - dy) * fx, (cx - dx) * fy - (cy - dy) * fx
+    return a < least and b < least and c < least
+
+
+@rare_kernel
+def _side_of(arc, radius, wx, wy, vx, vy, gx, gy, tolerance, reference):
+    """Tell whether a ball is outside the circle of an arc, and whether it is a point within rounding of the arc.
+
+    Such a point is on the side to which it flies, or, level, from which it is pressed; or see ``fall_arcs``.
+    """
+    ex, ey = wx + arc.sx, wy + arc.sy
+    power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
+    if radius > 0.0 or abs(power) > (2.0 * arc.radius + tolerance) * tolerance or not _beside(arc, wx, wy, tolerance):
+        return power >= 0.0, False
+    along = ex * reference[0] + ey * reference[1]
+    if abs(along) > SMOOTH_ON * arc.radius:
+        return along > 0.0, True
+    rises = ex * vx + ey * vy
+    if abs(rises) > LEVEL_SPEED * (abs(vx) + abs(vy)) * arc.radius:
+        return rises > 0.0, True
+    return vx * vx + vy * vy + ex * gx + ey * gy < 0.0, True
+
+
+@rare_kernel
+def _time_to_arc(
+    arc, radius, outside, solid_out, solid_in, one_way, wx, wy, vx, vy, gx, gy, again, slack, best, least, most
+):  # fmt: skip
+    """Time up to ``best`` at which a ball, at w from the start of an arc, meets it; NEVER if it does not.
+
+    Its power stays between ``least`` and ``most`` while contacts count. The other side is met only through the gap to
+    this one, beside the arc; a disc as large as the arc may be on neither.
+    """
+    ex, ey = wx + arc.sx, wy + arc.sy
+    power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
+    c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
+    c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
+    outer, inner = levels_of(arc.radius, radius)
+    mould = FALLING_MOULD * arc.radius
+    found, other = NEVER, True
+    for turn in range(2):
+        from_outside = outside == (turn == 0)
+        fits = from_outside or arc.radius - radius > -mould
+        if not (other and fits and (solid_out if from_outside else solid_in)):
+            continue
+        side, level = (1.0, outer) if from_outside else (-1.0, inner)
+        is_mould = not from_outside and arc.radius - radius < mould
+        overlaps = one_way and side * (power - level) < -2.0 * (arc.radius + radius) * slack
+        from_behind = power > level if is_mould else turn == 1 or overlaps
+        if (least > level) if from_outside else (most < level):
+            continue
+        if from_behind and ((most < level) if from_outside else (least > level)):
+            continue
+        c0 = side * (power - level)
+        if again and not from_behind and _only_rises(side * c4, side * c3, side * c2, side * c1, c0, best):
+            other = is_mould
+            continue
+        t = first_fall_quartic(side * c4, side * c3, side * c2, side * c1, c0, LATER * best, from_behind)
+        t = _polished(t, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy)
+        other = is_mould or t <= best
+        for _again in range(2):
+            if not t <= best or t >= found:
+                break
+            there_x, there_y = wx + t * (vx + 0.5 * t * gx), wy + t * (vy + 0.5 * t * gy)
+            if (t > 0.0 or not again) and _beside(arc, there_x, there_y, slack):
+                found, other = t, other and _again == 1
+                break
+            t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, t, LATER * best)
+            t = _polished(t, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy)
+    return found
+
+
+@rare_kernel
+def _only_rises(c4, c3, c2, c1, c0, span):
+    """Tell whether a gap that begins at 0, to rounding, surely comes to no fall through 0 in a span of time.
+
+    It is c0 + q t, q a cubic that lies between the four coefficients of its Bezier curve. Where these are a quarter of
+    q(0) = c1 and more, the gap is at most 0 up to t = 4 |c0| / c1, and until then its slope keeps most of c1.
+    """
+    a, b, c = c2 * span, c3 * span * span, c4 * span * span * span
+    least = 0.25 * c1 + HULL_ROUNDING * (abs(a) + abs(b) + abs(c))
+    t = 4.0 * abs(c0) / (c1 if c1 > 0.0 else 1.0)
+    keeps = c1 > 4.0 * t * (abs(c2) + t * (abs(c3) + t * abs(c4)))
+    return keeps and c1 + a / 3.0 > least and c1 + (2.0 * a + b) / 3.0 > least and c1 + a + b + c > least
 
 
 @rare_kernel

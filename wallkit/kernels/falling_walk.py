@@ -11,12 +11,12 @@ import math
 
 from wallkit.kernels.falling import fall_arcs, fall_corners, fall_line
 from wallkit.kernels.grid import clearing, leaf, moves_to_next, place
-from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.jit import kernel
 from wallkit.kernels.model import WAYS
 from wallkit.kernels.roots import NEVER
 
 
-@rare_kernel
+@kernel
 def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature):
     """Find the earliest contact before ``best``: (time, feature, edges touched by a point where it starts).
 
@@ -65,7 +65,7 @@ def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolera
     return best, feature, touched
 
 
-@rare_kernel
+@kernel
 def _fall_scan(
     model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, now, until, best, feature
 ):  # fmt: skip
@@ -75,7 +75,7 @@ def _fall_scan(
     if cell.first < cell.arcs:
         best, feature, touched = fall_line(
             model.lines, model.ids, cell.first, cell.arcs, model.one_sided, model.edge_wall, radius,
-            x, y, vx, vy, gx, gy, last, skipped, tolerance, now, until, best, feature,
+            x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature,
         )  # fmt: skip
     if cell.arcs < cell.corners:
         best, feature, more = fall_arcs(
@@ -84,13 +84,13 @@ def _fall_scan(
         )  # fmt: skip
     if cell.corners < cell.end:
         best, feature = fall_corners(
-            model.corners, model.ids, cell.corners, cell.end, model.one_sided, model.corner_wall, radius,
-            x, y, vx, vy, gx, gy, tolerance, now, until, best, feature,
+            model.corners, model.ids, cell.corners, cell.end, model.one_sided, model.corner_wall, model.fans,
+            radius, x, y, vx, vy, gx, gy, tolerance, now, until, best, feature,
         )  # fmt: skip
     return best, feature, touched + more
 
 
-@rare_kernel
+@kernel
 def _next_turn(grid, vx, vy, gx, gy, now):
     """The first time after now at which the way of a flight changes, see ``grid.way_of``."""
     turn = min(_standstill(vx, gx, now), _standstill(vy, gy, now))
@@ -106,7 +106,7 @@ def _standstill(v, g, now):
     return t if t > now else NEVER
 
 
-@rare_kernel
+@kernel
 def _way_between(vx, vy, gx, gy, now, turn):
     """The way of a flight between two turns, see ``grid.way_of``."""
     t = 0.5 * (now + turn) if turn < NEVER else 2.0 * now + 1.0
@@ -126,7 +126,7 @@ def _span(number, shift, count, back):
     return cell << shift, (cell + count) << shift
 
 
-@rare_kernel
+@kernel
 def _until_left(origin, unit, first, end, count, p, v, g, now, back):
     """How long after now a coordinate leaves what lies from first to end, at the end to which the flight goes.
 
@@ -144,6 +144,8 @@ def _until_left(origin, unit, first, end, count, p, v, g, now, back):
         d, u, a = p_now - (origin + first * unit), -u, -a
     if d <= 0.0:
         return 0.0
+    if a == 0.0:
+        return d / u if u > 0.0 else NEVER
     u = max(u, 0.0)
     square = u * u + 2.0 * a * d
     if square < 0.0:

@@ -209,6 +209,8 @@ class Model(NamedTuple):
     """By wall: normal, tangential; None when all are 1."""
     one_sided: Any
     """By wall: 1 when solid from its outward side alone; None when all are two-sided."""
+    fans: Any
+    """``Fan`` by vertex; None when all walls are two-sided, or all balls points."""
     gravity: Any
     """(gx, gy), or None."""
     damping: Any

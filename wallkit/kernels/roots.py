@@ -27,28 +27,16 @@ def first_fall_quadratic(a: float, b: float, c: float, t_max: float) -> float:
     falling through it and does not count. Nearly touching, the answer has the error that rounding a, b and c has:
     about sqrt(eps) times the time of the vertex.
     """
-    if c <= 0.0:
-        if b < 0.0 or (b == 0.0 and a < 0.0):
-            return 0.0
-        if a >= 0.0:  # it overlaps and recedes for ever
-            return NEVER
-        discriminant = b * b - 4.0 * a * c
-        # with no clear stretch between (discriminant <= 0) it begins to approach at the vertex
-        t = -0.5 * (b + math.sqrt(max(discriminant, 0.0))) / a
-    elif a == 0.0:
-        if b >= 0.0:
-            return NEVER
-        t = -c / b
-    else:
-        discriminant = b * b - 4.0 * a * c
-        if a > 0.0:
-            if b >= 0.0 or discriminant <= 0.0:
-                return NEVER
-            t = 2.0 * c / (math.sqrt(discriminant) - b)
-        elif b > 0.0:
-            t = -0.5 * (b + math.sqrt(discriminant)) / a
-        else:
-            t = 2.0 * c / (math.sqrt(discriminant) - b)
+    discriminant = b * b - 4.0 * a * c  # selects in place of branches, which no processor could foresee
+    root = math.sqrt(discriminant if discriminant > 0.0 else 0.0)
+    above, rises = c > 0.0, b > 0.0
+    numerator, denominator = b + root if rises else 2.0 * c, -2.0 * a if rises else root - b
+    # Above and falling it comes down if it is not turned before. Rising it comes back if it is turned, also from an
+    # overlap; with no clear stretch between (no root) it begins to approach at the vertex.
+    meets = (denominator > 0.0) & (rises | (above & ((a <= 0.0) | (discriminant > 0.0))))
+    t = numerator / (denominator if meets else 1.0)
+    t = t if meets else NEVER
+    t = 0.0 if (not above) & ((b < 0.0) | ((b == 0.0) & (a < 0.0))) else t  # an overlap that approaches
     return t if t <= t_max else NEVER
 
 
@@ -146,16 +134,17 @@ def _from_right(
     A tangent lies above f, so from the right of the root steps stay there, and from the left one step leads there.
     They begin near the root of the parabola that f is at ``start``.
     """
-    t = end if end < NEVER else max(start, _root_bound(c4, c3, c2, c1, c0))
+    t = end
     bend = 2.0 * ((6.0 * c4 * start + 3.0 * c3) * start + c2)
-    root = math.sqrt(max(slope * slope - 2.0 * f * bend, 0.0))
-    near = start + (2.0 * f / (root - slope) if slope < 0.0 else (slope + root) / -bend) if bend < 0.0 else t
-    for step in range(STEPS):
-        if step == 0 and near < t:
-            f, slope = _quartic(c4, c3, c2, c1, c0, near), _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, near)
-            if slope < 0.0:
-                t = min(t, near - f / slope)
-            continue
+    if bend < 0.0:
+        root = math.sqrt(max(slope * slope - 2.0 * f * bend, 0.0))
+        near = start + (2.0 * f / (root - slope) if slope < 0.0 else (slope + root) / -bend)
+        f, slope = _quartic(c4, c3, c2, c1, c0, near), _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, near)
+        if near < end and slope < 0.0:
+            t = min(end, near - f / slope)
+    if t == NEVER:
+        t = max(start, _root_bound(c4, c3, c2, c1, c0))
+    for _ in range(STEPS):
         f, slope = _quartic(c4, c3, c2, c1, c0, t), _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, t)
         following = t - f / slope if slope < 0.0 else t
         if not following < t:
