@@ -24,6 +24,9 @@ BRUTE_FORCE = 16
 FAR = 2.0**20
 """Extents from which a ball may come if there is to be an index: the rounding of its place (2^-50 of the way) is then
 below a part in 2^30 of the scene. For one from farther away all edges are asked."""
+LENGTHS, RATES = (1e-60, 1e60), (1e-70, 1e70)
+"""Least and most that the size of a scene, and its speeds and gravity, may be if they are not 0. Squares of products
+of two of them are numbers then, also for arcs 2^42 times as large as the scene."""
 
 
 class Modelled:
@@ -56,6 +59,7 @@ class Modelled:
         """
         self.box = _box(scene.walls)
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
+        _check_sizes(scene)
         self.origin = local_origin(scene.walls.vertices) if origin is None else origin
         self.model = self._made(scene, index, machine_code, fine)
         self._lists: Model | None = None
@@ -108,6 +112,7 @@ class Modelled:
     def with_balls(self, balls: Balls) -> Modelled | None:
         """Give the same model with other balls; None if it must be made anew, for other radii or from farther away."""
         radii, off = np.asarray(balls.radius), np.abs(np.asarray(balls.position) - self.origin)
+        _check_speeds(balls)
         if not (len(radii) and len(self.radii) and off.max() <= self.model.extent):
             return None
         if (radii.min(), radii.max()) != (self.radii.min(), self.radii.max()):
@@ -128,6 +133,37 @@ class Modelled:
         offsets = scene.walls.edge_offsets
         wall = np.repeat(np.arange(len(scene.walls)), np.diff(offsets))
         return wall, np.arange(len(wall)) - offsets[wall]
+
+
+def _check_sizes(scene: Scene) -> None:
+    """Refuse what is so large or so small that products of four of it are no numbers any more.
+
+    Raises:
+        SceneError: lengths, speeds or gravity are beyond LENGTHS and RATES.
+    """
+    balls = scene.balls
+    farthest = max(
+        float(np.abs(part).max(initial=0.0)) for part in (scene.walls.vertices, balls.position, balls.radius)
+    )
+    _check_range("the largest coordinate or radius", farthest, LENGTHS, "draw it in another unit of length")
+    _check_speeds(balls)
+    if scene.gravity is not None and len(np.ravel(scene.gravity)) == 2:
+        _check_range(
+            "gravity", float(np.hypot(*np.ravel(scene.gravity))), RATES, "measure time in another unit, or give 0"
+        )
+
+
+def _check_speeds(balls: Balls) -> None:
+    speeds = np.hypot(*np.asarray(balls.velocity, dtype=np.float64).reshape(-1, 2).T)
+    moving = speeds[speeds > 0.0]
+    for speed in (float(moving.min()), float(moving.max())) if len(moving) else ():
+        _check_range("a speed", speed, RATES, "measure time in another unit, or give 0")
+
+
+def _check_range(what: str, size: float, limits: tuple[float, float], fix: str) -> None:
+    if size != 0.0 and math.isfinite(size) and not limits[0] <= size <= limits[1]:
+        known = f"{what} is {size:g}, and is known to work from {limits[0]:g} to {limits[1]:g}"
+        raise SceneError(known, code="beyond-numbers", fix=fix)
 
 
 def _box(walls: Walls) -> tuple[float, float, float, float]:

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.crossing import next_crossing, outward
+from wallkit.kernels.crossing import crosses_too, next_crossing, outward
+from wallkit.kernels.grid import home
 from wallkit.kernels.model import NO_HIT
 from wallkit.modelling import Modelled
 from wallkit.run import CONTACT, Kind, Run
@@ -94,7 +95,10 @@ class Sensors:
             )
             if edge == NO_HIT:
                 return
-            nx, ny = outward(model, edge, x, y)
-            kind = Kind.ENTER if vx * nx + vy * ny < 0.0 else Kind.EXIT
-            place = (x + ox, y + oy)
-            yield time + lost, ball, *place, vx, vy, *place, nx, ny, self._wall[edge], self._edge[edge], kind
+            cell = model.cells[home(model, model.grid, x, y)]
+            others = model.ids[cell.first : cell.corners]
+            for crossed in [edge, *(e for e in others if crosses_too(model, e, edge, x, y, vx, vy, tolerance))]:
+                nx, ny = outward(model, crossed, x, y)
+                kind = Kind.ENTER if vx * nx + vy * ny < 0.0 else Kind.EXIT
+                place = (x + ox, y + oy)
+                yield time + lost, ball, *place, vx, vy, *place, nx, ny, self._wall[crossed], self._edge[crossed], kind

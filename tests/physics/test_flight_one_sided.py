@@ -1,4 +1,4 @@
-"""One-sided walls and discs: one that stands across such a wall passes until it has left it, with an index or without."""
+"""One-sided walls and discs: one that stands across passes until it has left the wall, with an index or without."""
 
 import math
 

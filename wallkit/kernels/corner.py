@@ -54,7 +54,7 @@ def _came(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance):
     edge, within rounding of its line, the place of the start is still the best that is known.
     """
     side = _side(model, model.arcs, edge, from_x, from_y, tolerance)
-    if side == 0.0 and not _touch(model, model.arcs, edge, from_x, from_y, tolerance)[0]:
+    if side == 0.0 and not touching(model, model.arcs, edge, from_x, from_y, tolerance)[0]:
         side = _side(model, model.arcs, edge, from_x, from_y, 0.0)
     if side == 0.0:
         nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
@@ -80,7 +80,7 @@ def _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tol
     """
     if edge == last:
         return -2.0
-    touches, starts, ends = _touch(model, model.arcs, edge, x, y, tolerance)
+    touches, starts, ends = touching(model, model.arcs, edge, x, y, tolerance)
     if not touches:
         return -2.0
     nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
@@ -124,7 +124,7 @@ def normal_at(model, arcs, edge, x, y):
 
 
 @rare_kernel
-def _touch(model, arcs, edge, x, y, tolerance):
+def touching(model, arcs, edge, x, y, tolerance):
     """Tell whether a point is on an edge, and at its start or its end: (touches, starts here, ends here)."""
     if arcs is not None:
         arc = arcs[edge]
@@ -227,7 +227,7 @@ def _rise(model, edge, held, x, y, vx, vy, nx, ny, tolerance):
     """How steeply an edge at (x, y) goes up along n, as a part of n; 0 if it is not there, or beside the way."""
     if edge == held:
         return 0.0
-    touches, starts, ends = _touch(model, model.arcs, edge, x, y, tolerance)
+    touches, starts, ends = touching(model, model.arcs, edge, x, y, tolerance)
     if not touches:
         return 0.0
     mx, my, _twice = normal_at(model, model.arcs, edge, x, y)
