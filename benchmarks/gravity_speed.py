@@ -3,8 +3,8 @@
     python benchmarks/gravity_speed.py [scene ...]
 
 The scenes, balls and turns of ``core_speed.py``, of lines, with 1,000 balls that fall at 100 units/s^2 for 10 s.
-Compiling is not counted, nor is making a grid. Both sides count their own bounces: among few lines they are the same; where
-rounding grows they differ by a hundredth; and of points that fall the C loop loses some through joints.
+Compiling is not counted, nor is making a grid. Both sides count their own bounces: among few lines they are the same;
+where rounding grows they differ by a hundredth; and of points that fall the C loop loses some through joints.
 """
 
 from __future__ import annotations
