@@ -39,7 +39,13 @@ def test_a_run_at_another_pace_goes_the_same_way(pace, radius, gravity):
 
 @pytest.mark.parametrize(
     ("size", "pace", "word"),
-    [(1e200, 1.0, "coordinate"), (1e-200, 1.0, "coordinate"), (1.0, 1e155, "speed"), (1.0, 1e-162, "speed")],
+    [
+        (1e200, 1.0, "coordinate"),
+        (1e-200, 1.0, "coordinate"),
+        (1.0, 1e155, "speed"),
+        (1.0, 1e-162, "speed"),
+        (1e50, 1e55, "times the size|a speed|gravity"),
+    ],
 )
 @pytest.mark.parametrize("gravity", [None, (0.0, -1.5)])
 def test_beyond_the_numbers_is_an_error_by_name(size, pace, word, gravity):

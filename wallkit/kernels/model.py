@@ -210,7 +210,7 @@ class Model(NamedTuple):
     one_sided: Any
     """By wall: 1 when solid from its outward side alone; None when all are two-sided."""
     fans: Any
-    """``Fan`` by vertex; None when all walls are two-sided, or all balls points."""
+    """``Fan`` by vertex, none for points; None when all walls are two-sided."""
     gravity: Any
     """(gx, gy), or None."""
     damping: Any
