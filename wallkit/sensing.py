@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.gliding import guides
-from wallkit.kernels.crossing import next_crossing, outward
+from wallkit.kernels.crossing import crosses_too, next_crossing, outward
 from wallkit.kernels.crossing_round import next_crossing_round
+from wallkit.kernels.grid import home
 from wallkit.kernels.model import NO_HIT
 from wallkit.modelling import Modelled
 from wallkit.run import CONTACT, Kind, Run, pull_of
@@ -134,3 +135,7 @@ class Sensors:
             if edge == NO_HIT:
                 return
             yield self._row(ball, time + lost, x, y, vx, vy, edge)
+            cell = model.cells[home(model, model.grid, x, y)]
+            for other in model.ids[cell.first : cell.corners]:
+                if crosses_too(model, other, edge, x, y, vx, vy, tolerance):
+                    yield self._row(ball, time + lost, x, y, vx, vy, other)

@@ -52,7 +52,7 @@ def came_from(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance):
     edge, within rounding of its line, the place of the start is still the best that is known.
     """
     side = _side(model, model.arcs, edge, from_x, from_y, tolerance)
-    if side == 0.0 and not touches(model, model.arcs, edge, from_x, from_y, tolerance)[0]:
+    if side == 0.0 and not touching(model, model.arcs, edge, from_x, from_y, tolerance)[0]:
         side = _side(model, model.arcs, edge, from_x, from_y, 0.0)
     if side == 0.0:
         nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
@@ -78,7 +78,7 @@ def _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tol
     """
     if edge == last:
         return -2.0
-    touched, starts, ends = touches(model, model.arcs, edge, x, y, tolerance)
+    touched, starts, ends = touching(model, model.arcs, edge, x, y, tolerance)
     if not touched:
         return -2.0
     nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
@@ -122,7 +122,7 @@ def normal_at(model, arcs, edge, x, y):
 
 
 @rare_kernel
-def touches(model, arcs, edge, x, y, tolerance):
+def touching(model, arcs, edge, x, y, tolerance):
     """Tell whether a point is on an edge, and at its start or its end: (touches, starts here, ends here)."""
     if arcs is not None:
         arc = arcs[edge]

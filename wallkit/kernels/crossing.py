@@ -1,15 +1,22 @@
-"""Sensors: walls that a ball's centre crosses without a bounce. They change no flight, so they are asked after it."""
+"""Sensors: walls that a ball's centre crosses without a bounce. They change no flight, so they are asked after it.
+
+Where several edges are touched at once (in a vertex, or where sensors share a border) the search finds one of them. For
+the others the way decides as for any vertex: a path passes between the ends of an edge if they lie on either side of
+it, and a vertex on the path has one side for all edges that meet there. So what is closed is left as often as entered.
+"""
 
 from __future__ import annotations
 
 import math
 
+from wallkit.kernels.corner import normal_at, touching
 from wallkit.kernels.crossing_round import next_crossing_round
 from wallkit.kernels.damping import free_time, slowed
 from wallkit.kernels.flight import fly, normal_of
+from wallkit.kernels.grid import home
 from wallkit.kernels.guide import STRAIGHT, guide
 from wallkit.kernels.hold import side_of
-from wallkit.kernels.jit import kernel
+from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import EDGE, FREE, LOG_STRIDE, NO_HIT, RUNNING, SLIDE
 from wallkit.kernels.motion import advance
 from wallkit.kernels.pull import first_contact, move
@@ -57,6 +64,36 @@ def outward(sensors, edge, x, y):
     return nx * unit, ny * unit
 
 
+@rare_kernel
+def crosses_too(sensors, edge, last, x, y, vx, vy, tolerance):
+    """Tell whether a centre that crosses the edge ``last`` at (x, y) crosses another edge there too.
+
+    Edges of one wall that meet there share the side on which the path passes their vertex: that across from the other
+    end of ``last``. Those of other walls take a vertex on the path for one to its left.
+    """
+    if edge == last:
+        return False
+    touches, starts, ends = touching(sensors, sensors.arcs, edge, x, y, tolerance)
+    if not touches:
+        return False
+    if not (starts or ends):
+        return True
+    vertex = 1.0
+    if sensors.edge_wall[edge] == sensors.edge_wall[last]:
+        _touches, from_here, to_here = touching(sensors, sensors.arcs, last, x, y, tolerance)
+        if from_here or to_here:
+            vertex = -_side_of_way(sensors, last, from_here, x, y, vx, vy)
+    return _side_of_way(sensors, edge, starts, x, y, vx, vy) != vertex
+
+
+@rare_kernel
+def _side_of_way(sensors, edge, starts, x, y, vx, vy):
+    """On which side of its way a centre has an edge that starts at (x, y), or ends there: 1 on the left, or -1."""
+    nx, ny, _twice = normal_at(sensors, sensors.arcs, edge, x, y)
+    along = 1.0 if starts else -1.0
+    return 1.0 if along * (vx * nx + vy * ny) >= 0.0 else -1.0
+
+
 @kernel
 def _turn(arcs, edge):
     """1 where the normal that an edge is stored with is its outward one, else -1."""
@@ -75,8 +112,18 @@ def count_crossings(sensors, pull, x, y, vx, vy, since, until, found, first):
         x, y, vx, vy, time, lost, last = next_crossing(sensors, pull, x, y, vx, vy, time, lost, until, last, tolerance)
         if last == NO_HIT:
             break
-        nx, ny = outward(sensors, last, x, y)
-        found[first + 2 * sensors.edge_wall[last] + (0 if vx * nx + vy * ny < 0.0 else 1)] += 1
+        _count(sensors, last, x, y, vx, vy, found, first)
+        cell = sensors.cells[home(sensors, sensors.grid, x, y)]
+        for k in range(cell.first, cell.corners):
+            if crosses_too(sensors, sensors.ids[k], last, x, y, vx, vy, tolerance):
+                _count(sensors, sensors.ids[k], x, y, vx, vy, found, first)
+
+
+@kernel
+def _count(sensors, edge, x, y, vx, vy, found, first):
+    """Count a crossing of an edge: inwards or outwards."""
+    nx, ny = outward(sensors, edge, x, y)
+    found[first + 2 * sensors.edge_wall[edge] + (0 if vx * nx + vy * ny < 0.0 else 1)] += 1
 
 
 @kernel
@@ -90,8 +137,7 @@ def count_round(sensors, gravity, rho, away, nx, ny, x, y, vx, vy, since, until,
         )
         if last == NO_HIT:
             break
-        mx, my = outward(sensors, last, x, y)
-        found[first + 2 * sensors.edge_wall[last] + (0 if v * (ex * my - ey * mx) < 0.0 else 1)] += 1
+        _count(sensors, last, x, y, -v * ey, v * ex, found, first)
 
 
 @kernel

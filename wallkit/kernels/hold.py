@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.corner import came_from, normal_at, touches
+from wallkit.kernels.corner import came_from, normal_at, touching
 from wallkit.kernels.grid import home
 from wallkit.kernels.guide import STRAIGHT, ahead_of, guide, off_guide, outside, press
 from wallkit.kernels.jit import kernel, rare_kernel
@@ -116,7 +116,7 @@ def _struck(model, radius, x, y, vx, vy, gravity, last, tolerance):
     cell = model.cells[home(model, model.grid, x, y)]
     for k in range(cell.first, cell.corners):
         edge = int(model.ids[k])
-        if not touches(model, model.arcs, edge, x, y, tolerance)[0]:
+        if not touching(model, model.arcs, edge, x, y, tolerance)[0]:
             continue
         nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
         into, pull = vx * nx + vy * ny, gravity[0] * nx + gravity[1] * ny

@@ -233,6 +233,8 @@ class Model(NamedTuple):
     """By wall: its coefficient; None when all are 0, or without gravity."""
     one_sided: Any
     """By wall: 1 when solid from its outward side alone; None when all are two-sided."""
+    fans: Any
+    """``Fan`` by vertex, none for points; None when all walls are two-sided."""
     gravity: Any
     """(gx, gy), or None."""
     damping: Any

@@ -21,7 +21,7 @@ import math
 from wallkit.kernels.arcs import FALLING_MOULD, holds
 from wallkit.kernels.corner import came_from
 from wallkit.kernels.guide import STRAIGHT
-from wallkit.kernels.impact import behind, precedes, slack_of, stands_across
+from wallkit.kernels.impact import from_across, precedes, slack_of, stands_across
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.model import NO_HIT
 from wallkit.kernels.roots import NEVER, first_fall_quadratic
@@ -182,7 +182,7 @@ def meet_arcs(
             c = out * power - radius * (2.0 * arc.radius + out * radius)
             from_behind = beyond != (out > 0.0)
             from_behind = from_behind or stands_across(
-                model.one_sided, model.edge_wall, edge, c, 2.0 * arc.radius * slack
+                model.one_sided, model.edge_wall, edge, c, 2.0 * (arc.radius + radius) * slack
             )
             way = falls(rho, ex, ey, tx, ty, c, 2.0 * out * px, 2.0 * out * py, out, from_behind)
             if not (way < best or (way == best and precedes(edge, feature))):
@@ -201,6 +201,7 @@ def meet_arcs(
 @rare_kernel
 def meet_corners(model, start, stop, radius, held, rho, ex, ey, tx, ty, x, y, tolerance, best, feature):
     """First contact with the corners of entries start to stop on the way ahead: (way, feature)."""
+    slack = slack_of(tolerance, radius)
     for k in range(start, stop):
         vertex = int(model.ids[k])
         if _is_own(model, held, model.spokes[vertex]) or held == -2 - vertex:
@@ -208,14 +209,16 @@ def meet_corners(model, start, stop, radius, held, rho, ex, ey, tx, ty, x, y, to
         corner = model.corners[vertex]
         px, py = x - corner.x, y - corner.y
         c = px * px + py * py - radius * radius
-        from_behind = stands_across(model.one_sided, model.corner_wall, vertex, c, 2.0 * radius * tolerance)
+        from_behind = stands_across(model.one_sided, model.corner_wall, vertex, c, 2.0 * radius * slack)
         way = falls(rho, ex, ey, tx, ty, c, 2.0 * px, 2.0 * py, 1.0, from_behind)
         if not (way < best or (way == best and precedes(-2 - vertex, feature))):
             continue
-        if one_sided(model.one_sided, model.corner_wall[vertex]):
-            fx, fy = place_at(rho, ex, ey, tx, ty, x, y, way)
-            if behind(corner, fx - corner.x, fy - corner.y):
-                continue
+        fx, fy = place_at(rho, ex, ey, tx, ty, x, y, way)
+        if from_across(
+            model.one_sided, model.corner_wall, model.fans, model.corners, vertex, radius, slack,
+            fx - corner.x, fy - corner.y,
+        ):  # fmt: skip
+            continue
         best, feature = way, -2 - vertex
     return best, feature
 

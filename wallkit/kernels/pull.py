@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.falling import fall_search
+from wallkit.kernels.falling_walk import fall_search
 from wallkit.kernels.grid import search
 from wallkit.kernels.guide import guide
 from wallkit.kernels.jit import kernel
