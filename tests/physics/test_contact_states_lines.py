@@ -53,7 +53,7 @@ def test_every_marble_on_a_run_of_straight_shelves_reaches_the_floor(slope, rest
     level = walls(*lines, closed=[True] + [False] * 6, restitution=restitution)
     x = np.linspace(30, 200, 20)
     balls = Balls(np.stack([x, np.full(20, height - 60)], axis=1), np.zeros((20, 2)), 8.0)
-    run = simulate(Scene(level, balls, gravity=(0.0, -300.0)), until=600.0)
+    run = simulate(Scene(level, balls, gravity=(0.0, -300.0)), until=600.0, mode="interpreted")
     assert run.final["y"] == pytest.approx(np.full(20, 8.0), abs=1e-9)
     assert set(run.ending) <= {Ending.TIME_REACHED, Ending.AT_REST}
 

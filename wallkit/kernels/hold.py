@@ -161,9 +161,10 @@ def _whole_swings(model, gravity, radius, held, side, x, y, span):
 def _join(model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of, tolerance):
     """Put a ball on its guide, and its velocity along it; take its last, endless bounces at once.
 
-    With f = 1 its way along the wall in them is that of sliding, so it slides at once. With f < 1 they stop it. Where a
-    is the pull along, u its speed along after the bounce and t = 2 w / p the time to the next, the times to come are
-    t e^k and u_(k+1) = f (u_k + a t e^k), so that after t / (1 - e) it has come by
+    With f = 1 its way along the wall in them is that of sliding, so it slides at once, but where it stands, and comes
+    to rest when they are over. With f < 1 they stop it. Where a is the pull along, u its speed along after the bounce
+    and t = 2 w / p the time to the next, the times to come are t e^k and u_(k+1) = f (u_k + a t e^k), so that after
+    t / (1 - e) it has come by
 
         S = t (u + e f a t / (1 - e^2)) / (1 - e f) + a t^2 / (2 (1 - e^2)).
 
@@ -175,10 +176,13 @@ def _join(model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of
     w, u = vx * nx + vy * ny, vy * nx - vx * ny
     vx, vy = -u * ny, u * nx
     e, f = _kept(model, model.restitution, held)
-    if hold == PASSING or e >= 1.0 or f >= 1.0:
-        return x, y, vx, vy, 0.0, SLIDING
     pull = gravity[1] * nx - gravity[0] * ny
+    stands = u == 0.0 and abs(pull) <= LEVEL * (abs(gravity[0]) + abs(gravity[1]))
+    if hold == PASSING or e >= 1.0 or (f >= 1.0 and not stands):
+        return x, y, vx, vy, 0.0, SLIDING
     t = 2.0 * abs(w) / press(gravity, rho, away, nx, ny, u * u)
+    if stands:
+        return x, y, vx, vy, t / (1.0 - e), SLIDING
     way = t * (u + e * f * pull * t / (1.0 - e * e)) / (1.0 - e * f) + 0.5 * pull * t * t / (1.0 - e * e)
     time = t / (1.0 - e)
     x, y, done = reach(model, gravity, radius, held, side, last, x, y, way, start_of, tolerance)
