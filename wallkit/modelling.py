@@ -152,7 +152,7 @@ def _check_sizes(scene: Scene) -> float:
     """
     size = max(float(np.abs(part).max(initial=0.0)) for part in (scene.walls.vertices, scene.balls.radius))
     _check_range("the largest coordinate or radius", size, LENGTHS, "draw it in another unit of length")
-    if scene.gravity is not None and len(np.ravel(scene.gravity)) == 2:
+    if scene.gravity is not None:
         _check_range("gravity", float(np.hypot(*np.ravel(scene.gravity))), FALLING, "take another unit of time, or 0")
     _check_speeds(scene.balls, size, scene.gravity is not None)
     return size
