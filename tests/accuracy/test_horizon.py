@@ -166,3 +166,26 @@ def test_what_slows_a_ball_down_leaves_its_errors_as_they_are(acts):
     np.testing.assert_allclose(found, expected, rtol=1e-3)
     assert run.trusted_until(1e-12)[0].bounces == plain.trusted_until(1e-12)[0].bounces < 40
     assert run.trusted_until(1e-12)[0].reason == plain.trusted_until(1e-12)[0].reason
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_no_contact_under_gravity_is_farther_off_than_promised(seed):
+    # a room with some round sides and things in it; what is promised is three times the root mean square of errors that
+    # are carried along to first order, and none of a dozen contacts may be beyond
+    rng = np.random.default_rng(seed)
+    size = rng.uniform(60, 200, 2)
+    outlines, bulges = [[(0, 0), (0, size[1]), size, (size[0], 0)]], [rng.uniform(-0.3, 0.3, 4) * (rng.random(4) < 0.5)]
+    for _ in range(2):
+        angle, far = np.sort(rng.uniform(0, 2 * np.pi, 3)), rng.uniform(3, 15)
+        middle = rng.uniform(0.3 * size, 0.7 * size)
+        outlines.append(middle + far * np.stack([np.cos(angle), np.sin(angle)], axis=1))
+        bulges.append(rng.uniform(-1, 1, 3) * (rng.random(3) < 0.5))
+    walls = Walls.from_polylines(outlines, bulges=bulges)
+    aim = rng.uniform(-80, 80, 2)
+    scene = Scene(walls, Balls([0.15 * size], [aim], float(rng.choice([0.0, 1.0, 4.0]))), gravity=(0.0, -90.0))
+    run = simulate(scene, bounces=12)
+    true = Reference(scene, 36).run(12)
+    assert [event.wall for event in true] == run.contacts["wall"].tolist()
+    off = np.hypot(*(places(true) - np.stack([run.contacts["x"], run.contacts["y"]], axis=1)).T)
+    _rms, worst = horizon.predicted_errors(scene, run.contacts)
+    assert (off <= worst).all()

@@ -2,6 +2,7 @@
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -116,3 +117,25 @@ def test_many_arcs_index_changes_no_bit():
 def test_a_ball_within_the_bow_of_an_arc_has_not_left():
     run = wallkit.simulate(scene_of(stadium(), position=[0.0, 0.0], velocity=[1.0, 0.0]), until=1.9)
     assert run.ending == (wallkit.Ending.TIME_REACHED,)
+
+
+@pytest.mark.parametrize("radius", [0.0, 2.0])
+@pytest.mark.parametrize("bulge", [0.3, 1e-5, -1e-5, 1e-8, -1e-8, 1e-11])
+def test_an_arc_is_met_on_its_circle_however_far_its_centre_is(radius, bulge):
+    # the arc through (-100, 0), (0, -100 bulge) and (100, 0) in 50 digits; a ball comes at 0.6 to 45 degrees.
+    # Its place is rounded by some 2^-53 of its size, and its time by 2^-53 of itself: 8 of these are allowed
+    walls = wallkit.Walls.from_polylines([[[-100.0, 0.0], [100.0, 0.0]]], bulges=[[bulge, 0.0]], closed=False)
+    rng = np.random.default_rng(2)
+    with mpmath.workdps(50):
+        b = mpmath.mpf(bulge)
+        arc, middle = 50 * (1 + b * b) / abs(b), 50 * (1 - b * b) / b
+        for _ in range(40):
+            aim = float(rng.uniform(-60, 60))
+            way = np.array([1.0, -float(rng.choice([1.0, 0.1, 0.01]))])
+            start = [aim, radius] - way * rng.uniform(80, 120)
+            run = wallkit.simulate(wallkit.Scene(walls, wallkit.Balls(start, 30 * way, radius)), bounces=1)
+            if len(run.contacts) == 0 or run.contacts["edge"][0] < 0:
+                continue
+            x, y = (mpmath.mpf(float(run.contacts[name][0])) for name in ("x", "y"))
+            reach = arc - radius if bulge > 0 else arc + radius
+            assert abs(mpmath.hypot(x, y - middle) - reach) <= 8 * 2.0**-53 * 200

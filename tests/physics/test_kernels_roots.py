@@ -14,6 +14,10 @@ mpmath.mp.dps = 60
 EPS = 2.0**-52
 
 
+def falls(c4, c3, c2, c1, c0, t_max=math.inf):
+    return first_fall_quartic(c4, c3, c2, c1, c0, t_max, False)
+
+
 def exact_first_fall(coefficients, t_max=math.inf):
     """The first t in [0, t_max] with f <= 0 and f falling, by 60-digit roots; the highest power comes first."""
     exact = [mpmath.mpf(c) for c in coefficients]
@@ -111,7 +115,7 @@ def test_quadratic_overlap_that_recedes_is_no_event_and_one_that_approaches_is_n
 @example(1.0, 0.0, 0.0, 0.0, -1.0, math.inf)
 @example(-1.0, 0.0, 0.0, 0.0, 1.0, math.inf)
 def test_quartic_falls_where_sixty_digits_say(c4, c3, c2, c1, c0, t_max):
-    check(first_fall_quartic, (c4, c3, c2, c1, c0), t_max)
+    check(falls, (c4, c3, c2, c1, c0), t_max)
 
 
 @given(
@@ -127,7 +131,7 @@ def test_parabola_meets_circle_where_sixty_digits_say(x, y, vx, vy, radius, g):
     gap = math.hypot(x, y) - radius
     assume(gap > 1e-6)
     check(
-        first_fall_quartic,
+        falls,
         (0.25 * g * g, -g * vy, vx * vx + vy * vy - g * y, 2 * (x * vx + y * vy), gap * (gap + 2 * radius)),
     )
 
@@ -145,7 +149,7 @@ def test_quartic_two_roots_close_together(spread, at):
         for j, w in enumerate(factor):
             coefficients[i + j] += u * w
     floats = tuple(float(c) for c in coefficients)
-    got = first_fall_quartic(*floats, math.inf)
+    got = falls(*floats)
     # rounding the coefficients moves a root by about eps / spread, relatively; eight such roundings are allowed
     assert got == pytest.approx(at, rel=8 * EPS * 20 / spread)
 
@@ -153,24 +157,53 @@ def test_quartic_two_roots_close_together(spread, at):
 @pytest.mark.parametrize("gap", [0.0, -1e-13, 1e-13])
 def test_quartic_ball_that_comes_level_into_a_hollow_is_pressed_on_it_at_once(gap):
     # at the foot of a hollow, speed along it and none towards it: f' is 0 at first and negative ever after
-    time = first_fall_quartic(-22500.0, 0.0, -84169.0, -0.0, gap, math.inf)
+    time = falls(-22500.0, 0.0, -84169.0, -0.0, gap)
     assert time == pytest.approx(math.sqrt(max(gap, 0.0) / 84169.0), rel=1e-6)
 
 
 def test_quartic_four_roots_takes_the_first_falling_one():
     # (t - 1)(t - 2)(t - 3)(t - 4) is positive at 0 and falls at 1 and 3; its negative falls at 2 and 4
-    assert first_fall_quartic(1.0, -10.0, 35.0, -50.0, 24.0, math.inf) == pytest.approx(1.0, rel=64 * EPS)
-    assert first_fall_quartic(-1.0, 10.0, -35.0, 50.0, -24.0, math.inf) == pytest.approx(2.0, rel=256 * EPS)
+    assert falls(1.0, -10.0, 35.0, -50.0, 24.0) == pytest.approx(1.0, rel=64 * EPS)
+    assert falls(-1.0, 10.0, -35.0, 50.0, -24.0) == pytest.approx(2.0, rel=256 * EPS)
 
 
 def test_quartic_beyond_the_horizon_is_never():
-    assert first_fall_quartic(0.0, 0.0, 0.0, -1.0, 5.0, 4.999) == NEVER
-    assert first_fall_quartic(0.0, 0.0, 0.0, -1.0, 5.0, 5.001) == pytest.approx(5.0, rel=EPS)
+    assert falls(0.0, 0.0, 0.0, -1.0, 5.0, 4.999) == NEVER
+    assert falls(0.0, 0.0, 0.0, -1.0, 5.0, 5.001) == pytest.approx(5.0, rel=EPS)
 
 
 @given(st.integers(-200, 200), numbers, numbers, numbers, numbers)
 def test_quartic_scaled_by_a_power_of_two_keeps_its_bits(power, c3, c2, c1, c0):
     scale = 2.0**power
-    plain = first_fall_quartic(1.0, c3, c2, c1, c0, math.inf)
-    scaled = first_fall_quartic(scale, c3 * scale, c2 * scale, c1 * scale, c0 * scale, math.inf)
+    plain = falls(1.0, c3, c2, c1, c0)
+    scaled = falls(scale, c3 * scale, c2 * scale, c1 * scale, c0 * scale)
     assert plain == scaled
+
+
+@given(numbers, numbers, numbers, numbers, numbers)
+def test_quartic_that_begins_behind_falls_only_after_it_has_risen(c4, c3, c2, c1, c0):
+    # first a fall of -f, then the first fall of f from there: by two searches that know of nothing behind
+    coefficients = (c4, c3, c2, c1, c0)
+    assume(c0 < 0)
+    got = first_fall_quartic(*coefficients, math.inf, True)
+    risen = exact_first_fall([-c for c in coefficients])
+    if risen == NEVER:
+        assert got == NEVER or touches(coefficients, got, math.inf)
+        return
+    slopes = [
+        sum(c * math.comb(4 - i, k) * risen ** (4 - i - k) for i, c in enumerate(coefficients[: 5 - k]))
+        for k in range(5)
+    ]
+    later = exact_first_fall([*slopes[:0:-1], 0])
+    if later == NEVER or got == NEVER:
+        assert later == got or touches(coefficients, risen + later if got == NEVER else got, math.inf)
+        return
+    expected = float(risen + later)
+    allowed = 4 * EPS * expected + roundings_of(coefficients, expected)
+    assert abs(got - expected) <= allowed or touches(coefficients, min(got, expected), math.inf), (expected, got)
+
+
+@given(numbers, numbers, numbers, numbers, numbers, st.booleans(), st.floats(0, 100))
+def test_quartic_has_the_same_bits_whatever_is_looked_beyond(c4, c3, c2, c1, c0, behind, t_max):
+    free = first_fall_quartic(c4, c3, c2, c1, c0, math.inf, behind)
+    assert first_fall_quartic(c4, c3, c2, c1, c0, t_max, behind) == (free if free <= t_max else NEVER)

@@ -22,18 +22,24 @@ LOG_STRIDE = 11
 NO_HIT = -1
 """No feature. Edge e is the feature e, corner j is the feature -2 - j."""
 END_OF_EDGE = -(2**61)
-"""In place of a feature: a sliding ball comes to the end of the edge that holds it."""
+"""In place of a feature: a ball that keeps to a wall comes to the end of the edge, or of the corner, that holds it."""
+LIFTS, TURNS, GOES_ON, TIME_IS_UP = -(2**61) - 1, -(2**61) - 2, -(2**61) - 3, -(2**61) - 4
+"""In place of a feature: nothing presses a ball that keeps to a wall on it any longer; it stands still and turns; it
+is as far as was looked ahead; its time is up."""
 COLLAPSES = -(2**60)
 """In place of a feature: an exact corner hit that the ball does not get out of."""
 AMBIGUOUS = -(2**62)
 """In place of a feature: an exact corner hit whose outcome depends on which wall comes first."""
 
 RUNNING = -1
+NO_ROW = -1
+"""In place of the kind of a contact: there is none to note."""
 EDGE, VERTEX, SLIDE, LEAVE = 0, 1, 2, 3
-FREE, COMING_TO_REST, SLIDING, LEAVING, LEFT, CAUGHT, WEDGED = 0, 1, 2, 3, 4, 5, 6
-"""How an edge holds a ball under gravity: not; from the next moment; now; until the next moment; until just now; by a
-curve (an arc or a corner), along which no flight of ours goes on; with another feature in the way of the slide."""
-TIME_REACHED, BOUNCE_LIMIT, LEFT_SCENE, AT_REST, COLLAPSE, AMBIGUOUS_CORNER, ABSORBED = 0, 1, 2, 3, 4, 5, 6
+FREE, JOINING, SLIDING, LEAVING, LEFT, WEDGED, PASSING, STARTING = 0, 1, 2, 3, 4, 5, 6, 7
+"""How a feature holds a ball under gravity: not; from the next moment, when its bounces have died; now; until the next
+moment; until just now; together with another one; from the next moment, without a bounce; it has still to be looked,
+as the ball starts."""
+TIME_REACHED, BOUNCE_LIMIT, LEFT_SCENE, AT_REST, COLLAPSE, AMBIGUOUS_CORNER, ABSORBED, SWINGING = 0, 1, 2, 3, 4, 5, 6, 7
 
 
 class Line(NamedTuple):
@@ -73,6 +79,21 @@ class Corner(NamedTuple):
     y: float
     sx: float
     sy: float
+
+
+class Joint(NamedTuple):
+    """An end of an edge: 2 e where edge e begins, 2 e + 1 where it ends.
+
+    (tx, ty) is the unit direction in which the edge goes from there; then come the ends that are next around the place,
+    which may be this one itself, the vertex, and the lowest end at the place, which stands for it.
+    """
+
+    tx: float
+    ty: float
+    clockwise: int
+    counter: int
+    vertex: int
+    place: int
 
 
 class Cell(NamedTuple):
@@ -139,10 +160,11 @@ QUARTERS = 4
 """For points, which meet a line from both its sides, they are no better than quarters."""
 HALF, WIDEST = 7, 127
 """Bits of a clearing's width and of its height, in cells, and what they hold."""
+JOINT = np.dtype([(name, np.float64 if place < 2 else np.int64) for place, name in enumerate(Joint._fields)])
 CELL = np.dtype([(name, np.uint32) for name in Cell._fields])
 FAN = np.dtype([(name, np.float64) for name in Fan._fields])
 BLOCK = np.dtype([(name, np.float64 if place < 5 else np.int64) for place, name in enumerate(Block._fields)])
-_RECORDS: dict[Any, Any] = {LINE: Line, ARC: Arc, CORNER: Corner, CELL: Cell, FAN: Fan, BLOCK: Block}
+_RECORDS: dict[Any, Any] = {LINE: Line, ARC: Arc, CORNER: Corner, JOINT: Joint, CELL: Cell, FAN: Fan, BLOCK: Block}
 
 
 def in_lists(value: Any) -> Any:
@@ -207,21 +229,30 @@ class Model(NamedTuple):
     corner_wall: Any
     restitution: Any
     """By wall: normal, tangential; None when all are 1."""
+    static_friction: Any
+    """By wall: its coefficient; None when all are 0, or without gravity."""
     one_sided: Any
     """By wall: 1 when solid from its outward side alone; None when all are two-sided."""
+    fans: Any
+    """``Fan`` by vertex, none for points; None when all walls are two-sided."""
     gravity: Any
     """(gx, gy), or None."""
     damping: Any
     """(rolling friction, drag), one of them 0, or None."""
     extent: float
     """Largest absolute local coordinate."""
+    joints: Any
+    """``Joint`` by end of an edge; None without gravity."""
+    spokes: Any
+    """By vertex: the lowest end of an edge at its place, or NO_HIT; None without gravity."""
 
 
 class Counts(NamedTuple):
     """The integer state of a ball.
 
-    Last feature; bounces; ending or RUNNING; contacts in a row without time; edge that holds it, or NO_HIT; how it
-    does, see FREE and the following.
+    Last feature; bounces; ending or RUNNING; contacts in a row without time; feature that holds it, or NO_HIT; how it
+    does, see FREE and the following; on which side of it the ball is, 1 the outward one of its wall, -1 the other; how
+    often, in a row, it turned there; changes from feature to feature since the last bounce; what it met before that.
     """
 
     last: int
@@ -230,3 +261,7 @@ class Counts(NamedTuple):
     still: int
     held: int
     hold: int
+    side: int
+    turns: int
+    changes: int
+    before: int

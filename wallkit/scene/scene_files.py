@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 Kind = Literal["drawing", "walls", "scene"]
 
+_MATERIAL = ("restitution", "tangential_restitution", "static_friction")
 _TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
 
@@ -330,21 +331,20 @@ class _Reader:
         table = self.table(value, key)
         names = ("restitution", "tangential_restitution")
         given = {name: self.number(table[name], f"{key}.{name}", 0.0, 1.0) for name in names if name in table}
-        return Material(
-            given.get("restitution", base.restitution),
-            given.get("tangential_restitution", base.tangential_restitution),
-        )
+        if "static_friction" in table:
+            given["static_friction"] = self.number(table["static_friction"], f"{key}.static_friction", 0.0)
+        return replace(base, **given)
 
     def materials(self, walls: Walls, value: Any) -> None:
         """Give walls their materials by globs on layer and name; where several match, the last one wins."""
         found = list(walls.materials)
         for key, row in self.rows(value, "materials"):
-            self.known_keys(row, {"layer", "wall", "restitution", "tangential_restitution"}, f"{key}.")
+            self.known_keys(row, {"layer", "wall", *_MATERIAL}, f"{key}.")
             layer, name = (
                 self.text(row.get("layer", "*"), f"{key}.layer"),
                 self.text(row.get("wall", "*"), f"{key}.wall"),
             )
-            numbers = {word: row[word] for word in ("restitution", "tangential_restitution") if word in row}
+            numbers = {word: row[word] for word in _MATERIAL if word in row}
             before = len(self.wrong)
             self.material(numbers, key)
             if len(self.wrong) > before:

@@ -101,7 +101,7 @@ def corners_of(
     sides.
     """
     ux, uy, wx, wy = np.zeros((4, len(vertices)))  # normals of the edge that arrives, and of the one that leaves
-    (ux[ends], uy[ends]), (wx[starts], wy[starts]) = _end_normals(lines, bulges)
+    (ux[ends], uy[ends]), (wx[starts], wy[starts]) = end_normals(lines, bulges)
     corners = on_cache_lines(len(vertices), CORNER)
     for name, column in zip(Corner._fields, (vertices[:, 0], vertices[:, 1], ux + wx, uy + wy), strict=True):
         corners[name] = column
@@ -127,7 +127,7 @@ def corners_of(
     return Corners(corners, fans, opened)
 
 
-def _end_normals(lines: NDArray[Any], bulges: FloatArray) -> tuple[FloatArray, FloatArray]:
+def end_normals(lines: NDArray[Any], bulges: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Give (2, E) outward normals at the end and at the start of each edge: an arc's are its chord's, turned."""
     normals = np.stack([lines["nx"], lines["ny"]])
     if not bulges.any():

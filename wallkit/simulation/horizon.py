@@ -128,7 +128,7 @@ def predicted_errors(
         Two arrays (n,), in the drawing's units; infinite once that is no number any more.
     """
     course = _course(scene, own, ball)
-    fresh = _roundings(scene, own, course) if source == "rounding" else _drawing_errors(scene, own)
+    fresh = _roundings(scene, own, course, ball) if source == "rounding" else _drawing_errors(scene, own)
     variance = np.full(len(own), np.inf)
     _kernel(carry, len(own))(*course, fresh, variance)
     variance[~(variance >= 0.0)] = np.inf  # overflown on the way: beyond any promise
@@ -175,7 +175,7 @@ def _course(scene: Scene, own: Any, ball: int) -> Course:
     return start, np.ascontiguousarray(path), _bends(scene, own, ball), table[own["wall"]], pull
 
 
-def _roundings(scene: Scene, own: Any, course: Course) -> FloatArray:
+def _roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
     """(n, 4) what the arithmetic of each contact adds: see :func:`wallkit.kernels.flight.error_growth.carry`.
 
     A rounding is at most EPS = 2^-53 of the number, and some 0.6 of that as a root mean square. Places are as
@@ -185,11 +185,32 @@ def _roundings(scene: Scene, own: Any, course: Course) -> FloatArray:
     from wallkit.simulation.modelled import local_origin
 
     _, path, bend, keep, _ = course
-    x0, y0 = local_origin(scene.walls.vertices)
-    place = RMS_ROUNDING * np.hypot(own["x"] - x0, own["y"] - y0)
+    begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
+    places = np.concatenate([begin[None], np.stack([own["x"], own["y"]], axis=1)]) - local_origin(scene.walls.vertices)
+    place = RMS_ROUNDING * np.hypot(*places[1:].T)
     plain = (bend == 0) & ((path[:, 3] == 0) | (path[:, 4] == 0)) & (keep == 1).all(axis=1)
+    speed = np.where(plain, 0.0, RMS_ROUNDING)
+    if scene.gravity is not None:
+        place, speed = _falling_roundings(course, places)
     turn = np.where(plain, 0.0, RMS_ROUNDING + place * np.abs(bend))
-    return np.stack([place, turn, place, np.where(plain, 0.0, RMS_ROUNDING)], axis=1)
+    return np.stack([place, turn, place, speed], axis=1)
+
+
+def _falling_roundings(course: Course, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rounding of places, and of velocities relative to the speed, under gravity; of (n + 1, 2) places.
+
+    p + v t + g t^2 / 2 is summed up of larger parts, each of which is rounded, as are v + g t and the squared speed,
+    v^2 - 2 g.p at the start plus 2 g.p here: half of its error, over v^2, is that of the speed.
+    """
+    start, path, _, _, pull = course
+    time, force = np.diff(path[:, 0], prepend=0.0), np.hypot(*pull[:-1].T)
+    before = np.hypot(*np.concatenate([start[None], path[:-1, 1:3]]).T)
+    after = np.maximum(np.hypot(path[:, 1], path[:, 2]), 1e-300)
+    far = np.hypot(*places.T)
+    place = np.sqrt(far[1:] ** 2 + far[:-1] ** 2 + (before * time) ** 2 + (force * time**2 / 2) ** 2)
+    height = (pull[:-1] * places[1:]).sum(axis=1)
+    speed = np.sqrt(1.0 + (force * time / after) ** 2 + (height / after**2) ** 2)
+    return RMS_ROUNDING * place, RMS_ROUNDING * speed
 
 
 def _drawing_errors(scene: Scene, own: Any) -> FloatArray:

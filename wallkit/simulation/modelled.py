@@ -17,6 +17,7 @@ from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.simulation.build_grid import build_grid
 from wallkit.simulation.damping import damping_of
 from wallkit.simulation.edge_records import arcs_of, corners_of, lines_of, no_corners
+from wallkit.simulation.joints import joints_of
 from wallkit.walls import Walls
 
 BRUTE_FORCE = 16
@@ -24,6 +25,9 @@ BRUTE_FORCE = 16
 FAR = 2.0**20
 """Extents from which a ball may come if there is to be an index: the rounding of its place (2^-50 of the way) is then
 below a part in 2^30 of the scene. For one from farther away all edges are asked."""
+LENGTHS, SPEEDS, FALLING = (1e-60, 1e60), (1e-153, 1e153), (1e-70, 1e70)
+"""What the size of the walls may be, a speed (by itself, and times the size), and speed and gravity where there is
+gravity, if they are not 0: squares of products of two of them are numbers then, of arcs 2^42 times as large too."""
 
 
 class Modelled:
@@ -56,6 +60,7 @@ class Modelled:
         """
         self.box = _box(scene.walls)
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
+        self._size = _check_sizes(scene)
         self.origin = local_origin(scene.walls.vertices) if origin is None else origin
         self.model = self._made(scene, index, machine_code, fine)
         self._lists: Model | None = None
@@ -72,6 +77,8 @@ class Modelled:
         is_arc = arcs["radius"] > 0.0 if arcs is not None else np.zeros(len(lines), dtype=np.bool_)
         is_line = (lines["length"] > 0.0) & ~is_arc
         kinds = [np.flatnonzero(which).astype(np.uint32) for which in (is_line, is_arc, corners.open)]
+        gravity = _gravity(scene)
+        joints, spokes = (None, None) if gravity is None else joints_of(vertices, lines, bulges, starts, ends)
         ids = np.concatenate([*kinds, np.zeros(1, dtype=np.uint32)])
         model = Model(
             ids=ids,
@@ -84,10 +91,14 @@ class Modelled:
             edge_wall=np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)),
             corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)),
             restitution=_restitution(scene),
+            static_friction=None if gravity is None else _static_friction(scene),
             one_sided=_one_sided(scene),
-            gravity=_gravity(scene),
+            fans=corners.fans if _one_sided(scene) is not None else None,
+            gravity=gravity,
             damping=damping_of(scene),
             extent=float(np.abs(vertices).max(initial=0.0)) + radius,
+            joints=joints,
+            spokes=spokes,
         )
         many = len(kinds[0]) + len(kinds[1]) > BRUTE_FORCE
         if index != "grid" and not (index == "auto" and many):
@@ -107,6 +118,7 @@ class Modelled:
     def with_balls(self, balls: Balls) -> Modelled | None:
         """Give the same model with other balls; None if it must be made anew, for other radii or from farther away."""
         radii, off = np.asarray(balls.radius), np.abs(np.asarray(balls.position) - self.origin)
+        _check_speeds(balls, self._size, self.model.gravity is not None)
         if not (len(radii) and len(self.radii) and off.max() <= self.model.extent):
             return None
         if (radii.min(), radii.max()) != (self.radii.min(), self.radii.max()):
@@ -127,6 +139,41 @@ class Modelled:
         offsets = scene.walls.edge_offsets
         wall = np.repeat(np.arange(len(scene.walls)), np.diff(offsets))
         return wall, np.arange(len(wall)) - offsets[wall]
+
+
+def _check_sizes(scene: Scene) -> float:
+    """Refuse what is so large or so small that squares of products of two of it are no numbers any more.
+
+    Returns:
+        The size of the walls.
+
+    Raises:
+        SceneError: lengths, speeds or gravity are beyond LENGTHS, SPEEDS and FALLING.
+    """
+    size = max(float(np.abs(part).max(initial=0.0)) for part in (scene.walls.vertices, scene.balls.radius))
+    _check_range("the largest coordinate or radius", size, LENGTHS, "draw it in another unit of length")
+    if scene.gravity is not None:
+        _check_range("gravity", float(np.hypot(*np.ravel(scene.gravity))), FALLING, "take another unit of time, or 0")
+    _check_speeds(scene.balls, size, scene.gravity is not None)
+    return size
+
+
+def _check_speeds(balls: Balls, size: float, falls: bool) -> None:
+    speeds = np.hypot(*np.asarray(balls.velocity, dtype=np.float64).reshape(-1, 2).T)
+    moving = speeds[speeds > 0.0]
+    if len(moving):
+        least, most = float(moving.min()), float(moving.max())
+        fix = "take another unit of time, or 0"
+        for speed in (least, most):
+            _check_range("a speed", speed, FALLING if falls else SPEEDS, fix)
+        _check_range("a speed times the size of the walls", least * min(size or 1.0, 1.0), SPEEDS, fix)
+        _check_range("a speed times the size of the walls", most * max(size, 1.0), SPEEDS, fix)
+
+
+def _check_range(what: str, size: float, limits: tuple[float, float], fix: str) -> None:
+    if size != 0.0 and math.isfinite(size) and not limits[0] <= size <= limits[1]:
+        known = f"{what} is {size:g}, and is known to work from {limits[0]:g} to {limits[1]:g}"
+        raise SceneError(known, code="beyond-numbers", fix=fix)
 
 
 def _box(walls: Walls) -> tuple[float, float, float, float]:
@@ -176,6 +223,11 @@ def _restitution(scene: Scene) -> FloatArray | None:
         return None
     pairs = np.array([(m.restitution, m.tangential_restitution) for m in materials], dtype=np.float64)
     return np.ascontiguousarray(pairs).reshape(-1)
+
+
+def _static_friction(scene: Scene) -> FloatArray | None:
+    friction = np.array([m.static_friction for m in scene.walls.materials], dtype=np.float64)
+    return friction if friction.any() else None
 
 
 def _gravity(scene: Scene) -> FloatArray | None:

@@ -17,6 +17,7 @@ from importers.errors import WallkitError
 from importers.pictured import Pictured
 from wallkit import arguments
 from wallkit.simulation.damping import carried_on, damping_of
+from wallkit.simulation.gliding import glide, guides
 
 if TYPE_CHECKING:
     from wallkit.scene.scene import Scene
@@ -54,9 +55,10 @@ class Kind(enum.IntEnum):
     EDGE = 0
     VERTEX = 1
     SLIDE = 2
-    """From here on the ball keeps to the wall (gravity has brought it to rest against it)."""
+    """From here on the ball keeps to the wall, without friction: it slides on a line, glides along an arc, or pivots
+    about a vertex (where the edge is -1); or it rests."""
     LEAVE = 3
-    """The ball leaves the wall on which it slid."""
+    """The ball leaves the wall to which it kept."""
     ENTER = 4
     """The centre crosses a sensor against its outward normal; wall and edge are the sensor's."""
     EXIT = 5
@@ -78,11 +80,14 @@ class Ending(enum.IntEnum):
     COLLAPSE = 4
     AMBIGUOUS_CORNER = 5
     ABSORBED = 6
+    SWINGING = 7
+    """It keeps to the walls and meets nothing ever again: a run without an end in time stops there."""
 
     @property
     def label(self) -> str:
         """The words for people and files: "time reached", "left the scene"."""
-        return "left the scene" if self is Ending.LEFT_SCENE else self.name.lower().replace("_", " ")
+        words = {Ending.LEFT_SCENE: "left the scene", Ending.SWINGING: "swings for ever"}
+        return words.get(self, self.name.lower().replace("_", " "))
 
 
 @dataclass(eq=False, repr=False)
@@ -255,7 +260,22 @@ class Run(Pictured):
             return np.array([carried_on(self._damping, *one) for one in zip(state, spans, strict=True)]).reshape(-1, 4)
         pull = np.array([self.pull_after(contact) for contact in begun]).reshape(-1, 2)[which]
         x, v, t = state[:, 0:2], state[:, 2:4], span[:, None]
-        return np.where(t > 0.0, np.hstack([x + t * (v + 0.5 * t * pull), v + t * pull]), state)
+        flown: NDArray[np.float64] = np.where(t > 0.0, np.hstack([x + t * (v + 0.5 * t * pull), v + t * pull]), state)
+        for row, contact in enumerate(begun):
+            if contact is not None and contact["kind"] == Kind.SLIDE:
+                normal, bend = np.array([contact["nx"], contact["ny"]]), self._bends[ball][passed[row] - 1]
+                for k in np.flatnonzero((which == row) & (span > 0.0)).tolist():
+                    flown[k] = glide(self._gravity, state[k], normal, bend, float(span[k]))
+        return flown
+
+    @cached_property
+    def _gravity(self) -> NDArray[np.float64]:
+        return np.asarray(self.scene.gravity if self.scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
+
+    @cached_property
+    def _bends(self) -> list[NDArray[np.float64]]:
+        """By ball what :func:`wallkit.simulation.gliding.guides` says of the contacts in ``_turns``."""
+        return [guides(self.scene.walls, own) for own in self._turns]
 
     @cached_property
     def _damping(self) -> NDArray[np.float64] | None:
@@ -268,8 +288,13 @@ class Run(Pictured):
 
     def pull_after(self, contact: Any) -> NDArray[np.float64]:
         """Acceleration after a contact (None: at the start): gravity, or the part of it along a wall that holds."""
-        pull = np.asarray(self.scene.gravity if self.scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
-        if contact is None or contact["kind"] != Kind.SLIDE:
-            return pull
-        along = np.array([-contact["ny"], contact["nx"]])
-        return along * float(along @ pull)
+        return pull_of(self.scene, contact)
+
+
+def pull_of(scene: Scene, contact: Any) -> NDArray[np.float64]:
+    """Acceleration after a contact (None: at the start): gravity, or its part along a straight wall that holds."""
+    pull = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
+    if contact is None or contact["kind"] != Kind.SLIDE:
+        return pull
+    along = np.array([-contact["ny"], contact["nx"]])
+    return along * float(along @ pull)

@@ -9,11 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.flight.sensors import next_crossing, outward
+from wallkit.kernels.flight.sensors import crosses_too, next_crossing, outward
+from wallkit.kernels.flight.sensors_on_circles import next_crossing_round
+from wallkit.kernels.index.grid import home
 from wallkit.kernels.records import NO_HIT
 from wallkit.scene.scene import Balls, Scene
+from wallkit.simulation.gliding import guides
 from wallkit.simulation.modelled import Modelled
-from wallkit.simulation.run import CONTACT, Kind, Run
+from wallkit.simulation.run import CONTACT, Kind, Run, pull_of
 from wallkit.walls import Walls
 
 
@@ -31,7 +34,7 @@ def with_crossings(run: Run) -> Run:
         row
         for ball in range(len(run.final))
         for flight in _flights(run, ball)
-        for row in sensors.crossings(ball, *flight)
+        for row in sensors.crossings_on(run.scene, ball, *flight)
     ]
     return Run(run.scene, in_order(run.contacts, rows), run.final, run.ending, run.start) if rows else run
 
@@ -42,14 +45,15 @@ def in_order(contacts: NDArray[Any], rows: list[tuple[Any, ...]]) -> NDArray[Any
     return contacts[np.lexsort((contacts["ball"], contacts["time"]))]
 
 
-def _flights(run: Run, ball: int) -> Iterator[tuple[float, NDArray[np.float64], float, NDArray[np.float64]]]:
-    """Give the flights of a ball: (from, state, to, acceleration)."""
-    since, state, contact = 0.0, run.start[ball], None
-    for following in run.contacts_of(ball):
-        yield since, state, float(following["time"]), run.pull_after(contact)
-        since, contact = float(following["time"]), following
+def _flights(run: Run, ball: int) -> Iterator[tuple[float, NDArray[np.float64], float, Any, float]]:
+    """Give the flights of a ball: (from, state, to, the contact before, signed radius of its circle or 0)."""
+    since, state, contact, bent = 0.0, run.start[ball], None, 0.0
+    own = run.contacts_of(ball)
+    for following, bend in zip(own, guides(run.scene.walls, own).tolist(), strict=True):
+        yield since, state, float(following["time"]), contact, bent
+        since, contact, bent = float(following["time"]), following, bend
         state = np.array([following[name] for name in ("x", "y", "vx", "vy")])
-    yield since, state, float(run.final[ball]["time"]), run.pull_after(contact)
+    yield since, state, float(run.final[ball]["time"]), contact, bent
 
 
 def sensors_of(scene: Scene) -> Sensors | None:
@@ -69,6 +73,42 @@ class Sensors:
     def __init__(self, scene: Scene, walls: Walls) -> None:
         self._modelled = modelled_sensors(scene, walls)
         self._wall, self._edge = self._modelled.index_of_edge(Scene(walls))
+
+    def crossings_on(
+        self, scene: Scene, ball: int, since: float, state: NDArray[np.float64], until: float, contact: Any, bent: float
+    ) -> Iterator[tuple[Any, ...]]:
+        """Give what a ball crosses from one contact to the next, in order: rows of ``CONTACT``.
+
+        Args:
+            scene: whose gravity acts.
+            ball: its number.
+            since: when the flight begins.
+            state: (4,) x, y, vx, vy then.
+            until: when it ends, or inf.
+            contact: with which it begins (its nx, ny and kind), or None.
+            bent: signed radius of the circle on which it goes, see ``wallkit.simulation.gliding.guides``.
+        """
+        if bent == 0.0:
+            yield from self.crossings(ball, since, state, until, pull_of(scene, contact))
+            return
+        model, (ox, oy) = self._modelled.lists, self._modelled.origin.tolist()
+        (gx, gy), (x, y, vx, vy) = scene.gravity or (0.0, 0.0), state.tolist()
+        out = 1.0 if bent > 0.0 else -1.0
+        ex, ey = out * float(contact["nx"]), out * float(contact["ny"])
+        x, y, v, time, edge = x - ox, y - oy, vy * ex - vx * ey, since, NO_HIT
+        while True:
+            x, y, ex, ey, v, time, edge = next_crossing_round(
+                model, gx, gy, abs(bent), x, y, ex, ey, v, time, until, edge
+            )
+            if edge == NO_HIT:
+                return
+            yield self._row(ball, time, x, y, -v * ey, v * ex, edge)
+
+    def _row(self, ball: int, time: float, x: float, y: float, vx: float, vy: float, edge: int) -> tuple[Any, ...]:
+        nx, ny = outward(self._modelled.lists, edge, x, y)
+        kind = Kind.ENTER if vx * nx + vy * ny < 0.0 else Kind.EXIT
+        place = (x + self._modelled.origin[0], y + self._modelled.origin[1])
+        return time, ball, *place, vx, vy, *place, nx, ny, self._wall[edge], self._edge[edge], kind
 
     def crossings(
         self, ball: int, since: float, state: NDArray[np.float64], until: float, pull: NDArray[np.float64]
@@ -94,7 +134,8 @@ class Sensors:
             )
             if edge == NO_HIT:
                 return
-            nx, ny = outward(model, edge, x, y)
-            kind = Kind.ENTER if vx * nx + vy * ny < 0.0 else Kind.EXIT
-            place = (x + ox, y + oy)
-            yield time + lost, ball, *place, vx, vy, *place, nx, ny, self._wall[edge], self._edge[edge], kind
+            yield self._row(ball, time + lost, x, y, vx, vy, edge)
+            cell = model.cells[home(model, model.grid, x, y)]
+            for other in model.ids[cell.first : cell.corners]:
+                if crosses_too(model, other, edge, x, y, vx, vy, tolerance):
+                    yield self._row(ball, time + lost, x, y, vx, vy, other)

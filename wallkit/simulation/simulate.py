@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from wallkit.arguments import flag, number, of_type, refused, whole_number, word
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.flight.flight import FALLING_TOLERANCE, TOLERANCE, fly, fly_all
+from wallkit.kernels.flight.resting import side_of
 from wallkit.kernels.jit import compiled
-from wallkit.kernels.records import FREE, LOG_STRIDE, NO_HIT, RUNNING, STATE_SIZE, Counts
+from wallkit.kernels.records import LOG_STRIDE, NO_HIT, PASSING, RUNNING, STARTING, STATE_SIZE, Counts
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.scene.start_overlaps import check_starts, settled
 from wallkit.simulation.modelled import Modelled
@@ -29,7 +30,18 @@ PATIENCE = 60_000
 """Entries looked at by interpreted kernels, a few microseconds each, before a run waits for the compiler."""
 CHUNK = 8192
 _compiled_features: set[tuple[bool, ...]] = set()  # combinations whose kernels this process has compiled or loaded
-START = Counts(last=NO_HIT, bounces=0, ending=RUNNING, still=0, held=NO_HIT, hold=FREE)
+START = Counts(
+    last=NO_HIT,
+    bounces=0,
+    ending=RUNNING,
+    still=0,
+    held=NO_HIT,
+    hold=STARTING,
+    side=1,
+    turns=0,
+    changes=0,
+    before=NO_HIT,
+)
 
 
 def simulate(
@@ -103,7 +115,7 @@ class Flights:
     def fly(self, ball: int, until: float, limit: int) -> Any:
         """Fly a ball on; yield its contacts in pieces, (k, LOG_STRIDE) each, local coordinates."""
         counts = self._counts[ball]
-        if counts[2] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT):
+        if counts[2] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.SWINGING):
             counts[2] = RUNNING
         while counts[2] == RUNNING:
             log = self._piece(ball, until, limit)
@@ -142,6 +154,7 @@ class Flights:
         counts = self._counts[ball]
         if counts[2] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE):
             counts[2] = RUNNING
+        counts[8] = 0
         if counts[2] != RUNNING:
             return None
         piece = self._piece(ball, math.inf, sys.maxsize, room=1)
@@ -153,13 +166,21 @@ class Flights:
         None too for a ball that friction or drag stops: its flight itself ends where it rests.
         """
         ending = self._counts[ball][2]
-        if ending in (RUNNING, Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE):
+        if ending in (RUNNING, Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE, Ending.SWINGING):
             return None
         if ending == Ending.AT_REST and self.modelled.model.damping is not None:
             return None
         return float(self._states[ball][4] + self._states[ball][5])
 
-    def place(self, ball: int, position: FloatArray, velocity: FloatArray, time: float, last: int) -> None:
+    def place(
+        self,
+        ball: int,
+        position: FloatArray,
+        velocity: FloatArray,
+        time: float,
+        last: int,
+        normal: FloatArray | None = None,
+    ) -> None:
         """Let a ball go on from elsewhere, in the scene's coordinates.
 
         Args:
@@ -168,10 +189,16 @@ class Flights:
             velocity: (2,).
             time: of its clock.
             last: the feature that it touches and leaves, or NO_HIT.
+            normal: (2,) of that feature, towards the ball, where it keeps to it.
         """
         state = initial_states(self.modelled, position[None], velocity[None])[0].tolist()
         state[4] = time
-        self._states[ball], self._counts[ball] = state, [last, self._counts[ball][1], *START[2:]]
+        counts = START._replace(last=last, bounces=self._counts[ball][1])
+        if normal is not None:
+            model, (x, y), (nx, ny) = self.modelled.lists, state[0:2], normal.tolist()
+            side = side_of(model, model.arcs, last, x, y, nx, ny)
+            counts = counts._replace(held=last, hold=PASSING, side=int(side))
+        self._states[ball], self._counts[ball] = state, list(counts)
 
     def _compile(self) -> bool:
         if self.mode == "auto":

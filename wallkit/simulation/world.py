@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -10,9 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from wallkit.arguments import flag, floats, number, of_type, refused, whole_number, word
 from wallkit.geometry.arrays import FloatArray
+from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.records import NO_HIT
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation.damping import carried_on, damping_of
+from wallkit.simulation.gliding import glide, guides
 from wallkit.simulation.run import CONTACT, Kind
 from wallkit.simulation.sensors import in_order, sensors_of
 from wallkit.simulation.simulate import Flights
@@ -69,13 +72,18 @@ class World:
         self._since = np.zeros(len(self._base))  # ... when: after its last contact or change
         self._gravity = np.zeros(2) if scene.gravity is None else np.array(scene.gravity, dtype=np.float64)
         self._pull = np.tile(self._gravity, (len(self._base), 1))  # what accelerates each ball since
+        self._keeps = np.zeros(len(self._base), dtype=np.bool_)  # whether a wall holds it since then, ...
+        self._bend = np.zeros(len(self._base))  # ... and on what circle: see guides
         self._end = np.full(len(self._base), math.inf)  # when it rests for good, or is caught
         self._normal = np.zeros((len(self._base), 2))  # of that contact, and what was touched
         self._touched = np.full(len(self._base), NO_HIT, dtype=np.int64)
         self._next_time = np.full(len(self._base), math.inf)
         self._next: list[FloatArray | None] = [None] * len(self._base)
         self._sensors = sensors_of(scene)
-        self._coming: list[list[tuple[Any, ...]]] = [[] for _ in self._base]  # crossings of sensors before that contact
+        self._coming: list[tuple[Any, ...] | None] = [None] * len(
+            self._base
+        )  # next crossing of a sensor before that, ...
+        self._later: list[Iterator[tuple[Any, ...]]] = [iter(())] * len(self._base)  # ... and those after it
         self._lost = 0.0  # what the sum of the frames loses to rounding
         for ball in range(len(self)):
             self._look_ahead(ball)
@@ -103,7 +111,12 @@ class World:
             return np.array([carried_on(self._damping, *now) for now in zip(self._base, span.tolist(), strict=True)])
         position, velocity = self._base[:, 0:2], self._base[:, 2:4]
         grown = span[:, None] * self._pull
-        return np.hstack([position + span[:, None] * (velocity + 0.5 * grown), velocity + grown])
+        state = np.hstack([position + span[:, None] * (velocity + 0.5 * grown), velocity + grown])
+        for ball in np.flatnonzero(self._bend).tolist():
+            state[ball] = glide(
+                self._gravity, self._base[ball], self._normal[ball], self._bend[ball], float(span[ball])
+            )
+        return state
 
     def step(self, dt: float) -> NDArray[Any]:
         """Move everything on by ``dt`` seconds.
@@ -149,14 +162,30 @@ class World:
         """
         most, may_be = len(self) - 1, f"a whole number from 0 to {len(self) - 1}"
         ball = whole_number(ball, "ball", may_be, error=SceneError, code="bad-ball", least=0, most=most)
-        touched = int(self._touched[ball]) if position is None and self._since[ball] == self.time else NO_HIT
         here = self.position[ball] if position is None else _pair(position, "position")
         speed = self.velocity[ball] if velocity is None else _pair(velocity, "velocity")
-        normal = self._normal[ball]
-        if touched != NO_HIT and speed @ normal < 0.0:
-            speed = speed - 2.0 * (speed @ normal) * normal
-        self._restart(ball, here, speed, self.time, touched)
+        touched, normal = (NO_HIT, None) if position is not None else self._contact(ball, here)
+        if normal is None or touched == NO_HIT:
+            self._restart(ball, here, speed, self.time, NO_HIT)
+        else:
+            away = float(speed @ normal)
+            along = abs(away) <= LEVEL_SPEED * float(np.abs(speed).sum()) and float(self._gravity @ normal) < 0.0
+            if away < 0.0 and not along:
+                speed = speed - 2.0 * away * normal
+            self._restart(ball, here, speed, self.time, touched, normal if along else None)
         self._soonest = float(self._next_time.min())
+
+    def _contact(self, ball: int, here: FloatArray) -> tuple[int, FloatArray | None]:
+        """What a ball touches now, and the unit normal towards it: what holds it, or what it has just hit."""
+        touched, normal = int(self._touched[ball]), self._normal[ball]
+        if touched == NO_HIT or not (
+            self._keeps[ball] or self._since[ball] == self.time or self.time >= self._end[ball]
+        ):
+            return NO_HIT, None
+        if (bend := float(self._bend[ball])) != 0.0:  # the normal turns as the ball goes round
+            turned: FloatArray = normal + (here - self._base[ball, 0:2]) / bend
+            normal = turned / np.hypot(*turned)
+        return touched, normal
 
     def _look_ahead(self, ball: int) -> None:
         """Find the ball's next contact; the frames catch up with it later."""
@@ -165,22 +194,26 @@ class World:
         self._end[ball] = math.inf if end is None else end
         if self._sensors is not None:
             until = self._end[ball] if row is None else row[0]
-            flight = float(self._since[ball]), self._base[ball], float(until), self._pull[ball]
-            self._coming[ball] = list(self._sensors.crossings(ball, *flight))
+            kind, (nx, ny) = Kind.SLIDE if self._keeps[ball] else Kind.LEAVE, self._normal[ball].tolist()
+            contact, bend = {"kind": kind, "nx": nx, "ny": ny}, float(self._bend[ball])
+            flight = float(self._since[ball]), self._base[ball].copy(), float(until), contact, bend
+            self._later[ball] = self._sensors.crossings_on(self.scene, ball, *flight)
+            self._coming[ball] = next(self._later[ball], None)
         self._set_next_time(ball)
 
     def _set_next_time(self, ball: int) -> None:
         """Note when the next contact or crossing is."""
         row, coming = self._next[ball], self._coming[ball]
-        self._next_time[ball] = coming[0][0] if coming else math.inf if row is None else row[0]
+        self._next_time[ball] = coming[0] if coming else math.inf if row is None else row[0]
 
     def _cross(self, ball: int, end: float) -> list[tuple[Any, ...]]:
         """Take from the coming crossings those up to a time."""
-        coming = self._coming[ball]
-        passed = sum(crossing[0] <= end for crossing in coming)
-        self._coming[ball] = coming[passed:]
+        passed = []
+        while (crossing := self._coming[ball]) is not None and crossing[0] <= end:
+            passed.append(crossing)
+            self._coming[ball] = next(self._later[ball], None)
         self._set_next_time(ball)
-        return coming[:passed]
+        return passed
 
     def _accept(self, ball: int, row: FloatArray) -> None:
         """The frame has reached the contact: from there the ball goes on."""
@@ -188,6 +221,11 @@ class World:
         self._base[ball, 2:4] = row[3:5]
         self._since[ball], self._pull[ball] = row[0], self._pull_after(row)
         self._normal[ball], self._touched[ball] = row[7:9], row[9]
+        self._keeps[ball] = row[10] == Kind.SLIDE
+        self._bend[ball] = 0.0
+        if self._keeps[ball]:
+            contact = self._flights.contacts([row[None]], [np.array([ball], dtype=np.int32)])
+            self._bend[ball] = guides(self.scene.walls, contact)[0]
         self._look_ahead(ball)
 
     def _pull_after(self, row: FloatArray) -> FloatArray:
@@ -208,10 +246,19 @@ class World:
         else:
             self._restart(ball, self.position[ball] + dt * after, after, end, NO_HIT)
 
-    def _restart(self, ball: int, position: FloatArray, velocity: FloatArray, time: float, last: int) -> None:
-        self._flights.place(ball, position, velocity, time, last)
+    def _restart(
+        self,
+        ball: int,
+        position: FloatArray,
+        velocity: FloatArray,
+        time: float,
+        last: int,
+        normal: FloatArray | None = None,
+    ) -> None:
+        self._flights.place(ball, position, velocity, time, last, normal)
         self._base[ball] = *position, *velocity
         self._since[ball], self._touched[ball], self._pull[ball] = time, last, self._gravity
+        self._keeps[ball], self._bend[ball] = False, 0.0
         self._look_ahead(ball)
 
 

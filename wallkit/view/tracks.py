@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.simulation.gliding import glide, guides
 from wallkit.simulation.run import Ending, Kind
 
 if TYPE_CHECKING:
     from wallkit.scene.scene import Balls
     from wallkit.simulation.run import Run
+
+CHORD = 0.1
+"""Radians, or parts of the time of a small swing, of a stretch on a circle: a parabola is off by 1e-4 rho at most."""
+MOST_CHORDS = 400
 
 
 @dataclass(slots=True)
@@ -30,7 +35,8 @@ class Tracks:
         target: (m, 2) where it ends: the next contact's centre, or the ball's last place.
         velocity: (m, 2) with which it begins.
         pull: (m, 2) acceleration: gravity, or the part of it along the wall on which the ball slides, or rolling
-            friction, against the velocity.
+            friction, against the velocity. Where a ball glides along an arc, or pivots about a vertex, its stretch
+            is cut into short ones, each a parabola, and only the first of them begins with a contact.
         drag: the rate k, or 0.
         contact: (m,) index into ``run.contacts`` of the contact it begins with, -1 for the start.
         radius: (n,) of the balls.
@@ -91,7 +97,7 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
         found = np.stack([contacts[name][index] for name in names], axis=1)
         return np.where((index >= 0)[:, None], found, otherwise)
 
-    return Tracks(
+    flights = Tracks(
         offsets=offsets,
         time=column(("time",), contact, np.zeros((len(ball), 1)))[:, 0],
         until=column(("time",), following, final_time[ball][:, None])[:, 0],
@@ -103,6 +109,55 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
         contact=contact.astype(np.int64),
         radius=radius,
         whole=whole,
+    )
+    bends = guides(run.scene.walls, contacts)
+    bent = np.where(contact >= 0, bends[contact], 0.0) if bends.any() else np.zeros(len(contact))
+    return _in_chords(run, flights, bent) if bent.any() else flights
+
+
+def _in_chords(run: Run, flights: Tracks, bent: FloatArray) -> Tracks:
+    """Cut stretches on circles (signed radii ``bent``, 0 for none) into short ones that a parabola each comes near.
+
+    One that goes to and fro for long is cut so for its first turns only, and stands at its end after that.
+    """
+    gravity = np.asarray(run.scene.gravity or (0.0, 0.0), dtype=np.float64)
+    rho = np.where(bent == 0.0, 1.0, np.abs(bent))
+    span = flights.until - flights.time
+    rate = np.maximum(np.hypot(*flights.velocity.T) / rho, np.sqrt(float(np.hypot(*gravity)) / rho))
+    pieces = np.where(bent == 0.0, 1, np.clip(np.ceil(rate * span / CHORD), 1, MOST_CHORDS)).astype(np.int64)
+    own = np.repeat(np.arange(len(span)), pieces)
+    rank = np.arange(len(own)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    step = np.minimum(span / pieces, np.where(bent == 0.0, np.inf, CHORD / rate))[own]
+    time, until = flights.time[own] + rank * step, flights.time[own] + (rank + 1) * step
+    position, velocity, target = flights.position[own], flights.velocity[own].copy(), flights.target[own].copy()
+    pull, last = flights.pull[own].copy(), rank == pieces[own] - 1
+    until[last] = flights.until[own[last]]
+    for index in np.flatnonzero(bent[own]).tolist():
+        contact = run.contacts[flights.contact[own[index]]]
+        state = np.concatenate([flights.position[own[index]], flights.velocity[own[index]]])
+        normal = np.array([contact["nx"], contact["ny"]])
+        begin, end = (
+            glide(gravity, state, normal, float(bent[own[index]]), float((rank[index] + more) * step[index]))
+            for more in (0, 1)
+        )
+        if last[index] and until[index] - time[index] > 2.0 * step[index]:
+            begin, end = np.concatenate([target[index], (0.0, 0.0)]), np.concatenate([target[index], (0.0, 0.0)])
+        position[index], velocity[index] = begin[0:2], begin[2:4]
+        if not last[index]:
+            target[index] = end[0:2]
+        lasts = max(float(until[index] - time[index]), 1e-300)
+        pull[index] = 2.0 * ((target[index] - position[index]) / lasts - velocity[index]) / lasts
+    return replace(
+        flights,
+        offsets=np.concatenate([[0], np.cumsum(pieces)])[flights.offsets].astype(np.int64),
+        time=time,
+        until=until,
+        position=position,
+        target=target,
+        velocity=velocity,
+        pull=pull,
+        contact=np.where(rank == 0, flights.contact[own], -1),
+        whole=flights.whole + len(own) - len(span),
     )
 
 

@@ -28,15 +28,20 @@ class Material:
     Attributes:
         restitution: 0 to 1, the part of the normal speed that a bounce leaves.
         tangential_restitution: 0 to 1, the same along the wall. 0.9 for both slows a ball down by 10 %.
+        static_friction: 0 or more, the coefficient of the friction that holds a ball which stands on the wall under
+            gravity: the tangent of the steepest slope on which it stays. One that moves along the wall is not slowed.
     """
 
     restitution: float = 1.0
     tangential_restitution: float = 1.0
+    static_friction: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("restitution", "tangential_restitution"):
             given, may_be = getattr(self, name), "a number from 0 to 1"
             arguments.number(given, name, may_be, error=WallsError, code="bad-material", least=0.0, most=1.0)
+        given, may_be = self.static_friction, "a finite number, 0 or more"
+        arguments.number(given, "static_friction", may_be, error=WallsError, code="bad-material", least=0.0)
 
 
 def points_of(points: ArrayLike, index: int) -> FloatArray:

@@ -48,16 +48,18 @@ def _wall_json(wall: Wall) -> dict[str, Any]:
         "closed": wall.closed,
         "depth": wall.depth,
         "sides": wall.sides,
-        "material": {
-            "restitution": wall.material.restitution,
-            "tangential_restitution": wall.material.tangential_restitution,
-        },
+        "material": _material_json(wall.material),
         "vertices": wall.vertices.tolist(),
     }
     if wall.bulges.any():
         result["bulges"] = wall.bulges.tolist()
     result["normals"] = wall.normals.tolist()
     return result
+
+
+def _material_json(material: Material) -> dict[str, float]:
+    found = {"restitution": material.restitution, "tangential_restitution": material.tangential_restitution}
+    return found | ({"static_friction": material.static_friction} if material.static_friction else {})
 
 
 def dumps(walls: Walls) -> str:

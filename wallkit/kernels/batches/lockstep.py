@@ -246,8 +246,8 @@ def _answer_disc(model, radius, s, i):
         stop = first + 1
     last, feature = _feature_of(model, s[LAST + i]), _feature_of(model, s[ROW + i])
     s[BEST + i], feature = scan_corners(
-        model.corners, model.ids, first, stop, None, model.corner_wall, radius,
-        s[X + i], s[Y + i], s[VX + i], s[VY + i], s[ENERGY + i], last, s[BEST + i], feature,
+        model.corners, model.ids, first, stop, None, model.corner_wall, None, radius,
+        s[X + i], s[Y + i], s[VX + i], s[VY + i], s[ENERGY + i], last, s[TOLERANCE + i], s[BEST + i], feature,
     )  # fmt: skip
     s[ROW + i] = _row_of(model, feature)
 

@@ -284,11 +284,10 @@ def _find_cuts(s, padded):
         chord = on & (s[ENERGY + i] * abs(power) > WELL_KNOWN * along * along)
         cut = OUTSIDE if enters & (not inside) else (CHORD if chord else INSIDE)
         s[FROM + i] = cut if meets else NEITHER
-        s[ALONG + i], s[POWER + i], s[SQUARE + i] = (
-            along,
-            power,
-            (radius * speed - cross) * (radius * speed + cross),
-        )
+        square = (radius * speed - cross) * (radius * speed + cross)
+        part = s[ENERGY + i] * power
+        square = along * along - part if along * along - part > part else square
+        s[ALONG + i], s[POWER + i], s[SQUARE + i] = along, power, square
     return near
 
 
@@ -339,13 +338,19 @@ def _take_sides(s, disc, padded):
         reach = radius + disc if outside else inner
         farthest = reach if outside else farthest
         square = (reach * speed - cross) * (reach * speed + cross)
+        side_of = disc if outside else -disc
+        c = power - side_of * (2.0 * radius + side_of)
+        part = energy * c
+        clear = along * along - part > part
+        square = along * along - part if clear & ((c > 0.0) | (not outside)) else square
+        misses = (farthest * speed < cross) & (not (outside & (c > 0.0) & clear))
         asked = (power < 0.0) | (along < 0.0)
         side = (EITHER if enters else OUTSIDE) if outside else (INSIDE if inner > 0.0 else NEITHER)
         side = INSIDE if is_mould(radius, disc) else side
         s[FROM + i] = side if asked else NEITHER
         s[E0 + i], s[E1 + i], s[E2 + i], s[E3 + i] = ex, ey, fx, fy
         square = square if square > 0.0 else 0.0
-        s[ALONG + i], s[POWER + i], s[SQUARE + i] = along, power, square if farthest * speed >= cross else -1.0
+        s[ALONG + i], s[POWER + i], s[SQUARE + i] = along, power, -1.0 if misses else square
 
 
 @kernel

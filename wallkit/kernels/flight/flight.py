@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.flight.damping import free_time, last_flight, slowed
-from wallkit.kernels.flight.gravity import bounce, facing, first_contact, move, side_kept, towards
+from wallkit.kernels.flight.gravity import bounce, facing, first_contact, kept_energy, lifted, move
+from wallkit.kernels.flight.guide import guide
 from wallkit.kernels.flight.motion import advance
 from wallkit.kernels.flight.point_in_corner import normal_at, settle
-from wallkit.kernels.flight.resting import change_hold, end_of_hold, held_after, rests, stops_slide
+from wallkit.kernels.flight.resting import held_after, keep, stopped_between
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.records import (
     ABSORBED,
@@ -16,17 +17,18 @@ from wallkit.kernels.records import (
     AMBIGUOUS_CORNER,
     AT_REST,
     BOUNCE_LIMIT,
-    CAUGHT,
     COLLAPSE,
     COLLAPSES,
-    COMING_TO_REST,
     EDGE,
-    END_OF_EDGE,
+    JOINING,
     LEAVING,
     LEFT_SCENE,
     NO_HIT,
+    NO_ROW,
+    PASSING,
     RUNNING,
     SLIDING,
+    STARTING,
     TIME_REACHED,
     VERTEX,
     WEDGED,
@@ -38,6 +40,8 @@ TOLERANCE = 2.0**-47
 FALLING_TOLERANCE = 2.0**-41
 """The same under gravity: |v| t and g t^2 / 2 come to eight times the extent each before they cancel (up and down
 again in a room), and times are roots of polynomials: eight times eight as much."""
+HELD = (JOINING, PASSING, SLIDING, LEAVING, STARTING)
+"""How a ball is held that a wall, not a flight, moves on: see ``hold.keep``."""
 
 
 @kernel
@@ -62,78 +66,97 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
     x, y, vx, vy, time, lost, energy = state[0], state[1], state[2], state[3], state[4], state[5], state[6]
     from_x, from_y, from_vx, from_vy = state[7], state[8], state[9], state[10]
     tolerance = state[11]
-    last, bounces, still, held, hold = counts[0], counts[1], counts[3], counts[4], counts[5]
+    last, bounces, still, held, hold, side = counts[0], counts[1], counts[3], counts[4], counts[5], float(counts[6])
+    turns, changes, before = counts[7], counts[8], counts[9]
     ending = RUNNING
     noted = 0
     while ending == RUNNING and noted < capacity:
         ending = ending_at_once(gravity, energy, bounces, limit)
         if ending != RUNNING:
             break
-        if gravity is not None and hold in (COMING_TO_REST, LEAVING):
-            x, y, vx, vy, t, energy, last, hold, kind = change_hold(
-                model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance
-            )
-            time, lost = advance(time, lost, t)
-            nx, ny = towards(model, held, gravity)
-            noted = note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, held, kind)
-            if hold == SLIDING and rests(model, held, vx, vy, gravity):
-                ending = AT_REST
-            continue
         remaining = (until - time) - lost
-        best = free_time(model.damping, energy, remaining)  # in which t is: as if nothing slowed the ball down
-        t, feature, touched = first_contact(
-            model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance, best
-        )
-        if touched > 0 and last >= 0:
-            met = settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still)
-            if met != NO_HIT:
-                t, feature = 0.0, met
-        if feature in (NO_HIT, AMBIGUOUS, COLLAPSES):
-            ending = ending_without(model.damping, feature, until)
-            break
-        passed, kept = slowed(model.damping, energy, t, remaining)
+        if gravity is not None and hold in HELD:
+            keeps = hold in (SLIDING, LEAVING)
+            x, y, vx, vy, t, energy, last, held, hold, side, turns, changes, kind, feature, ending = keep(
+                model, gravity, radius, x, y, vx, vy, energy, last, held, hold, side, turns, changes,
+                (from_x, from_y, from_vx, from_vy), tolerance, remaining,
+            )  # fmt: skip
+            time, lost = (until, 0.0) if ending == TIME_REACHED else advance(time, lost, t)
+            if kind != NO_ROW:
+                nx, ny = normal_from(model, gravity, radius, held, side, x, y)
+                noted = note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, held, kind)
+            if keeps:
+                from_x, from_y = x, y  # it came back along the wall, on its side of that
+                from_vx, from_vy = lifted(model, gravity, radius, held, hold, side, x, y, -vx, -vy)
+            if feature == NO_HIT:
+                continue
+            passed = t
+        else:
+            best = free_time(model.damping, energy, remaining)  # in which t is: as if nothing slowed the ball down
+            t, feature, touched = first_contact(
+                model, gravity, radius, x, y, vx, vy, energy, last, held, hold, side, tolerance, best
+            )
+            if touched > 0 and last >= 0:
+                met = settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still)
+                if met != NO_HIT:
+                    t, feature = 0.0, met
+            if feature in (NO_HIT, AMBIGUOUS) or (feature == COLLAPSES and before == NO_HIT):
+                ending = ending_without(model.damping, feature, until)
+                break
+            passed, kept = slowed(model.damping, energy, t, remaining)
+            if t > 0.0:
+                from_x, from_y = x, y
+                from_vx, from_vy = lifted(model, gravity, radius, held, hold, side, x, y, vx, vy)
+                x, y, vx, vy = move(gravity, x, y, vx, vy, t)
+                vx, vy, energy = kept * vx, kept * vy, kept * kept * energy
+                time, lost = advance(time, lost, passed)
         still = 0 if passes(time, passed, t, vx, vy, tolerance) else still + 1
+        if feature == COLLAPSES:
+            still += still_limit(model.restitution)
         if still > still_limit(model.restitution):
             ending = COLLAPSE
-            break
-        if t > 0.0:
-            from_x, from_y = x, y
-            from_vx, from_vy = side_kept(model, gravity, held, hold, vx, vy)
-            x, y, vx, vy = move(model, gravity, held, hold, x, y, vx, vy, t)
-            vx, vy, energy = kept * vx, kept * vy, kept * kept * energy
-            time, lost = advance(time, lost, passed)
-        if gravity is not None and feature == END_OF_EDGE:
-            last = held
-            feature = stops_slide(model, gravity, radius, held, x, y, vx, vy, tolerance)
-            if feature == NO_HIT:
-                hold = LEAVING
-                continue
-            from_x, from_y = x, y  # where it came from is back along the slide, on its side of the edge
-            from_vx, from_vy = side_kept(model, gravity, held, hold, -vx, -vy)
+            if gravity is not None and model.restitution is not None:
+                vx, vy, still = 0.0, 0.0, 0
+                held, hold, side, ending = stopped_between(
+                    model, gravity, radius, last, side, before, x, y, (from_x, from_y, from_vx, from_vy), tolerance
+                )
+                energy = kept_energy(gravity, x, y, 0.0, 0.0)
+            continue
         nx, ny, twice, wall = normal_of(model, feature, x, y)
         nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny)
         vx, vy, energy = bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy)
-        last = feature
+        before, last = (before if feature == last else last), feature
         bounces += 1
+        turns, changes = 0, 0
         hits[wall] += 1
         noted = note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
         if absorbs(model.restitution, wall):
             ending = ABSORBED
         if gravity is not None:
-            held, hold = held_after(model, gravity, radius, feature, held, hold, x, y, vx, vy, nx, ny, tolerance)
-            if hold in (CAUGHT, WEDGED):
-                ending, vx, vy = end_of_hold(model, gravity, hold, wall, nx, ny, vx, vy)
+            held, hold, side = held_after(
+                model, gravity, radius, feature, held, hold, side, x, y, vx, vy, nx, ny, tolerance
+            )
+            if hold == WEDGED:
+                ending, vx, vy = AT_REST, 0.0, 0.0
     if ending == TIME_REACHED and (until - time) - lost > 0.0:
         from_x, from_y, from_vx, from_vy = x, y, vx, vy
         t, kept, time, lost = last_flight(model.damping, energy, time, lost, until)
-        x, y, vx, vy = move(model, gravity, held, hold, x, y, vx, vy, t)
+        x, y, vx, vy = move(gravity, x, y, vx, vy, t)
         vx, vy, energy = kept * vx, kept * vy, kept * kept * energy
         if kept == 0.0:
             ending, vx, vy = AT_REST, 0.0, 0.0
     state[0], state[1], state[2], state[3], state[4], state[5], state[6] = x, y, vx, vy, time, lost, energy
     state[7], state[8], state[9], state[10] = from_x, from_y, from_vx, from_vy
     counts[0], counts[1], counts[2], counts[3], counts[4], counts[5] = last, bounces, ending, still, held, hold
+    counts[6], counts[7], counts[8], counts[9] = int(side), turns, changes, before
     return noted
+
+
+@kernel
+def normal_from(model, gravity, radius, held, side, x, y):
+    """Unit normal, towards the ball, of what holds it."""
+    _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+    return nx, ny
 
 
 @kernel

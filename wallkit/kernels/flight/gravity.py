@@ -1,4 +1,4 @@
-"""What gravity does to a flight: parabolas, energy kept, and the way along a straight wall that holds a ball.
+"""What gravity does to a flight: parabolas, and energy kept.
 
 Each kernel takes gravity as an argument of its own; where it is None only the straight flight is left of it.
 """
@@ -7,41 +7,53 @@ from __future__ import annotations
 
 import math
 
+from wallkit.kernels.flight.guide import guide
 from wallkit.kernels.flight.motion import reflect
-from wallkit.kernels.impact.gravity_impact import LEVEL_SPEED, fall_search
-from wallkit.kernels.impact.polynomial_roots import first_fall_quadratic
+from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.index.grid import search
+from wallkit.kernels.index.parabola_walk import fall_search
 from wallkit.kernels.jit import kernel
-from wallkit.kernels.records import END_OF_EDGE, LEFT, NO_HIT, SLIDING
+from wallkit.kernels.records import FREE, LEFT, NO_HIT, STARTING
 
 LEVEL = 2.0**-48
 """A wall that turns gravity by less than this is level."""
 
 
 @kernel
-def first_contact(model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance, best):
+def first_contact(model, gravity, radius, x, y, vx, vy, energy, last, held, hold, side, tolerance, best):
     """Find what ends the flight before ``best``: (time, feature, edges touched by a point where it starts)."""
     if gravity is None:
         return search(model, model.grid, radius, x, y, vx, vy, energy, last, tolerance, best, NO_HIT)
-    gx, gy = pull_on(model, gravity, held, hold)
-    skipped = held if hold in (SLIDING, LEFT) else NO_HIT
-    reference = towards(model, held, gravity) if skipped != NO_HIT else (0.0, 0.0)
-    t, feature, touched = fall_search(
-        model, model.grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, NO_HIT
+    skipped = held if hold == LEFT else NO_HIT
+    reference = (0.0, 0.0)
+    if skipped >= 0:
+        _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+        reference = (nx, ny)
+    return fall_search(
+        model,
+        model.grid,
+        radius,
+        x,
+        y,
+        vx,
+        vy,
+        gravity[0],
+        gravity[1],
+        last,
+        skipped,
+        tolerance,
+        reference,
+        best,
+        NO_HIT,
     )
-    if hold == SLIDING:
-        end = end_of_edge(model, held, x, y, vx, vy, gx, gy)
-        if end < t:
-            return end, END_OF_EDGE, 0
-    return t, feature, touched
 
 
 @kernel
-def move(model, gravity, held, hold, x, y, vx, vy, t):
-    """Where a ball is after a time, and its velocity: p + v t + g t^2 / 2, v + g t."""
+def move(gravity, x, y, vx, vy, t):
+    """Where a ball is after a time of flight, and its velocity: p + v t + g t^2 / 2, v + g t."""
     if gravity is None:
         return x + t * vx, y + t * vy, vx, vy
-    gx, gy = pull_on(model, gravity, held, hold)
+    gx, gy = gravity[0], gravity[1]
     return x + t * (vx + 0.5 * t * gx), y + t * (vy + 0.5 * t * gy), vx + t * gx, vy + t * gy
 
 
@@ -64,14 +76,6 @@ def bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy):
 def kept_energy(gravity, x, y, vx, vy):
     """What a flight keeps: v^2 - 2 g.p."""
     return vx * vx + vy * vy - 2.0 * (gravity[0] * x + gravity[1] * y)
-
-
-@kernel
-def towards(model, held, gravity):
-    """Unit normal of the edge that holds a ball, towards the ball: against gravity."""
-    line = model.lines[held]
-    side = -1.0 if gravity[0] * line.nx + gravity[1] * line.ny > 0.0 else 1.0
-    return side * line.nx, side * line.ny
 
 
 @kernel
@@ -131,39 +135,16 @@ def curvature(model, arcs, feature, radius, x, y, nx, ny):
 
 
 @kernel
-def side_kept(model, gravity, held, hold, vx, vy):
-    """Velocity at a flight's start as corners remember it: a ball that slides has the side from which it is pressed.
+def lifted(model, gravity, radius, held, hold, side, x, y, vx, vy):
+    """Velocity at a flight's start as corners remember it: a ball that leaves a wall along it is on its side of that.
 
     The lift off the wall, 2^-40 of the speed, is far above rounding and far below what corners tell apart.
     """
     if gravity is None:
         return vx, vy
-    if hold != SLIDING:
+    if hold in (FREE, STARTING):
         return vx, vy
-    nx, ny = towards(model, held, gravity)
-    lift = 2.0**-40 * (abs(vx) + abs(vy))
+    _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+    speed = abs(vx) + abs(vy)
+    lift = 2.0**-40 * speed if speed > 0.0 else 1.0
     return vx + lift * nx, vy + lift * ny
-
-
-@kernel
-def pull_on(model, gravity, held, hold):
-    """Gravity as a ball feels it: all of it, or the part along the edge that holds it; none on a level one."""
-    if hold != SLIDING:
-        return gravity[0], gravity[1]
-    line = model.lines[held]
-    pull = gravity[1] * line.nx - gravity[0] * line.ny
-    if abs(pull) <= LEVEL * (abs(gravity[0]) + abs(gravity[1])):
-        return 0.0, 0.0
-    return -pull * line.ny, pull * line.nx
-
-
-@kernel
-def end_of_edge(model, held, x, y, vx, vy, gx, gy):
-    """Time at which a ball that slides on an edge comes to its end; g is the pull along the edge."""
-    line = model.lines[held]
-    u = (y - line.ay) * line.nx - (x - line.ax) * line.ny
-    v = vy * line.nx - vx * line.ny
-    g = gy * line.nx - gx * line.ny
-    return min(
-        first_fall_quadratic(0.5 * g, v, u, math.inf), first_fall_quadratic(-0.5 * g, -v, line.length - u, math.inf)
-    )

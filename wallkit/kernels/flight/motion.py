@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from wallkit.kernels.jit import kernel
+from wallkit.kernels.jit import kernel, rare_kernel
+
+NEARLY_ALL = 2.0**-20
+"""Where a bounce leaves less than this part of the squared speed, the difference of squares has too few digits left."""
 
 
 @kernel
@@ -28,9 +31,26 @@ def reflect(restitution, wall, nx, ny, twice, vx, vy, energy):
         return _with_energy(vx - factor * nx, vy - factor * ny, energy)
     e = restitution[2 * wall]
     f = restitution[2 * wall + 1]
+    before = energy
     energy = f * f * energy + (e * e - f * f) * (0.5 * factor * normal)
+    if energy < NEARLY_ALL * before:
+        return _what_is_left(e, f, nx, ny, twice, vx, vy, normal)
     part = 0.5 * (f + e) * factor
     return _with_energy(f * vx - part * nx, f * vy - part * ny, energy)
+
+
+@rare_kernel
+def _what_is_left(e, f, nx, ny, twice, vx, vy, normal):
+    """Turn a velocity that a dead wall takes nearly all of: from its parts along n and across, none by cancellation.
+
+    What is left along a wall that is hit straight on is the rounding of v x n (some 2^-52 |v| |n|): nothing.
+    """
+    along, whole = vy * nx - vx * ny, 0.5 * twice
+    if along * along * whole <= 2.0**-98 * (vx * vx + vy * vy):
+        along = 0.0
+    across, up = f * along * whole, -e * normal * whole
+    x, y = up * nx - across * ny, up * ny + across * nx
+    return x, y, x * x + y * y
 
 
 @kernel

@@ -18,8 +18,6 @@ from wallkit.kernels.records import AMBIGUOUS, COLLAPSES, NO_HIT
 SAME = 1e-9
 """Two outgoing velocities closer than this part of the speed are one: an angle of pi / n as drawn has a limit."""
 TURNS = 200_000
-RISE = 2.0**-30
-"""An edge that rises by less is straight on: what it turns a sliding point by is lost in the rounding of its normal."""
 
 
 @rare_kernel
@@ -42,19 +40,19 @@ def settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, toleranc
     if still > 0:
         return found
     last_side = _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
-    found_side = _came(model, found, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+    found_side = came_from(model, found, x, y, from_x, from_y, from_vx, from_vy, tolerance)
     return _outcome(model, last, last_side, found, found_side, x, y, from_vx, from_vy)
 
 
 @rare_kernel
-def _came(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance):
+def came_from(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance):
     """Side of an edge (1 that of ``normal_at``, or -1) from which the point came: that of where its flight began.
 
     If it began on the edge too, the point left there on the side to which it flew. If it began beside an end of the
     edge, within rounding of its line, the place of the start is still the best that is known.
     """
     side = _side(model, model.arcs, edge, from_x, from_y, tolerance)
-    if side == 0.0 and not _touch(model, model.arcs, edge, from_x, from_y, tolerance)[0]:
+    if side == 0.0 and not touching(model, model.arcs, edge, from_x, from_y, tolerance)[0]:
         side = _side(model, model.arcs, edge, from_x, from_y, 0.0)
     if side == 0.0:
         nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
@@ -69,7 +67,7 @@ def _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance
     away = vx * nx + vy * ny
     if abs(away) > 2.0**-40 * (abs(vx) + abs(vy)) * (abs(nx) + abs(ny)):
         return 1.0 if away > 0.0 else -1.0
-    return _came(model, last, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+    return came_from(model, last, x, y, from_x, from_y, from_vx, from_vy, tolerance)
 
 
 @rare_kernel
@@ -80,11 +78,11 @@ def _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tol
     """
     if edge == last:
         return -2.0
-    touches, starts, ends = _touch(model, model.arcs, edge, x, y, tolerance)
-    if not touches:
+    touched, starts, ends = touching(model, model.arcs, edge, x, y, tolerance)
+    if not touched:
         return -2.0
     nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
-    came = _came(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+    came = came_from(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance)
     toward = vx * nx + vy * ny
     if (came > 0.0) == (toward > 0.0) or toward == 0.0:
         return -2.0
@@ -124,20 +122,20 @@ def normal_at(model, arcs, edge, x, y):
 
 
 @rare_kernel
-def _touch(model, arcs, edge, x, y, tolerance):
+def touching(model, arcs, edge, x, y, tolerance):
     """Tell whether a point is on an edge, and at its start or its end: (touches, starts here, ends here)."""
     if arcs is not None:
         arc = arcs[edge]
         if arc.radius > 0.0:
-            touches = _side(model, arcs, edge, x, y, tolerance) == 0.0 and holds(
+            touched = _side(model, arcs, edge, x, y, tolerance) == 0.0 and holds(
                 arc, x - arc.ax + arc.sx, y - arc.ay + arc.sy, tolerance
             )
-            return touches, _near(x - arc.ax, y - arc.ay, tolerance), _near(x - arc.bx, y - arc.by, tolerance)
+            return touched, _near(x - arc.ax, y - arc.ay, tolerance), _near(x - arc.bx, y - arc.by, tolerance)
     line = model.lines[edge]
     ex, ey = x - line.ax, y - line.ay
     u = ey * line.nx - ex * line.ny
-    touches = _side(model, arcs, edge, x, y, tolerance) == 0.0 and -tolerance <= u <= line.length + tolerance
-    return touches, u <= tolerance, u >= line.length - tolerance
+    touched = _side(model, arcs, edge, x, y, tolerance) == 0.0 and -tolerance <= u <= line.length + tolerance
+    return touched, u <= tolerance, u >= line.length - tolerance
 
 
 @rare_kernel
@@ -202,38 +200,3 @@ def _leave(model, first, first_side, second, second_side, x, y, vx, vy):
         if receding:
             break
     return vx, vy
-
-
-@rare_kernel
-def rises_ahead(model, held, x, y, vx, vy, nx, ny, tolerance):
-    """Edge that rises from the end of the one on which a point slides, or NO_HIT: n is the side of the point.
-
-    Such an edge goes up on that side from where the point is, across its way; one that falls away or goes straight on
-    does not stop it.
-    """
-    cell = model.cells[home(model, model.grid, x, y)]
-    found = NO_HIT
-    steepest = RISE * (abs(nx) + abs(ny))
-    for k in range(cell.first, cell.corners):
-        edge = int(model.ids[k])
-        rise = _rise(model, edge, held, x, y, vx, vy, nx, ny, tolerance)
-        if rise > steepest:
-            steepest, found = rise, edge
-    return found
-
-
-@rare_kernel
-def _rise(model, edge, held, x, y, vx, vy, nx, ny, tolerance):
-    """How steeply an edge at (x, y) goes up along n, as a part of n; 0 if it is not there, or beside the way."""
-    if edge == held:
-        return 0.0
-    touches, starts, ends = _touch(model, model.arcs, edge, x, y, tolerance)
-    if not touches:
-        return 0.0
-    mx, my, _twice = normal_at(model, model.arcs, edge, x, y)
-    length = math.sqrt(mx * mx + my * my)
-    dx, dy = -my / length, mx / length
-    rise = dx * nx + dy * ny
-    if not (starts or ends):
-        return abs(rise)
-    return rise if starts else -rise

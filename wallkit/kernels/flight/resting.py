@@ -1,179 +1,415 @@
-"""How a wall holds a ball under gravity: its bounces end, it rests or slides, and leaves again.
+"""How a wall comes to hold a ball under gravity, takes it on from edge to edge, and lets it go again.
 
-With restitution e < 1 a ball that leaves a wall at the normal speed w, pressed back by p = -g.n, bounces without
-end in the time 2 w / (p (1 - e)). When the height it reaches, w^2 / (2 p), is below the rounding of positions, these
-bounces are taken at once. After that it keeps to the wall: at rest where tangential restitution f < 1 has stopped it
-(or nothing pulls), else sliding with the part of gravity along the wall, until the wall ends or something is met.
+With restitution e < 1 a ball that leaves a wall at the normal speed w, pressed back by p, bounces without end in the
+time 2 w / (p (1 - e)). When the height it reaches, w^2 / (2 p), is below the rounding of positions, these bounces are
+taken at once, and after that it *keeps* to the wall (see ``keeping``). p is -g.n, and on a curve with v^2 / rho, less
+on its back and more in its hollow: what is taken at once moves it by no more than rounding, so p is that of now.
 
-On a curve (an arc, or the circle of a corner) p = -g.n + v^2 k, with k the curvature of the way of the centre,
-positive in a hollow. There the bounces end the same way, but what comes after, a pendulum's swing, is not flown: the
-ball is caught, and its run ends there, by name.
+At the end of an edge the walls' own topology says what comes next (see ``wallkit.simulation.joints``):
+
+* a smooth joint, or one of no more turn than rounding: it goes on, with its speed;
+* a hollow one: it bounces off the next edge, and goes on along it if that leaves it less than rounding;
+* a joint that falls away: a point leaves; so does a disc with v^2 > g r cos, and else it pivots about the vertex.
 """
 
 from __future__ import annotations
 
 import math
 
-from wallkit.kernels.flight.gravity import LEVEL, curvature, end_of_edge, kept_energy, pull_on, towards
-from wallkit.kernels.flight.point_in_corner import rises_ahead
-from wallkit.kernels.impact.gravity_impact import fall_search
+from wallkit.kernels.flight.contact_state import reach, stretch
+from wallkit.kernels.flight.gravity import LEVEL, kept_energy
+from wallkit.kernels.flight.guide import STRAIGHT, ahead_of, guide, off_guide, outside, press
+from wallkit.kernels.flight.obstacles import SMOOTH_JOINT, following, one_sided, side_after
+from wallkit.kernels.flight.pendulum import period
+from wallkit.kernels.flight.point_in_corner import came_from, normal_at, touching
+from wallkit.kernels.impact.leaving import LEVEL_SPEED
+from wallkit.kernels.index.grid import home
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import (
     AT_REST,
-    CAUGHT,
     COLLAPSE,
-    COMING_TO_REST,
+    END_OF_EDGE,
     FREE,
+    GOES_ON,
+    JOINING,
     LEAVE,
     LEAVING,
     LEFT,
+    LIFTS,
     NO_HIT,
+    NO_ROW,
+    PASSING,
+    RUNNING,
     SLIDE,
     SLIDING,
+    STARTING,
+    SWINGING,
+    TIME_IS_UP,
+    TIME_REACHED,
+    TURNS,
     WEDGED,
 )
 
-
-@kernel
-def change_hold(model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance):
-    """Let a ball that comes to rest on an edge keep to it, or one whose slide has ended leave it.
-
-    Returns:
-        (x, y, vx, vy after it, the time it takes, energy, last, hold, kind of the contact).
-    """
-    if hold == LEAVING:
-        return x, y, vx, vy, 0.0, energy, last, LEFT, LEAVE
-    x, y, vx, vy, t, hold = _keep_to(model, model.restitution, held, radius, x, y, vx, vy, gravity, last, tolerance)
-    return x, y, vx, vy, t, kept_energy(gravity, x, y, vx, vy), held, hold, SLIDE
+SAME_WAY = 1.0 - 2.0**-20
+"""Cosine of the angle between two walls, one of which goes on from the other."""
+MOST_CHANGES = 4096
+"""Changes from edge to edge, without a bounce and an end in time, after which a ball is said to swing for ever."""
+MOULD = 2.0**-20
+"""A disc whose radius is that of an arc, less this part, fits into it as into a mould, and cannot move along it."""
 
 
 @rare_kernel
-def _keep_to(model, restitution, held, radius, x, y, vx, vy, gravity, last, tolerance):
-    """Take the last, endless bounces on an edge at once: (x, y, vx, vy after them, the time they take, hold).
+def keep(
+    model, gravity, radius, x, y, vx, vy, energy, last, held, hold, side, turns, changes, start_of, tolerance, span
+):
+    """Let a ball that a wall holds, begins to hold or lets go, go on until the next thing happens.
 
-    With f = 1 the way along the wall is that of sliding, so the ball slides at once; only where nothing moves it are
-    the bounces waited for. With f < 1 they stop it after the way v w' / (1 - e f), w' = 2 w / p the time of the first,
-    unless something stands in that way, or the edge ends before.
+    Returns:
+        (x, y, vx, vy, the time it takes, energy, last, held, hold, side, turns, changes, kind of the contact to be
+        noted or NO_ROW, feature off which it bounces or NO_HIT, ending or RUNNING).
     """
-    line = model.lines[held]
-    along = vy * line.nx - vx * line.ny
-    ax, ay = -along * line.ny, along * line.nx
-    e, f = 1.0, 1.0
-    if restitution is not None:
-        e, f = restitution[2 * model.edge_wall[held]], restitution[2 * model.edge_wall[held] + 1]
-    away = abs(vx * line.nx + vy * line.ny)
-    first = 2.0 * away / abs(gravity[0] * line.nx + gravity[1] * line.ny)
-    if e >= 1.0 or f >= 1.0:
-        gx, gy = pull_on(model, gravity, held, SLIDING)
-        moves = e >= 1.0 or along != 0.0 or gx != 0.0 or gy != 0.0
-        return x, y, ax, ay, 0.0 if moves else first / (1.0 - e), SLIDING
-    time, span = first / (1.0 - e), first / (1.0 - e * f)
-    t, feature, touched = fall_search(
-        model, model.grid, radius, x, y, ax, ay, 0.0, 0.0, last, held, tolerance,
-        towards(model, held, gravity), span, NO_HIT,
-    )  # fmt: skip
-    if touched > 0:
-        return x, y, 0.0, 0.0, time, SLIDING
-    end = end_of_edge(model, held, x, y, ax, ay, 0.0, 0.0)
-    if end < span and (feature == NO_HIT or end < t):
-        left = 1.0 - end / span
-        return x + end * ax, y + end * ay, left * ax, left * ay, time * (1.0 - left), LEAVING
-    if feature != NO_HIT:
-        span = t
-    return x + span * ax, y + span * ay, 0.0, 0.0, time, SLIDING
+    if hold == STARTING:
+        feature = _struck(model, radius, x, y, vx, vy, gravity, last, tolerance)
+        return x, y, vx, vy, 0.0, energy, last, held, FREE, side, 0, changes, NO_ROW, feature, RUNNING
+    if hold == LEAVING:
+        return x, y, vx, vy, 0.0, energy, last, held, LEFT, side, 0, changes, LEAVE, NO_HIT, RUNNING
+    if hold in (JOINING, PASSING):
+        x, y, vx, vy, time, hold = _join(
+            model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of, tolerance
+        )
+        energy = kept_energy(gravity, x, y, vx, vy)
+        ending = AT_REST if hold == SLIDING and stays(model, gravity, radius, held, side, x, y, vx, vy) else RUNNING
+        return x, y, vx, vy, time, energy, last, held, hold, side, 0, changes + 1, SLIDE, NO_HIT, ending
+    if span == math.inf and (turns > 2 or changes > MOST_CHANGES):
+        return x, y, vx, vy, 0.0, energy, last, held, hold, side, turns, changes, NO_ROW, NO_HIT, SWINGING
+    x, y, vx, vy, time, event = stretch(
+        model, gravity, radius, held, side, last, x, y, vx, vy, start_of, tolerance, span
+    )
+    feature, ending = NO_HIT, RUNNING
+    if event == TIME_IS_UP:
+        ending = TIME_REACHED
+    elif event == TURNS:
+        turns += 1
+        if stays(model, gravity, radius, held, side, x, y, vx, vy):
+            ending = AT_REST
+        elif turns > 2:
+            time += _whole_swings(model, gravity, radius, held, side, x, y, span - time)
+    elif event == LIFTS:
+        last, hold = held, LEAVING
+    elif event == END_OF_EDGE:
+        held, hold, side, last, feature = _pass_on(model, gravity, radius, held, side, last, x, y, vx, vy, tolerance)
+        if hold == WEDGED:
+            vx, vy, ending = 0.0, 0.0, AT_REST
+    elif event != GOES_ON:
+        feature = event
+    return x, y, vx, vy, time, energy, last, held, hold, side, turns, changes, NO_ROW, feature, ending
+
+
+@rare_kernel
+def _struck(model, radius, x, y, vx, vy, gravity, last, tolerance):
+    """Edge on which a point starts, pressed on it by gravity, with a velocity into it; or NO_HIT.
+
+    A point on a wall is on neither side of it; it is taken to lie on the one from which it is pressed.
+    """
+    if radius > 0.0 or last != NO_HIT:
+        return NO_HIT
+    cell = model.cells[home(model, model.grid, x, y)]
+    for k in range(cell.first, cell.corners):
+        edge = int(model.ids[k])
+        if not touching(model, model.arcs, edge, x, y, tolerance)[0]:
+            continue
+        nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
+        into, pull = vx * nx + vy * ny, gravity[0] * nx + gravity[1] * ny
+        if into * pull > 0.0 and not (into > 0.0 and one_sided(model.one_sided, model.edge_wall[edge])):
+            return edge
+    return NO_HIT
 
 
 @kernel
-def rests(model, held, vx, vy, gravity):
-    """A ball that keeps to an edge stays where it is."""
-    gx, gy = pull_on(model, gravity, held, SLIDING)
+def stays(model, gravity, radius, held, side, x, y, vx, vy):
+    """Tell whether a ball that keeps to a wall rests: it stands, and no more pulls it along than friction holds."""
     if vx != 0.0 or vy != 0.0:
         return False
-    return (gx == 0.0 and gy == 0.0) or _is_rough(model.restitution, model.edge_wall[held])
+    _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+    along, pressed = abs(gravity[1] * nx - gravity[0] * ny), -(gravity[0] * nx + gravity[1] * ny)
+    least = LEVEL * (abs(gravity[0]) + abs(gravity[1]))
+    return along <= least or along <= _grip(model, model.static_friction, held) * pressed
 
 
 @kernel
-def _is_rough(restitution, wall):
+def _grip(model, static_friction, feature):
+    """Coefficient of the static friction of a feature."""
+    if static_friction is None:
+        return 0.0
+    return static_friction[model.edge_wall[feature] if feature >= 0 else model.corner_wall[-2 - feature]]
+
+
+@kernel
+def _whole_swings(model, gravity, radius, held, side, x, y, span):
+    """Time of the full swings, there and back, that a ball at its turning point on a circle does within a span."""
+    rho, away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+    if rho == STRAIGHT or span == math.inf:
+        return 0.0
+    pull = math.sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1])
+    ex, ey = away * nx, away * ny
+    drop = rho * (pull - (ex * gravity[0] + ey * gravity[1]))
+    whole = period(rho, pull, 2.0 * drop)
+    return math.floor(span / whole) * whole if whole < span else 0.0
+
+
+@kernel
+def _join(model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of, tolerance):
+    """Put a ball on its guide, and its velocity along it; take its last, endless bounces at once.
+
+    With f = 1 its way along the wall in them is that of sliding, so it slides at once, but where it stands, and comes
+    to rest when they are over. With f < 1 they stop it. Where a is the pull along, u its speed along after the bounce
+    and t = 2 w / p the time to the next, the times to come are t e^k and u_(k+1) = f (u_k + a t e^k), so that after
+    t / (1 - e) it has come by
+
+        S = t (u + e f a t / (1 - e^2)) / (1 - e f) + a t^2 / (2 (1 - e^2)).
+
+    Where something stands in that way, it comes there with what is left of u.
+    """
+    rho, away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+    off = off_guide(model, model.arcs, held, side, radius, x, y)
+    x, y = x - off * nx, y - off * ny
+    w, u = vx * nx + vy * ny, vy * nx - vx * ny
+    vx, vy = -u * ny, u * nx
+    e, f = _kept(model, model.restitution, held)
+    pull = gravity[1] * nx - gravity[0] * ny
+    stands = u == 0.0 and abs(pull) <= LEVEL * (abs(gravity[0]) + abs(gravity[1]))
+    if hold == PASSING or e >= 1.0 or (f >= 1.0 and not stands):
+        return x, y, vx, vy, 0.0, SLIDING
+    t = 2.0 * abs(w) / press(gravity, rho, away, nx, ny, u * u)
+    if stands:
+        return x, y, vx, vy, t / (1.0 - e), SLIDING
+    way = t * (u + e * f * pull * t / (1.0 - e * e)) / (1.0 - e * f) + 0.5 * pull * t * t / (1.0 - e * e)
+    time = t / (1.0 - e)
+    x, y, done = reach(model, gravity, radius, held, side, last, x, y, way, start_of, tolerance)
+    _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+    left = (1.0 - done) * u
+    return x, y, -left * ny, left * nx, done * time, SLIDING
+
+
+@kernel
+def _kept(model, restitution, feature):
+    """Restitution along the normal, and along the wall, of a feature."""
     if restitution is None:
-        return False
-    return restitution[2 * wall + 1] < 1.0
+        return 1.0, 1.0
+    wall = model.edge_wall[feature] if feature >= 0 else model.corner_wall[-2 - feature]
+    return restitution[2 * wall], restitution[2 * wall + 1]
+
+
+@rare_kernel
+def _pass_on(model, gravity, radius, held, side, last, x, y, vx, vy, tolerance):
+    """Take a ball on at the end of an edge, or of a vertex: (held, hold, side, last, feature off which it bounces)."""
+    if held < 0:
+        held, side = _edge_at(model, held, x, y)
+        return held, _if_pressed(model, gravity, radius, held, side, x, y, vx, vy), side, held, NO_HIT
+    rho, away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+    dx, dy, speed = ahead_of(rho, away, nx, ny, vx, vy, gravity[0], gravity[1])
+    end = 0 if dx * model.joints[2 * held].tx + dy * model.joints[2 * held].ty < 0.0 else 1
+    if rho != STRAIGHT:
+        end = 1 if _runs_on(model.arcs, held, away * (nx * dy - ny * dx)) else 0
+    joint = model.joints[2 * held + end]
+    next_end = int(following(joint, end, side))
+    other, next_side = next_end >> 1, side_after(next_end, end, side)
+    free = next_end == 2 * held + end
+    free = free or (next_side < 0.0 and one_sided(model.one_sided, model.edge_wall[other]))
+    there = model.joints[next_end]
+    rise, ahead = there.tx * nx + there.ty * ny, there.tx * dx + there.ty * dy
+    square = speed * speed
+    if not free and rise > 0.0:  # in a hollow it rests, where what pulls it in on either side is more than its speed
+        back, on = -(gravity[0] * there.tx + gravity[1] * there.ty), gravity[0] * dx + gravity[1] * dy
+        if back > 0.0 and on > 0.0 and square <= 2.0 * min(back, on) * tolerance:
+            return held, WEDGED, side, last, NO_HIT
+    if not free and ahead > 0.0 and rise < SMOOTH_JOINT and rise > -0.5:
+        other_rho, other_away, mx, my = guide(model, model.arcs, other, next_side, radius, x, y)
+        pressed = press(gravity, other_rho, other_away, mx, my, square)
+        level = LEVEL * (abs(gravity[0]) + abs(gravity[1]))
+        flat = square * rise * rise <= 2.0 * max(pressed, 0.0) * tolerance and radius * rise * rise <= tolerance
+        plumb = other_rho == STRAIGHT and abs(pressed) <= level and abs(rise) < SMOOTH_JOINT
+        if (pressed > level and flat) or plumb:
+            return other, PASSING, next_side, held, NO_HIT
+        if pressed <= level and abs(rise) < SMOOTH_JOINT:
+            return other, LEAVING, next_side, other, NO_HIT
+    if not free and rise > 0.0:
+        return held, SLIDING, side, last, other
+    if radius == 0.0:
+        return held, LEAVING, side, held, NO_HIT
+    corner = -2 - int(joint.vertex)
+    pressed = press(gravity, radius, 1.0, nx, ny, square)
+    if pressed > LEVEL * (abs(gravity[0]) + abs(gravity[1])):
+        return corner, PASSING, 1.0, held, NO_HIT
+    return held, LEAVING, side, corner, NO_HIT
 
 
 @kernel
-def held_after(model, gravity, radius, feature, held, hold, x, y, vx, vy, nx, ny, tolerance):
-    """What holds a ball after a bounce off a feature (normal n towards it), and how: (edge, hold)."""
-    if feature != held and _is_on(model, held, hold, radius, x, y, tolerance):
-        hx, hy = towards(model, held, gravity)
-        if _clings(gravity, hx, hy, 0.0, vx, vy, tolerance):
-            gx, gy = pull_on(model, gravity, held, SLIDING)
-            press, away = -(gx * nx + gy * ny), vx * nx + vy * ny
-            if press > 0.0 and away * away <= 2.0 * press * tolerance * math.sqrt(nx * nx + ny * ny):
-                return held, WEDGED
-            return held, COMING_TO_REST
-    length = math.sqrt(nx * nx + ny * ny)
-    bend = curvature(model, model.arcs, feature, radius, x, y, nx, ny) / length
-    if _clings(gravity, nx / length, ny / length, bend, vx, vy, tolerance):
-        if feature >= 0 and _is_line(model.arcs, feature):
-            return feature, COMING_TO_REST
-        return feature, CAUGHT
-    return NO_HIT, FREE
-
-
-@kernel
-def stops_slide(model, gravity, radius, held, x, y, vx, vy, tolerance):
-    """Edge that stops a point at the end of the edge on which it slides, or NO_HIT; a disc is stopped before."""
-    if radius > 0.0:
-        return NO_HIT
-    nx, ny = towards(model, held, gravity)
-    return rises_ahead(model, held, x, y, vx, vy, nx, ny, tolerance)
-
-
-@kernel
-def _is_on(model, held, hold, radius, x, y, tolerance):
-    """Tell whether a ball is on the edge that holds it, or held it until just now, ends included."""
-    if hold not in (SLIDING, LEFT):
-        return False
-    line = model.lines[held]
-    ex, ey = x - line.ax, y - line.ay
-    u = ey * line.nx - ex * line.ny
-    near = abs(abs(ex * line.nx + ey * line.ny) - radius) <= 2.0 * tolerance
-    return near and -tolerance <= u <= line.length + tolerance
-
-
-@kernel
-def _clings(gravity, nx, ny, bend, vx, vy, tolerance):
-    """Pressed against a wall with unit normal n and curvature ``bend``, a ball rises less than the tolerance."""
-    pull = abs(gravity[0]) + abs(gravity[1])
-    press = bend * (vx * vx + vy * vy) - (gravity[0] * nx + gravity[1] * ny)
-    away = vx * nx + vy * ny
-    return press > LEVEL * pull and away * away <= 2.0 * press * tolerance
-
-
-@kernel
-def _is_line(arcs, edge):
+def _runs_on(arcs, held, counter):
+    """Tell whether the way round an arc, counter-clockwise where ``counter`` is above 0, is that of its wall."""
     if arcs is None:
         return True
-    return arcs[edge].radius == 0.0
+    return (counter > 0.0) == (arcs[held].sweep > 0.0)
 
 
 @kernel
-def end_of_hold(model, gravity, hold, wall, nx, ny, vx, vy):
-    """How the run of a ball ends that is wedged, or that a curve has caught: (ending, vx, vy).
+def _edge_at(model, corner, x, y):
+    """Edge beside which a disc is that has pivoted about a vertex, and on which side of it: (edge, side)."""
+    vertex = model.corners[-2 - corner]
+    px, py = x - vertex.x, y - vertex.y
+    first = int(model.spokes[-2 - corner])
+    end = first
+    found, best = first, -math.inf
+    while True:
+        joint = model.joints[end]
+        along = px * joint.tx + py * joint.ty
+        if along > best:
+            found, best = end, along
+        end = int(joint.counter)
+        if end == first:
+            break
+    joint = model.joints[found]
+    to_right = px * joint.ty - py * joint.tx > 0.0
+    return found >> 1, 1.0 if to_right == (found & 1 == 0) else -1.0
 
-    Wedged between what it slides on and what it slides against, it is at rest. On a curve it is at rest where the
-    wall is rough, or at the very bottom of a hollow without speed; else it would swing on along the curve, and all
-    that is known is that its bounces have collapsed.
+
+@kernel
+def _if_pressed(model, gravity, radius, held, side, x, y, vx, vy):
+    """PASSING where a ball is pressed on the wall to which it comes, else LEAVING."""
+    rho, away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+    pressed = press(gravity, rho, away, nx, ny, vx * vx + vy * vy)
+    return PASSING if pressed > LEVEL * (abs(gravity[0]) + abs(gravity[1])) else LEAVING
+
+
+@rare_kernel
+def held_after(model, gravity, radius, feature, held, hold, side, x, y, vx, vy, nx, ny, tolerance):
+    """What holds a ball after a bounce off a feature (normal n towards it), and how: (feature, hold, side).
+
+    It goes on along the wall to which it kept until now, where its speed off that is less than rounding. It is wedged
+    where the pull along either presses it on the other, and its speed takes it no farther than rounding up either.
+    Else it keeps to what it has met.
     """
-    if hold == WEDGED or _sticks(model.restitution, wall):
-        return AT_REST, 0.0, 0.0
-    across = gravity[0] * ny - gravity[1] * nx
-    if abs(across) <= LEVEL * abs(gravity[0] * nx + gravity[1] * ny) and vx * ny - vy * nx == 0.0:
-        return AT_REST, 0.0, 0.0
-    return COLLAPSE, vx, vy
+    length = math.sqrt(nx * nx + ny * ny)
+    nx, ny = nx / length, ny / length
+    w = vx * nx + vy * ny
+    level = LEVEL * (abs(gravity[0]) + abs(gravity[1]))
+    other_side = side_of(model, model.arcs, feature, x, y, nx, ny)
+    clings = _clings(model, gravity, radius, feature, other_side, x, y, vx, vy, tolerance)
+    if hold == SLIDING and feature != held:
+        _rho, _away, mx, my = guide(model, model.arcs, held, side, radius, x, y)
+        on, back = _pushed(gravity, mx, my, nx, ny), _pushed(gravity, nx, ny, mx, my)
+        least = min(abs(gravity[1] * mx - gravity[0] * my), abs(gravity[1] * nx - gravity[0] * ny))
+        if min(on, back) > 2.0**8 * level and vx * vx + vy * vy <= 2.0 * least * tolerance:
+            return held, WEDGED, side
+        if _clings(model, gravity, radius, held, side, x, y, vx, vy, tolerance):
+            if clings and on > 2.0**8 * level and back <= 0.0:
+                return feature, PASSING, other_side  # it is less steep there, and goes on
+            if not (clings and mx * nx + my * ny > SAME_WAY):
+                return held, PASSING, side
+    if _fits(model, model.arcs, feature, other_side, radius):
+        if vx * vx + vy * vy <= -2.0 * (gravity[0] * nx + gravity[1] * ny) * tolerance:
+            return feature, WEDGED, other_side
+        return feature, FREE, other_side
+    dead = w <= LEVEL_SPEED * (abs(vx) + abs(vy))
+    if clings or (dead and _is_plumb(model, gravity, radius, feature, other_side, x, y)):
+        return feature, PASSING if dead else JOINING, other_side
+    return feature, LEFT if dead else FREE, other_side
 
 
 @kernel
-def _sticks(restitution, wall):
-    if restitution is None:
+def _pushed(gravity, nx, ny, mx, my):
+    """What the pull along a wall with unit normal n presses a ball with on another one with unit normal m."""
+    pull = gravity[1] * nx - gravity[0] * ny
+    return -pull * (nx * my - ny * mx)
+
+
+@kernel
+def _clings(model, gravity, radius, feature, side, x, y, vx, vy, tolerance):
+    """Pressed against a feature, a ball rises less than the tolerance."""
+    rho, away, nx, ny = guide(model, model.arcs, feature, side, radius, x, y)
+    if _fits(model, model.arcs, feature, side, radius):
         return False
-    return restitution[2 * wall] < 1.0 and restitution[2 * wall + 1] < 1.0
+    pressed = press(gravity, rho, away, nx, ny, vx * vx + vy * vy)
+    w = vx * nx + vy * ny
+    return pressed > LEVEL * (abs(gravity[0]) + abs(gravity[1])) and w * w <= 2.0 * pressed * tolerance
+
+
+@kernel
+def _is_plumb(model, gravity, radius, feature, side, x, y):
+    """Tell whether a feature is a line along gravity: a ball in touch with it keeps to it as if it were free."""
+    rho, _away, nx, ny = guide(model, model.arcs, feature, side, radius, x, y)
+    pressed = gravity[0] * nx + gravity[1] * ny
+    return rho == STRAIGHT and abs(pressed) <= LEVEL * (abs(gravity[0]) + abs(gravity[1]))
+
+
+@kernel
+def _fits(model, arcs, feature, side, radius):
+    """Tell whether a disc fits into the hollow of an arc as into a mould."""
+    if feature < 0 or arcs is None:
+        return False
+    arc = arcs[feature]
+    return arc.radius > 0.0 and not outside(arc, side) and arc.radius - radius < MOULD * arc.radius
+
+
+@kernel
+def side_of(model, arcs, feature, x, y, nx, ny):
+    """Side of a feature's wall to which a normal points: 1 its outward one, -1 the other."""
+    if feature < 0:
+        return 1.0
+    mx, my, _twice = normal_at(model, arcs, feature, x, y)
+    out = mx * nx + my * ny > 0.0
+    if arcs is not None:
+        arc = arcs[feature]
+        if arc.radius > 0.0:
+            return 1.0 if out == (arc.sweep > 0.0) else -1.0
+    return 1.0 if out else -1.0
+
+
+@rare_kernel
+def stopped_between(model, gravity, radius, one, one_side, other, x, y, start_of, tolerance):
+    """What becomes of a ball whose speed endless bounces between two features, in no time, have taken.
+
+    Returns:
+        (feature, hold, side, ending): it rests where each of the two presses it on the other, slides along the one that
+        holds it, or falls, by the forces alone.
+    """
+    if other == NO_HIT:
+        return one, FREE, one_side, COLLAPSE
+    _rho, _away, ax, ay = guide(model, model.arcs, one, one_side, radius, x, y)
+    other_side = _side_now(model, radius, other, x, y, start_of, tolerance)
+    _rho, _away, bx, by = guide(model, model.arcs, other, other_side, radius, x, y)
+    gx, gy = gravity[0], gravity[1]
+    on_one, on_other = -(gx * ax + gy * ay), -(gx * bx + gy * by)
+    if on_one > 0.0 and _pushed(gravity, ax, ay, bx, by) <= 0.0:
+        return one, PASSING, one_side, RUNNING
+    if on_other > 0.0 and _pushed(gravity, bx, by, ax, ay) <= 0.0:
+        return other, PASSING, other_side, RUNNING
+    if on_one <= 0.0 and on_other <= 0.0:
+        return one, LEFT, one_side, RUNNING
+    return one, WEDGED, one_side, AT_REST
+
+
+@kernel
+def _side_now(model, radius, feature, x, y, start_of, tolerance):
+    """Side of a feature's wall on which a ball is that has just bounced off it: a point's is told by where it went."""
+    if feature < 0:
+        return 1.0
+    nx, ny, _twice = normal_at(model, model.arcs, feature, x, y)
+    if radius > 0.0:
+        out = _is_out(model, model.arcs, feature, x, y)
+    else:
+        from_x, from_y, from_vx, from_vy = start_of
+        out = came_from(model, feature, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+    return side_of(model, model.arcs, feature, x, y, out * nx, out * ny)
+
+
+@kernel
+def _is_out(model, arcs, feature, x, y):
+    """1 where a centre is on the side of an edge to which ``normal_at`` points, else -1."""
+    if arcs is not None:
+        arc = arcs[feature]
+        if arc.radius > 0.0:
+            ex, ey = x - arc.ax + arc.sx, y - arc.ay + arc.sy
+            return 1.0 if ex * ex + ey * ey > arc.radius * arc.radius else -1.0
+    line = model.lines[feature]
+    return 1.0 if (x - line.ax) * line.nx + (y - line.ay) * line.ny > 0.0 else -1.0

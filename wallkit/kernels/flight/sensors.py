@@ -1,4 +1,9 @@
-"""Sensors: walls that a ball's centre crosses without a bounce. They change no flight, so they are asked after it."""
+"""Sensors: walls that a ball's centre crosses without a bounce. They change no flight, so they are asked after it.
+
+Where several edges are touched at once (in a vertex, or where sensors share a border) the search finds one of them. For
+the others the way decides as for any vertex: a path passes between the ends of an edge if they lie on either side of
+it, and a vertex on the path has one side for all edges that meet there. So what is closed is left as often as entered.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +11,15 @@ import math
 
 from wallkit.kernels.flight.damping import free_time, slowed
 from wallkit.kernels.flight.flight import fly, normal_of
-from wallkit.kernels.flight.gravity import first_contact, move, pull_on
+from wallkit.kernels.flight.gravity import first_contact, move
+from wallkit.kernels.flight.guide import STRAIGHT, guide
 from wallkit.kernels.flight.motion import advance
-from wallkit.kernels.jit import kernel
-from wallkit.kernels.records import EDGE, FREE, LOG_STRIDE, NO_HIT, RUNNING, SLIDE, SLIDING
+from wallkit.kernels.flight.point_in_corner import normal_at, touching
+from wallkit.kernels.flight.resting import side_of
+from wallkit.kernels.flight.sensors_on_circles import next_crossing_round
+from wallkit.kernels.index.grid import home
+from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.records import EDGE, FREE, LOG_STRIDE, NO_HIT, RUNNING, SLIDE
 
 
 @kernel
@@ -35,11 +45,13 @@ def next_crossing(sensors, pull, x, y, vx, vy, time, lost, until, last, toleranc
     remaining = (until - time) - lost
     energy = vx * vx + vy * vy
     best = free_time(sensors.damping, energy, remaining)
-    t, edge, _touched = first_contact(sensors, pull, 0.0, x, y, vx, vy, energy, last, NO_HIT, FREE, tolerance, best)
+    t, edge, _touched = first_contact(
+        sensors, pull, 0.0, x, y, vx, vy, energy, last, NO_HIT, FREE, 1.0, tolerance, best
+    )
     if edge == NO_HIT:
         return x, y, vx, vy, time, lost, edge
     passed, kept = slowed(sensors.damping, energy, t, remaining)
-    x, y, vx, vy = move(sensors, pull, NO_HIT, FREE, x, y, vx, vy, t)
+    x, y, vx, vy = move(pull, x, y, vx, vy, t)
     time, lost = advance(time, lost, passed)
     return x, y, kept * vx, kept * vy, time, lost, edge
 
@@ -50,6 +62,36 @@ def outward(sensors, edge, x, y):
     nx, ny, twice, _wall = normal_of(sensors, edge, x, y)
     unit = (0.5 * twice) ** 0.5 * _turn(sensors.arcs, edge)
     return nx * unit, ny * unit
+
+
+@rare_kernel
+def crosses_too(sensors, edge, last, x, y, vx, vy, tolerance):
+    """Tell whether a centre that crosses the edge ``last`` at (x, y) crosses another edge there too.
+
+    Edges of one wall that meet there share the side on which the path passes their vertex: that across from the other
+    end of ``last``. Those of other walls take a vertex on the path for one to its left.
+    """
+    if edge == last:
+        return False
+    touches, starts, ends = touching(sensors, sensors.arcs, edge, x, y, tolerance)
+    if not touches:
+        return False
+    if not (starts or ends):
+        return True
+    vertex = 1.0
+    if sensors.edge_wall[edge] == sensors.edge_wall[last]:
+        _touches, from_here, to_here = touching(sensors, sensors.arcs, last, x, y, tolerance)
+        if from_here or to_here:
+            vertex = -_side_of_way(sensors, last, from_here, x, y, vx, vy)
+    return _side_of_way(sensors, edge, starts, x, y, vx, vy) != vertex
+
+
+@rare_kernel
+def _side_of_way(sensors, edge, starts, x, y, vx, vy):
+    """On which side of its way a centre has an edge that starts at (x, y), or ends there: 1 on the left, or -1."""
+    nx, ny, _twice = normal_at(sensors, sensors.arcs, edge, x, y)
+    along = 1.0 if starts else -1.0
+    return 1.0 if along * (vx * nx + vy * ny) >= 0.0 else -1.0
 
 
 @kernel
@@ -70,15 +112,58 @@ def count_crossings(sensors, pull, x, y, vx, vy, since, until, found, first):
         x, y, vx, vy, time, lost, last = next_crossing(sensors, pull, x, y, vx, vy, time, lost, until, last, tolerance)
         if last == NO_HIT:
             break
-        nx, ny = outward(sensors, last, x, y)
-        found[first + 2 * sensors.edge_wall[last] + (0 if vx * nx + vy * ny < 0.0 else 1)] += 1
+        _count(sensors, last, x, y, vx, vy, found, first)
+        cell = sensors.cells[home(sensors, sensors.grid, x, y)]
+        for k in range(cell.first, cell.corners):
+            if crosses_too(sensors, sensors.ids[k], last, x, y, vx, vy, tolerance):
+                _count(sensors, sensors.ids[k], x, y, vx, vy, found, first)
+
+
+@kernel
+def _count(sensors, edge, x, y, vx, vy, found, first):
+    """Count a crossing of an edge: inwards or outwards."""
+    nx, ny = outward(sensors, edge, x, y)
+    found[first + 2 * sensors.edge_wall[edge] + (0 if vx * nx + vy * ny < 0.0 else 1)] += 1
+
+
+@kernel
+def count_round(sensors, gravity, rho, away, nx, ny, x, y, vx, vy, since, until, found, first):
+    """Count what a ball crosses that glides along an arc, or pivots about a vertex: see ``count_crossings``."""
+    ex, ey = away * nx, away * ny
+    v, last = vy * ex - vx * ey, NO_HIT
+    while True:
+        x, y, ex, ey, v, since, last = next_crossing_round(
+            sensors, gravity[0], gravity[1], rho, x, y, ex, ey, v, since, until, last
+        )
+        if last == NO_HIT:
+            break
+        _count(sensors, last, x, y, -v * ey, v * ex, found, first)
+
+
+@kernel
+def count_kept(model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx, vy, since, until, found, first):
+    """Count what a ball crosses after a contact if a curve holds it from there on: whether one does."""
+    if gravity is None:
+        return False
+    if kind != SLIDE:
+        return False
+    side = side_of(model, model.arcs, feature, x, y, nx, ny)
+    rho, away, nx, ny = guide(model, model.arcs, feature, side, radius, x, y)
+    if rho == STRAIGHT:
+        return False
+    count_round(sensors, gravity, rho, away, nx, ny, x, y, vx, vy, since, until, found, first)
+    return True
 
 
 @kernel
 def set_pull(model, gravity, pull, kind, feature):
     """Write what accelerates a ball after a contact: gravity, or the part of it along the wall on which it slides."""
     if pull is not None:
-        pull[0], pull[1] = pull_on(model, gravity, feature, SLIDING if kind == SLIDE else FREE)
+        pull[0], pull[1] = gravity[0], gravity[1]
+        if kind == SLIDE and feature >= 0:
+            line = model.lines[feature]
+            along = gravity[1] * line.nx - gravity[0] * line.ny
+            pull[0], pull[1] = -along * line.ny, along * line.nx
 
 
 @kernel
@@ -103,11 +188,20 @@ def fly_sensed(model, gravity, pull, sensors, walls, radii, states, counts, unti
     for ball in range(len(radii)):
         x, y, vx, vy, since = states[ball, 0], states[ball, 1], states[ball, 2], states[ball, 3], states[ball, 4]
         set_pull(model, gravity, pull, EDGE, NO_HIT)
+        feature, kind, nx, ny, radius = NO_HIT, EDGE, 0.0, 0.0, radii[ball]
         while counts[ball, 2] == RUNNING:
             noted = fly(model, gravity, radii[ball], states[ball], counts[ball], until, limit, found, log, capacity)
             for row in range(noted):
                 o = LOG_STRIDE * row
-                count_crossings(sensors, pull, x, y, vx, vy, since, log[o], found, walls)
+                if not count_kept(
+                    model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx, vy, since, log[o], found, walls
+                ):
+                    count_crossings(sensors, pull, x, y, vx, vy, since, log[o], found, walls)
                 since, x, y, vx, vy = log[o], log[o + 1], log[o + 2], log[o + 3], log[o + 4]
-                set_pull(model, gravity, pull, int(log[o + 10]), int(log[o + 9]))
-        count_crossings(sensors, pull, x, y, vx, vy, since, states[ball, 4] + states[ball, 5], found, walls)
+                nx, ny, feature, kind = log[o + 7], log[o + 8], int(log[o + 9]), int(log[o + 10])
+                set_pull(model, gravity, pull, kind, feature)
+        end = states[ball, 4] + states[ball, 5]
+        if not count_kept(
+            model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx, vy, since, end, found, walls
+        ):
+            count_crossings(sensors, pull, x, y, vx, vy, since, end, found, walls)

@@ -2,13 +2,16 @@
 
 All arcs are kept counter-clockwise from a to b about their centre c, whatever way the wall runs. With e = p - c the
 power of the point e.e - R^2 is taken as w.(w + 2 (a - c)) with w = p - a: near the arc nothing of the size R^2 cancels.
+Half a chord, times v, is the root of (R v)^2 - (e x v)^2, from the distance at which the path passes the centre: a
+grazing hit needs that. It is also the root of (e.v)^2 - v^2 power, which rounds as the place does, however far away the
+centre is: that is taken where at most half of it cancels (inside nothing does).
 """
 
 from __future__ import annotations
 
 import math
 
-from wallkit.kernels.impact.line_impact import precedes, slack_of
+from wallkit.kernels.impact.line_impact import precedes, slack_of, stands_across
 from wallkit.kernels.jit import kernel, rare_kernel
 
 WELL_KNOWN = 2.0**-20
@@ -66,7 +69,10 @@ def scan_arcs_point(arcs, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, 
         if not leaves and (inside or not enters):
             continue
         cross = abs(ex * vy - ey * vx)
-        root = math.sqrt(max((arc.radius * speed - cross) * (arc.radius * speed + cross), 0.0))
+        square = (arc.radius * speed - cross) * (arc.radius * speed + cross)
+        part = energy * power
+        square = along * along - part if along * along - part > part else square
+        root = math.sqrt(max(square, 0.0))
         if not inside and enters:
             t = power / (root - along)
         elif on and energy * abs(power) > WELL_KNOWN * along * along:
@@ -135,7 +141,7 @@ def scan_arcs_disc(
     From outside the centre meets the circle of R + r where it comes nearer, from inside that of R - r where it goes
     away; a larger disc than the arc meets its ends only, one as large all of it at once (see MOULD). The contact counts
     if the arc lies in its direction (with the overlap of ``scan_disc`` at the ends); an overlap on the way in counts
-    as t = 0.
+    as t = 0, but for a one-sided wall only one by rounding, as there.
 
     A disc that rolls along a wall comes to a hollow arc on its tangent. Rounding may have it miss the circle of R - r,
     or touch it just before the arc begins, and then it is on the way out where it comes beside the arc: that counts
@@ -160,8 +166,13 @@ def scan_arcs_disc(
         from_outside = True
         from_inside = True
         if one_sided is not None and one_sided[edge_wall[ids[k]]] != 0:
-            from_outside = arc.sweep > 0.0
-            from_inside = arc.sweep < 0.0
+            deep = 2.0 * (arc.radius + radius) * slack
+            out_gap, in_gap = (
+                power - radius * (2.0 * arc.radius + radius),
+                -power - radius * (2.0 * arc.radius - radius),
+            )
+            from_outside = arc.sweep > 0.0 and not stands_across(one_sided, edge_wall, ids[k], out_gap, deep)
+            from_inside = arc.sweep < 0.0 and not stands_across(one_sided, edge_wall, ids[k], in_gap, deep)
         t = -1.0
         if power >= 0.0:
             if along >= 0.0:
@@ -186,10 +197,13 @@ def scan_arcs_disc(
 def _time_to_outside(arc, radius, power, along, cross, speed, energy):
     """Time at which the centre, outside and coming nearer, is at R + r from the arc's centre; -1 if never."""
     reach = arc.radius + radius
+    c = power - radius * (2.0 * arc.radius + radius)
+    part = energy * c
+    if c > 0.0 and along * along - part > part:
+        return c / (math.sqrt(along * along - part) - along)
     if reach * speed < cross:
         return -1.0
     root = math.sqrt((reach * speed - cross) * (reach * speed + cross))
-    c = power - radius * (2.0 * arc.radius + radius)
     return c / (root - along) if c > 0.0 else 0.0
 
 
@@ -231,6 +245,8 @@ def _time_to_inside(arc, radius, ex, ey, power, along, cross, speed, energy, off
     if (reach + off) * speed < cross:
         return -1.0
     square = (reach * speed - cross) * (reach * speed + cross)
+    part = energy * c
+    square = along * along - part if along * along - part > part else square
     if square <= 0.0:  # it passes by, the nearest place may lie behind
         return -along / energy if along < 0.0 else 0.0
     root = math.sqrt(square)

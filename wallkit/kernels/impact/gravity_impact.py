@@ -3,20 +3,43 @@
 A gap that falls through zero is a contact; ``roots`` finds when. A ball may meet both sides of one wall in one flight
 (up past its end, and down on it), so each side is asked; from behind, the gap must rise above zero before it falls.
 Where a contact counts only on part of a line or circle, the parts overlap by the rounding of positions.
+
+Most of what a cell lists is not met, and mostly the *hull* of the flight shows that: a part of a parabola is a Bezier
+curve, and a linear form of the place lies between those of its three points, a quadratic one between five made of them.
+That look may only save work, never decide: it keeps off all that is within rounding.
 """
 
 from __future__ import annotations
 
 import math
 
-from wallkit.kernels.impact.arc_impact import FALLING_MOULD, holds
-from wallkit.kernels.impact.line_impact import behind, precedes, slack_of
+from wallkit.kernels.impact.arc_impact import FALLING_MOULD, is_wide, to_end
+from wallkit.kernels.impact.leaving import LEVEL_SPEED, left_along
+from wallkit.kernels.impact.line_impact import from_across, precedes, slack_of, stands_across
 from wallkit.kernels.impact.polynomial_roots import NEVER, first_fall_quadratic, first_fall_quartic
-from wallkit.kernels.index.grid import around, leaf, moves_to_next, place
 from wallkit.kernels.jit import kernel, rare_kernel
 
-LEVEL_SPEED = 2.0**-40
-"""A smaller part of the speed, towards a wall or from it, may be rounding: that of v + g t and of a product with n."""
+SMOOTH_ON = 1.0 - 2.0**-20
+"""Cosine between the normals of a wall that a point has left and of an arc that goes on from it: some 2^-10 apart."""
+HULL_ROUNDING = 2.0**-45
+"""Of the size of a hull, beyond the rounding of its points and of what is made of them."""
+LATER = 1.0 + 2.0**-18
+"""Roots are looked for up to so much after the time that matters: ``_polished`` moves them by less."""
+
+
+@kernel
+def hull_of(x, y, vx, vy, gx, gy, start, stop, tolerance):
+    """Give the hull of a flight between two times: (px, py, qx, qy, rx, ry, margin, size).
+
+    It begins at p and ends at r, and its tangents there meet in q. What is within ``margin`` may be met.
+    """
+    ux, uy = vx + start * gx, vy + start * gy
+    half = 0.5 * (stop - start)
+    px, py = x + start * (vx + 0.5 * start * gx), y + start * (vy + 0.5 * start * gy)
+    qx, qy = px + half * ux, py + half * uy
+    rx, ry = qx + half * (ux + 2.0 * half * gx), qy + half * (uy + 2.0 * half * gy)
+    size = abs(px) + abs(py) + abs(qx) + abs(qy) + abs(rx) + abs(ry)
+    return px, py, qx, qy, rx, ry, tolerance + HULL_ROUNDING * size, size
 
 
 @rare_kernel
@@ -25,7 +48,9 @@ def fall_line(
 ):
     """Earliest contact with the lines of entries start to stop: +-(d + vn t + gn t^2 / 2) - r falls through 0.
 
-    ``skipped`` is the line on which the ball slides or has just slid.
+    ``skipped`` is the line that the ball has just left along it. A disc that overlaps a one-sided wall by more
+    than rounding has come through it, and meets it once it has left it. The far side can be met only by a ball that
+    comes through the gap to the near one, beside the edge: it is asked only if that is before ``best``.
 
     Returns:
         (time, feature, number of other lines that a point touches where it starts).
@@ -45,102 +70,137 @@ def fall_line(
         if radius == 0.0 and abs(d) <= tolerance and -tolerance <= u <= line.length + tolerance:
             touched += 1 if ids[k] != last else 0
             above = vn > 0.0 if abs(vn) > noise else gn < 0.0  # pressed on it, it lies on it
-        for turn in range(2):
-            side = 1.0 if turn == 0 else -1.0
-            if side < 0.0 and one_sided is not None:
-                if one_sided[edge_wall[ids[k]]] != 0:
-                    continue
-            t = _fall_of_side(0.5 * side * gn, side * vn, side * d - radius, above != (side > 0.0))
-            if not (t < best or (t == best and precedes(ids[k], feature))):
+        side = 1.0 if above else -1.0
+        if one_sided is None or side > 0.0 or one_sided[edge_wall[ids[k]]] == 0:
+            t = first_fall_quadratic(0.5 * side * gn, side * vn, side * d - radius, math.inf)
+            if stands_across(one_sided, edge_wall, ids[k], side * d - radius, slack):
+                t = _fall_from_behind(0.5 * gn, vn, d - radius)
+            if not t <= best:
                 continue
-            foot = u + t * (vu + 0.5 * t * gu)
-            if -slack <= foot <= line.length + slack:
+            if -slack <= u + t * (vu + 0.5 * t * gu) <= line.length + slack:
+                if t < best or precedes(ids[k], feature):
+                    best, feature = t, ids[k]
+                continue
+        if one_sided is not None:
+            if side > 0.0 and one_sided[edge_wall[ids[k]]] != 0:
+                continue
+        t = _fall_from_behind(-0.5 * side * gn, -side * vn, -side * d - radius)
+        if t < best or (t == best and precedes(ids[k], feature)):
+            if -slack <= u + t * (vu + 0.5 * t * gu) <= line.length + slack:
                 best, feature = t, ids[k]
     return best, feature, touched
 
 
 @kernel
-def _fall_of_side(a, b, c, from_behind):
-    """First fall of a t^2 + b t + c through 0; from behind (below 0 now) only after it has risen."""
-    if not from_behind:
-        return first_fall_quadratic(a, b, c, math.inf)
-    if a >= 0.0 or b <= 0.0:
-        return NEVER
+def _fall_from_behind(a, b, c):
+    """First fall of a t^2 + b t + c through 0, below which it is now, after it has risen above."""
     discriminant = b * b - 4.0 * a * c
-    if discriminant <= 0.0:
+    if a >= 0.0 or b <= 0.0 or discriminant <= 0.0:
         return NEVER
     return -0.5 * (b + math.sqrt(discriminant)) / a
 
 
 @rare_kernel
-def _fall_after(c4, c3, c2, c1, c0, time, from_behind):
-    """First fall of a quartic through 0 at or after a time; from behind only after it has risen above 0."""
-    for turn in range(2):
-        f0 = (((c4 * time + c3) * time + c2) * time + c1) * time + c0
-        f1 = ((4.0 * c4 * time + 3.0 * c3) * time + 2.0 * c2) * time + c1
-        f2 = (6.0 * c4 * time + 3.0 * c3) * time + c2
-        f3 = 4.0 * c4 * time + c3
-        if turn == 0 and from_behind:
-            t = first_fall_quartic(-c4, -f3, -f2, -f1, -f0, math.inf)
-            if t == NEVER:
-                return NEVER
-            time += t
-        elif turn == 1 or not from_behind:
-            t = first_fall_quartic(c4, f3, f2, f1, f0, math.inf)
-            return time + t if t < NEVER else NEVER
-    return NEVER
+def _range_of(ax, ay, bx, by, cx, cy, sx, sy):
+    """Bounds of w.w + 2 s.w on the Bezier curve of w through a, b and c: of the five coefficients of its quartic."""
+    a, b, c = sx * ax + sy * ay, sx * bx + sy * by, sx * cx + sy * cy
+    first, second = ax * ax + ay * ay + 2.0 * a, ax * bx + ay * by + a + b
+    third = (ax * cx + ay * cy + a + c + 2.0 * (bx * bx + by * by + 2.0 * b)) / 3.0
+    fourth, fifth = bx * cx + by * cy + b + c, cx * cx + cy * cy + 2.0 * c
+    return (
+        min(min(min(first, second), min(fourth, fifth)), third),
+        max(max(max(first, second), max(fourth, fifth)), third),
+    )
 
 
 @rare_kernel
-def fall_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, gx, gy, best, feature):
-    """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls."""
+def fall_corners(
+    corners, ids, start, stop, one_sided, corner_wall, fans, radius, x, y, vx, vy, gx, gy, last, tolerance, now, until,
+    best, feature,
+):  # fmt: skip
+    """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls.
+
+    A corner of a one-sided wall may be passed from behind and met later on the same flight. A disc that has pivoted
+    about ``last``, or has come off its edge, leaves it along it.
+    """
+    px, py, qx, qy, rx, ry, margin, size = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
+    left, right = min(min(px, qx), rx), max(max(px, qx), rx)
+    low, high = min(min(py, qy), ry), max(max(py, qy), ry)
+    most = radius * radius + margin * (4.0 * radius + size)
+    slack = slack_of(tolerance, radius)
+    c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
     for k in range(start, stop):
         corner = corners[ids[k]]
-        ex, ey = x - corner.x, y - corner.y
-        t = _fall_after(
-            0.25 * (gx * gx + gy * gy),
-            vx * gx + vy * gy,
-            vx * vx + vy * vy + ex * gx + ey * gy,
-            2.0 * (ex * vx + ey * vy),
-            ex * ex + ey * ey - radius * radius,
-            0.0,
-            False,
-        )
-        if not (t < best or (t == best and precedes(-2 - ids[k], feature))):
+        cx, cy = corner.x, corner.y
+        off_x, off_y = max(max(left - cx, cx - right), 0.0), max(max(low - cy, cy - high), 0.0)
+        if off_x * off_x + off_y * off_y > most:
             continue
+        least, _largest = _range_of(px - cx, py - cy, qx - cx, qy - cy, rx - cx, ry - cy, 0.0, 0.0)
+        if least > most:
+            continue
+        ex, ey = x - cx, y - cy
+        c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
+        c0 = ex * ex + ey * ey - radius * radius
+        from_behind = stands_across(one_sided, corner_wall, ids[k], c0, 2.0 * radius * slack)
+        if -2 - ids[k] == last:
+            c2, c1, c0, from_behind = left_along(c2, c1, c0, radius, slack, vx, vy, gx, gy, from_behind)
+        t = first_fall_quartic(c4, c3, c2, c1, c0, LATER * min(best, until), from_behind)
+        t = _polished(t, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy)
         if one_sided is not None:
-            if one_sided[corner_wall[ids[k]]] != 0 and behind(
-                corner, ex + t * (vx + 0.5 * t * gx), ey + t * (vy + 0.5 * t * gy)
-            ):
-                continue
-        best, feature = t, -2 - ids[k]
+            if t <= best:
+                there_x, there_y = ex + t * (vx + 0.5 * t * gx), ey + t * (vy + 0.5 * t * gy)
+                if from_across(one_sided, corner_wall, fans, corners, ids[k], radius, slack, there_x, there_y):
+                    t = _fall_after(c4, c3, c2, c1, c0, t, LATER * min(best, until))
+                    t = _polished(t, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy)
+        if t < best or (t == best and precedes(-2 - ids[k], feature)):
+            best, feature = t, -2 - ids[k]
     return best, feature
 
 
-@kernel
-def _polished(t, limit, ex, ey, vx, vy, gx, gy):
-    """One Newton step for |e(t)|^2 = limit^2, from places instead of coefficients.
+@rare_kernel
+def _polished(t, off, wx, wy, sx, sy, vx, vy, gx, gy):
+    """One Newton step for w.(w + 2 s) + off = 0 with w(t) = w + v t + g t^2 / 2, from places instead of coefficients.
 
     The coefficients of the quartic carry the rounding of (|v| t + g t^2 / 2)^2, the places that of |v| t + g t^2 / 2.
     Grazing, where the step is no longer small, the root has no better digits to give.
     """
-    px, py = ex + t * (vx + 0.5 * t * gx), ey + t * (vy + 0.5 * t * gy)
-    slope = 2.0 * (px * (vx + t * gx) + py * (vy + t * gy))
-    gap = px * px + py * py - limit * limit
+    if not 0.0 < t < NEVER:
+        return t
+    px, py = wx + t * (vx + 0.5 * t * gx), wy + t * (vy + 0.5 * t * gy)
+    slope = 2.0 * ((px + sx) * (vx + t * gx) + (py + sy) * (vy + t * gy))
+    gap = px * (px + 2.0 * sx) + py * (py + 2.0 * sy) + off
     if abs(gap) > t * 2.0**-20 * abs(slope) or slope == 0.0:
         return t
     return t - gap / slope
 
 
 @rare_kernel
+def _beside(arc, wx, wy, slack):
+    """Tell whether a place, at w from the start a of an arc, lies in its direction from the centre; as ``holds``.
+
+    With f from the centre to its end b, and d from a to b: s x e = s x w and e x f = (w - d) x f for e = s + w. So
+    nothing of the size R cancels where the centre is far.
+    """
+    fx, fy = to_end(arc)
+    ux, uy = wx - (arc.bx - arc.ax), wy - (arc.by - arc.ay)
+    least = -slack * arc.radius
+    past_a = arc.sx * wy - arc.sy * wx >= least
+    before_b = ux * fy - uy * fx >= least
+    if is_wide(arc.sweep):
+        return past_a or before_b
+    return past_a and before_b and (wx + arc.sx) * (arc.sx + fx) + (wy + arc.sy) * (arc.sy + fy) >= least
+
+
+@rare_kernel
 def fall_arcs(
-    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference,
-    best, feature,
+    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference,
+    now, until, best, feature,
 ):  # fmt: skip
     """Earliest contact with the arcs of entries start to stop: |e(t)|^2 - (R + r)^2 or (R - r)^2 - |e(t)|^2 falls.
 
-    ``reference`` is the normal, towards the ball, of the line on which a point slides or has just slid, or zero: a
-    point that comes smoothly onto an arc is on that side of it.
+    Contacts before ``now`` or after ``until`` are found in other cells. ``skipped`` is what the ball has just left
+    along it, ``reference`` the normal of that, towards the ball, or zero: a point that comes smoothly onto an arc is on
+    that side of it.
 
     Returns:
         (time, feature, number of other arcs that a point touches where it starts).
@@ -148,114 +208,157 @@ def fall_arcs(
     touched = 0
     if arcs is None:
         return best, feature, touched
+    px, py, qx, qy, rx, ry, margin, size = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
     slack = slack_of(tolerance, radius)
-    c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
-    noise = LEVEL_SPEED * (abs(vx) + abs(vy))
     for k in range(start, stop):
         arc = arcs[ids[k]]
         wx, wy = x - arc.ax, y - arc.ay
-        ex, ey = wx + arc.sx, wy + arc.sy
-        power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
-        c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
-        outside = power >= 0.0
-        if radius == 0.0 and abs(power) <= (2.0 * arc.radius + tolerance) * tolerance and holds(arc, ex, ey, tolerance):
-            touched += 1 if ids[k] != last else 0
-            along = ex * reference[0] + ey * reference[1]
-            outside = c1 > 0.0 if abs(c1) > 2.0 * arc.radius * noise else c2 < 0.0
-            if along != 0.0:
-                outside = along > 0.0
-        for turn in range(2):
-            side = 1.0 if turn == 0 else -1.0
-            reach, mould = arc.radius + side * radius, FALLING_MOULD * arc.radius
-            if reach <= -mould:
-                continue
-            if one_sided is not None:
-                if one_sided[edge_wall[ids[k]]] != 0 and side * arc.sweep < 0.0:
-                    continue
-            c0 = side * power - radius * (2.0 * arc.radius + side * radius)
-            from_behind = outside != (side > 0.0)
-            if reach < mould:
-                reach = mould
-                c0 = reach * reach - (ex * ex + ey * ey)
-                from_behind = c0 < 0.0
-            t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, 0.0, from_behind)
-            if 0.0 < t < NEVER:
-                t = _polished(t, reach, ex, ey, vx, vy, gx, gy)
-            for _again in range(2):
-                if not (t < best or (t == best and precedes(ids[k], feature))):
-                    break
-                if (t > 0.0 or ids[k] != last) and holds(
-                    arc, ex + t * (vx + 0.5 * t * gx), ey + t * (vy + 0.5 * t * gy), slack
-                ):
-                    best, feature = t, ids[k]
-                    break
-                t = _fall_after(side * c4, side * c3, side * c2, side * c1, c0, t, True)
-    return best, feature, touched
-
-
-@kernel
-def fall_scan(model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature):
-    """Earliest contact with what one cell lists: (time, feature, edges touched by a point where it starts)."""
-    cell = model.cells[c]
-    best, feature, touched = fall_line(
-        model.lines, model.ids, cell.first, cell.arcs,
-        model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature,
-    )  # fmt: skip
-    best, feature, more = fall_arcs(
-        model.arcs, model.ids, cell.arcs, cell.corners,
-        model.one_sided, model.edge_wall, radius, x, y, vx, vy, gx, gy, last, tolerance, reference, best, feature,
-    )  # fmt: skip
-    best, feature = fall_corners(
-        model.corners, model.ids, cell.corners, cell.end,
-        model.one_sided, model.corner_wall, radius, x, y, vx, vy, gx, gy, best, feature,
-    )  # fmt: skip
-    return best, feature, touched + more
-
-
-@kernel
-def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature):
-    """Find the earliest contact before ``best``: (time, feature, edges touched by a point where it starts).
-
-    The cells at the grid's border reach on without end, so a ball that leaves the grid is followed back into it. A
-    coordinate of a parabola passes each border at most twice.
-    """
-    if grid is None:
-        return fall_scan(model, 0, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature)
-    column, row = place(grid, x, y)
-    columns, rows = grid.columns << grid.shift, grid.rows << grid.shift
-    touched = 0
-    now = 0.0
-    for _step in range(2 * (columns + rows) + 8):
-        c, shift = leaf(model.cells, grid, column, row)
-        best, feature, more = fall_scan(
-            model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature,
+        solid_in, solid_out, one_way = True, True, False
+        if one_sided is not None:
+            one_way = one_sided[edge_wall[ids[k]]] != 0
+            solid_out, solid_in = not one_way or arc.sweep > 0.0, not one_way or arc.sweep < 0.0
+        ax, ay, bx, by, cx, cy = px - arc.ax, py - arc.ay, qx - arc.ax, qy - arc.ay, rx - arc.ax, ry - arc.ay
+        if _goes_by(arc, ax, ay, bx, by, cx, cy, slack + margin):
+            continue
+        least, most = _range_of(ax, ay, bx, by, cx, cy, arc.sx, arc.sy)
+        near = margin * (4.0 * (arc.radius + radius) + size)
+        outer, inner = levels_of(arc.radius, radius)
+        if least > outer + near or most < inner - near:
+            continue
+        again = ids[k] == last
+        outside, on = _side_of(arc, radius, wx, wy, vx, vy, gx, gy, tolerance, reference)
+        touched += 1 if on and not again else 0
+        t = _time_to_arc(
+            arc, radius, outside, solid_out, solid_in, one_way, wx, wy, vx, vy, gx, gy, again, ids[k] == skipped, slack,
+            min(best, LATER * until), least - near, most + near,
         )  # fmt: skip
-        if now == 0.0:
-            touched += more
-        moves = moves_to_next(model.cells[c])
-        left, right = around(moves, shift, column, columns)
-        low, high = around(moves, shift, row, rows)
-        next_column, time_x = _leaving(grid.x0, grid.unit, left, right, columns, x, vx, gx, now)
-        next_row, time_y = _leaving(grid.y0, grid.unit, low, high, rows, y, vy, gy, now)
-        passed = min(time_x, time_y)
-        if passed == NEVER or best <= now + passed:
-            break
-        now += passed
-        then_column, then_row = place(grid, x + now * (vx + 0.5 * now * gx), y + now * (vy + 0.5 * now * gy))
-        if time_x < time_y:
-            column, row = next_column, min(max(then_row, low), high - 1)
-        else:
-            column, row = min(max(then_column, left), right - 1), next_row
+        if t < best or (t == best and precedes(ids[k], feature)):
+            best, feature = t, ids[k]
+            px, py, qx, qy, rx, ry, margin, size = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
     return best, feature, touched
 
 
 @kernel
-def _leaving(origin, unit, first, end, count, p, v, g, now):
-    """How long after ``now`` a coordinate leaves what lies from first to end, and where to: (column or row, time)."""
-    p_now, v_now = p + now * (v + 0.5 * now * g), v + now * g
-    up, down = NEVER, NEVER
-    if end < count:
-        up = first_fall_quadratic(-0.5 * g, -v_now, origin + end * unit - p_now, math.inf)
-    if first > 0:
-        down = first_fall_quadratic(0.5 * g, v_now, p_now - (origin + first * unit), math.inf)
-    return (end, up) if up < down else (first - 1, down)
+def levels_of(arc_radius, radius):
+    """Power |e|^2 - R^2 of a centre that touches an arc from outside, and of one that does so from inside.
+
+    With w from a, the start of the arc, and s from its centre to a, it is w.(w + 2 s): a nearly straight arc is
+    judged as the line is that it comes to. For a disc as large as the arc see ``FALLING_MOULD``.
+    """
+    mould = FALLING_MOULD * arc_radius
+    inner = -radius * (2.0 * arc_radius - radius)
+    if arc_radius - radius < mould:
+        inner = -(arc_radius - mould) * (arc_radius + mould)
+    return radius * (2.0 * arc_radius + radius), inner
+
+
+@rare_kernel
+def _goes_by(arc, ax, ay, bx, by, cx, cy, slack):
+    """Tell whether a hull, given from the start of the arc, lies all beyond one of its ends; see ``_beside``."""
+    if is_wide(arc.sweep):
+        return False
+    least = -slack * arc.radius
+    sx, sy = arc.sx, arc.sy
+    if sx * ay - sy * ax < least and sx * by - sy * bx < least and sx * cy - sy * cx < least:
+        return True
+    fx, fy = to_end(arc)
+    dx, dy = arc.bx - arc.ax, arc.by - arc.ay
+    a, b, c = (ax - dx) * fy - (ay - dy) * fx, (bx - dx) * fy - (by - dy) * fx, (cx - dx) * fy - (cy - dy) * fx
+    return a < least and b < least and c < least
+
+
+@rare_kernel
+def _side_of(arc, radius, wx, wy, vx, vy, gx, gy, tolerance, reference):
+    """Tell whether a ball is outside the circle of an arc, and whether it is a point within rounding of the arc.
+
+    Such a point is on the side to which it flies, or, level, from which it is pressed; or see ``fall_arcs``.
+    """
+    ex, ey = wx + arc.sx, wy + arc.sy
+    power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
+    if radius > 0.0 or abs(power) > (2.0 * arc.radius + tolerance) * tolerance or not _beside(arc, wx, wy, tolerance):
+        return power >= 0.0, False
+    along = ex * reference[0] + ey * reference[1]
+    if abs(along) > SMOOTH_ON * arc.radius:
+        return along > 0.0, True
+    rises = ex * vx + ey * vy
+    if abs(rises) > LEVEL_SPEED * (abs(vx) + abs(vy)) * arc.radius:
+        return rises > 0.0, True
+    return vx * vx + vy * vy + ex * gx + ey * gy < 0.0, True
+
+
+@rare_kernel
+def _time_to_arc(
+    arc, radius, outside, solid_out, solid_in, one_way, wx, wy, vx, vy, gx, gy, again, left, slack, best, least, most
+):  # fmt: skip
+    """Time up to ``best`` at which a ball, at w from the start of an arc, meets it; NEVER if it does not.
+
+    Its power stays between ``least`` and ``most`` while contacts count. The other side is met only through the gap to
+    this one, beside the arc; a disc as large as the arc may be on neither. The ball has met the arc last (``again``) or
+    has ``left`` it along it: then it may be going on behind its circle, past its end, see ``left_along``.
+    """
+    ex, ey = wx + arc.sx, wy + arc.sy
+    power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
+    c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
+    c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
+    outer, inner = levels_of(arc.radius, radius)
+    mould = FALLING_MOULD * arc.radius
+    found, other = NEVER, True
+    for turn in range(2):
+        from_outside = outside == (turn == 0)
+        fits = from_outside or arc.radius - radius > -mould
+        if not (other and fits and (solid_out if from_outside else solid_in)):
+            continue
+        side, level = (1.0, outer) if from_outside else (-1.0, inner)
+        is_mould = not from_outside and arc.radius - radius < mould
+        overlaps = one_way and side * (power - level) < -2.0 * (arc.radius + radius) * slack
+        from_behind = power > level if is_mould else turn == 1 or overlaps
+        b2, b1, c0 = side * c2, side * c1, side * (power - level)
+        if is_mould and from_behind:  # it may come in along a wall that joins the hollow, out by rounding
+            c0 += 2.0 * mould * slack
+        if again or left:
+            reach = arc.radius + side * radius
+            b2, b1, c0, from_behind = left_along(b2, b1, c0, reach, slack, vx, vy, gx, gy, from_behind)
+        if (least > level) if from_outside else (most < level):
+            continue
+        if from_behind and ((most < level) if from_outside else (least > level)):
+            continue
+        if again and not from_behind and _only_rises(side * c4, side * c3, b2, b1, c0, best):
+            other = is_mould
+            continue
+        t = first_fall_quartic(side * c4, side * c3, b2, b1, c0, LATER * best, from_behind)
+        t = _polished(t, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy)
+        other = is_mould or from_behind or t <= best
+        for _again in range(2):
+            if not t <= best or t >= found:
+                break
+            there_x, there_y = wx + t * (vx + 0.5 * t * gx), wy + t * (vy + 0.5 * t * gy)
+            if (t > 0.0 or not again) and _beside(arc, there_x, there_y, slack):
+                found, other = t, other and _again == 1
+                break
+            t = _fall_after(side * c4, side * c3, b2, b1, c0, t, LATER * best)
+            t = _polished(t, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy)
+    return found
+
+
+@rare_kernel
+def _only_rises(c4, c3, c2, c1, c0, span):
+    """Tell whether a gap that begins at 0, to rounding, surely comes to no fall through 0 in a span of time.
+
+    It is c0 + q t, q a cubic that lies between the four coefficients of its Bezier curve. Where these are a quarter of
+    q(0) = c1 and more, the gap is at most 0 up to t = 4 |c0| / c1, and until then its slope keeps most of c1.
+    """
+    a, b, c = c2 * span, c3 * span * span, c4 * span * span * span
+    least = 0.25 * c1 + HULL_ROUNDING * (abs(a) + abs(b) + abs(c))
+    t = 4.0 * abs(c0) / (c1 if c1 > 0.0 else 1.0)
+    keeps = c1 > 4.0 * t * (abs(c2) + t * (abs(c3) + t * abs(c4)))
+    return keeps and c1 + a / 3.0 > least and c1 + (2.0 * a + b) / 3.0 > least and c1 + a + b + c > least
+
+
+@rare_kernel
+def _fall_after(c4, c3, c2, c1, c0, time, t_max):
+    """The next fall of a quartic through 0 after one at a time, before which it rises above 0."""
+    f0 = (((c4 * time + c3) * time + c2) * time + c1) * time + c0
+    f1 = ((4.0 * c4 * time + 3.0 * c3) * time + 2.0 * c2) * time + c1
+    f2 = (6.0 * c4 * time + 3.0 * c3) * time + c2
+    f3 = 4.0 * c4 * time + c3
+    return time + first_fall_quartic(c4, f3, f2, f1, f0, t_max, True)

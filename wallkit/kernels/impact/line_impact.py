@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.jit import kernel
+from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import NO_HIT
 
 WIDER = 1.0 + 2.0**-50
@@ -92,7 +92,8 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
     """Earliest contact of a disc with the flat of the lines of entries start to stop.
 
     With d = (p - a).n on the side where d > 0, contact is at d + t v.n = r, t = (d - r) / -(v.n), if v.n < 0 and
-    the foot u = (p - a).tau + t v.tau lies on the edge. An overlap counts as t = 0; receding is never an event.
+    the foot u = (p - a).tau + t v.tau lies on the edge. An overlap counts as t = 0; receding is never an event. A disc
+    that overlaps a one-sided wall by more than rounding has come through it, and passes until it has left it.
 
     The foot may lie past the end by the rounding of positions and r 2^-42: neighbours overlap there, so that nothing
     slips between an edge and the circle of its corner, and edges that meet smoothly need no corner. Against that
@@ -124,6 +125,8 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
             continue
         t = gap / closing
         if t < 0.0:
+            if stands_across(one_sided, edge_wall, ids[k], gap, slack):
+                continue
             t = 0.0
         u = ey * nx - ex * ny + t * (vy * nx - vx * ny)
         if u < -slack or u > line.length + slack:
@@ -136,12 +139,31 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
 
 
 @kernel
-def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y, vx, vy, energy, last, best, feature):
+def scan_corners(
+    corners,
+    ids,
+    start,
+    stop,
+    one_sided,
+    corner_wall,
+    fans,
+    radius,
+    x,
+    y,
+    vx,
+    vy,
+    energy,
+    last,
+    tolerance,
+    best,
+    feature,
+):
     """Earliest contact of a disc with the corners of entries start to stop.
 
     With e = p - corner, |e + t v| = r has the discriminant D = r^2 - (e x v)^2 / v^2, taken from the distance at
     which the path passes the corner, and the smaller root t = c / q, c = e.e - r^2, q = -e.v + sqrt(v^2 D);
-    nothing cancels in q because only e.v < 0 approaches. An overlap (c < 0) counts as t = 0.
+    nothing cancels in q because only e.v < 0 approaches. An overlap (c < 0) counts as t = 0. For one-sided walls see
+    ``stands_across``.
 
     Returns:
         (time, feature).
@@ -166,15 +188,43 @@ def scan_corners(corners, ids, start, stop, one_sided, corner_wall, radius, x, y
         if t < best or (t == best and precedes(-2 - ids[k], feature)):
             if -2 - ids[k] == last:
                 continue
-            if one_sided is not None:
-                if one_sided[corner_wall[ids[k]]] != 0 and behind(corner, ex + t * vx, ey + t * vy):
-                    continue
+            slack = slack_of(tolerance, radius)
+            if stands_across(one_sided, corner_wall, ids[k], c, 2.0 * radius * slack):
+                continue
+            if from_across(one_sided, corner_wall, fans, corners, ids[k], radius, slack, ex + t * vx, ey + t * vy):
+                continue
             best = t
             feature = -2 - ids[k]
     return best, feature
 
 
 @kernel
-def behind(corner, ex, ey):
-    """A centre at e from a corner is behind it when it is against the sum of the normals there."""
-    return ex * corner.sx + ey * corner.sy < 0.0
+def stands_across(one_sided, wall_of, index, gap, slack):
+    """Tell whether a disc overlaps what belongs to a one-sided wall, by more than rounding.
+
+    It has come from behind and is on its way through: it meets the wall only after it has left it.
+    """
+    if one_sided is None:
+        return False
+    return gap < -slack and one_sided[wall_of[index]] != 0
+
+
+@rare_kernel
+def from_across(one_sided, corner_wall, fans, corners, index, radius, slack, ex, ey):
+    """Tell whether a disc that touches a corner of a one-sided wall, at e from it, has come through the wall.
+
+    It is behind, against the sum of the normals there, or beside an edge and not between the normals at the corner:
+    then it stands across that edge, by w^2 / 2 r at w along it, which is more than the rounding of positions.
+    """
+    if one_sided is None:
+        return False
+    if one_sided[corner_wall[index]] == 0:
+        return False
+    corner, fan = corners[index], fans[index]
+    if ex * corner.sx + ey * corner.sy < 0.0:
+        return True
+    turned = -1.0 if fan.both > 0.0 and ex * (fan.ux + fan.wx) + ey * (fan.uy + fan.wy) < 0.0 else 1.0
+    ux, uy, wx, wy = turned * fan.ux, turned * fan.uy, turned * fan.wx, turned * fan.wy
+    aside = -math.sqrt(2.0 * radius * slack)
+    between = ux * ey - uy * ex >= aside and ex * wy - ey * wx >= aside and ex * (ux + wx) + ey * (uy + wy) >= aside
+    return not (between or fan.wide > 0.0)

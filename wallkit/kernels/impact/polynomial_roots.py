@@ -14,6 +14,8 @@ import math
 from wallkit.kernels.jit import kernel, rare_kernel
 
 NEVER = math.inf
+STEPS = 1200
+"""More than any of the loops below takes: half of a bracket of doubles is taken at most some 1,100 times."""
 
 
 @kernel
@@ -25,75 +27,62 @@ def first_fall_quadratic(a: float, b: float, c: float, t_max: float) -> float:
     falling through it and does not count. Nearly touching, the answer has the error that rounding a, b and c has:
     about sqrt(eps) times the time of the vertex.
     """
-    if c <= 0.0:
-        if b < 0.0 or (b == 0.0 and a < 0.0):
-            return 0.0
-        if a >= 0.0:  # it overlaps and recedes for ever
-            return NEVER
-        discriminant = b * b - 4.0 * a * c
-        # with no clear stretch between (discriminant <= 0) it begins to approach at the vertex
-        t = -0.5 * (b + math.sqrt(max(discriminant, 0.0))) / a
-    elif a == 0.0:
-        if b >= 0.0:
-            return NEVER
-        t = -c / b
-    else:
-        discriminant = b * b - 4.0 * a * c
-        if a > 0.0:
-            if b >= 0.0 or discriminant <= 0.0:
-                return NEVER
-            t = 2.0 * c / (math.sqrt(discriminant) - b)
-        elif b > 0.0:
-            t = -0.5 * (b + math.sqrt(discriminant)) / a
-        else:
-            t = 2.0 * c / (math.sqrt(discriminant) - b)
+    discriminant = b * b - 4.0 * a * c  # selects in place of branches, which no processor could foresee
+    root = math.sqrt(discriminant if discriminant > 0.0 else 0.0)
+    above, rises = c > 0.0, b > 0.0
+    numerator, denominator = b + root if rises else 2.0 * c, -2.0 * a if rises else root - b
+    # Above and falling it comes down if it is not turned before. Rising it comes back if it is turned, also from an
+    # overlap; with no clear stretch between (no root) it begins to approach at the vertex.
+    meets = (denominator > 0.0) & (rises | (above & ((a <= 0.0) | (discriminant > 0.0))))
+    t = numerator / (denominator if meets else 1.0)
+    t = t if meets else NEVER
+    t = 0.0 if (not above) & ((b < 0.0) | ((b == 0.0) & (a < 0.0))) else t  # an overlap that approaches
     return t if t <= t_max else NEVER
 
 
 @rare_kernel
-def first_fall_quartic(c4: float, c3: float, c2: float, c1: float, c0: float, t_max: float) -> float:
+def first_fall_quartic(c4: float, c3: float, c2: float, c1: float, c0: float, t_max: float, behind: bool) -> float:
     """Give the first t in [0, t_max] where f(t) = c4 t^4 + ... + c0 is <= 0 and falls; NEVER if there is none.
 
-    The times at which f turns cut [0, t_max] into pieces on which it only rises or only falls; they are the roots
-    of f', found in turn between the roots of f'' (a quadratic). On a falling piece there is at most one root, and its
-    ends show whether there is one: none can be missed and none can be found twice, whatever the coefficients. Each
-    is then closed in on by Newton steps kept inside a bracket. That is the plan of Yuksel, "High-performance
-    polynomial root finding for graphics" (2022), reduced to the one root that is asked for. A cubic, a quadratic or
-    less (leading coefficients 0) needs no special case.
+    If f begins ``behind`` it must rise above 0 before a fall counts.
 
-    t_max may be infinite: all roots lie below Fujiwara's bound. Degenerate cases: f constant gives NEVER; a touch
-    (double root) counts when the rounded f at the turning time is <= 0, which is as much as its coefficients say.
+    The roots of f'' (a quadratic) cut time into pieces on which f bends one way. Where it bends up, Newton's steps from
+    the left end come ever closer to the first root and never pass it; where it bends down, those from a place right of
+    the last root do. So a root needs no bracket and the times at which f turns need not be known, and yet none is
+    missed or found twice, whatever the coefficients: the plan of Yuksel, "High-performance polynomial root finding for
+    graphics" (2022), with f'' in place of f'. A cubic, a quadratic or less (leading coefficients 0) needs no special
+    case. ``t_max`` only saves work: an earlier time has the same bits whatever it is.
+
+    Degenerate cases: f constant gives NEVER; a touch (double root) counts when the rounded f is <= 0 on the way to it,
+    which is as much as its coefficients say; f that is <= 0 all the way up to where it turns falls from there on.
     """
-    limit = min(t_max, _root_bound(c4, c3, c2, c1, c0))
     low, high = _quadratic_roots(12.0 * c4, 6.0 * c3, 2.0 * c2)
-    start = 0.0
-    f_start = c0
-    falls = _falls_from_zero(c4, c3, c2, c1)
-    cut = 0.0
-    for piece in range(3):  # f' is monotone between 0, low, high and the limit
-        if piece == 0:
-            end = low
-        elif piece == 1:
-            end = high
-        else:
-            end = limit
-        end = min(end, limit)
-        if end <= cut and piece < 2:
+    start, f, slope, falls = 0.0, c0, c1, _falls_from_zero(c4, c3, c2, c1)
+    rose = not behind or (f >= 0.0 and not falls)
+    for piece in range(3):
+        end = low if piece == 0 else (high if piece == 1 else NEVER)
+        if end <= start:
             continue
-        end = max(end, cut)
-        slope_end = _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, end)
-        if falls != (slope_end < 0.0):  # f turns inside
-            turn = _bracketed_root(0.0, 4.0 * c4, 3.0 * c3, 2.0 * c2, c1, cut, end, falls)
-            if falls:
-                t = _fall_between(c4, c3, c2, c1, c0, start, f_start, turn)
-                if t < NEVER:
-                    return t
-            start = turn
-            f_start = _quartic(c4, c3, c2, c1, c0, turn)
-        falls = slope_end < 0.0
-        cut = end
-    if _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, 0.5 * (start + limit)) < 0.0:
-        return _fall_between(c4, c3, c2, c1, c0, start, f_start, limit)
+        if start > t_max:
+            return NEVER
+        if rose and falls and f <= 0.0:
+            return start
+        f_end, slope_end = -NEVER, -NEVER
+        if end < NEVER:
+            f_end, slope_end = _quartic(c4, c3, c2, c1, c0, end), _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, end)
+        t = NEVER
+        if not _bends_down(c4, c3, c2, start, end):
+            if rose and falls:
+                t = _from_left(c4, c3, c2, c1, c0, start, end)
+        elif f_end <= 0.0 and (rose or not falls):
+            if f > 0.0:
+                t = _from_right(c4, c3, c2, c1, c0, start, f, slope, end)
+            elif slope_end < 0.0:
+                t = _over_the_top(c4, c3, c2, c1, c0, start, f, slope, end, rose)
+        if t < NEVER or end == NEVER:
+            return t if t <= t_max else NEVER
+        rose = rose or (f_end > 0.0 and not (falls and slope_end < 0.0))
+        start, f, slope, falls = end, f_end, slope_end, slope_end < 0.0
     return NEVER
 
 
@@ -107,44 +96,99 @@ def _falls_from_zero(c4: float, c3: float, c2: float, c1: float) -> bool:
     return c3 < 0.0 or (c3 == 0.0 and c4 < 0.0)
 
 
-@rare_kernel
-def _fall_between(
-    c4: float, c3: float, c2: float, c1: float, c0: float, start: float, f_start: float, end: float
-) -> float:
-    """Give where the falling piece [start, end] of f is first <= 0; NEVER if it stays positive."""
-    if f_start <= 0.0:
-        return start
-    if _quartic(c4, c3, c2, c1, c0, end) > 0.0:
-        return NEVER
-    return _bracketed_root(c4, c3, c2, c1, c0, start, end, False)
+@kernel
+def _bends_down(c4: float, c3: float, c2: float, start: float, end: float) -> bool:
+    """Tell whether f'' < 0 on a piece; on one without end its leading coefficient says so."""
+    if end < NEVER:
+        t = 0.5 * (start + end)
+        return (6.0 * c4 * t + 3.0 * c3) * t + c2 < 0.0
+    return c4 < 0.0 or (c4 == 0.0 and (c3 < 0.0 or (c3 == 0.0 and c2 < 0.0)))
 
 
 @rare_kernel
-def _bracketed_root(
-    c4: float, c3: float, c2: float, c1: float, c0: float, low: float, high: float, rising: bool
-) -> float:
-    """Give the root of a quartic between low and high, through which it rises or falls as told.
+def _from_left(c4: float, c3: float, c2: float, c1: float, c0: float, start: float, end: float) -> float:
+    """Give where f, above 0 and falling at ``start``, first falls through 0 before ``end``; it bends up all the way.
 
-    Newton's step where it stays inside the bracket and the bracket at least halves every two steps, else bisection.
-    It ends when the step is no longer seen in t: the loop's bound is never met in practice (a bisection of doubles
-    takes at most about 1,100 steps in all, 64 once the bracket spans a factor of two).
+    A tangent lies below f, so its root comes before that of f. Near a double root a step halves the distance.
+    """
+    t = start
+    for _ in range(STEPS):
+        f, slope = _quartic(c4, c3, c2, c1, c0, t), _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, t)
+        if f <= 0.0:
+            return t
+        following = t - f / slope if slope < 0.0 else NEVER
+        if following >= end:
+            return NEVER
+        if not following > t:
+            return t
+        t = following
+    return t
+
+
+@rare_kernel
+def _from_right(
+    c4: float, c3: float, c2: float, c1: float, c0: float, start: float, f: float, slope: float, end: float
+) -> float:
+    """Give where f falls through 0 for the last time before ``end``, where it is below; it bends down all the way.
+
+    A tangent lies above f, so from the right of the root steps stay there, and from the left one step leads there.
+    They begin near the root of the parabola that f is at ``start``.
+    """
+    t = end
+    bend = 2.0 * ((6.0 * c4 * start + 3.0 * c3) * start + c2)
+    if bend < 0.0:
+        root = math.sqrt(max(slope * slope - 2.0 * f * bend, 0.0))
+        near = start + (2.0 * f / (root - slope) if slope < 0.0 else (slope + root) / -bend)
+        f, slope = _quartic(c4, c3, c2, c1, c0, near), _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, near)
+        if near < end and slope < 0.0:
+            t = min(end, near - f / slope)
+    if t == NEVER:
+        t = max(start, _root_bound(c4, c3, c2, c1, c0))
+    for _ in range(STEPS):
+        f, slope = _quartic(c4, c3, c2, c1, c0, t), _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, t)
+        following = t - f / slope if slope < 0.0 else t
+        if not following < t:
+            return t
+        t = following
+    return t
+
+
+@rare_kernel
+def _over_the_top(
+    c4: float, c3: float, c2: float, c1: float, c0: float, start: float, f: float, slope: float, end: float, rose: bool
+) -> float:
+    """Give where f falls through 0 that is not above 0 at both ends, rises and then falls; it bends down all the way.
+
+    Where it does not come above 0 in between it falls from where it turns, or never if it has to rise before.
+    """
+    bend = 2.0 * ((6.0 * c4 * start + 3.0 * c3) * start + c2)
+    top = start - slope / bend if bend < 0.0 else start
+    if not (top < end and _quartic(c4, c3, c2, c1, c0, top) > 0.0):
+        last = end if end < NEVER else max(start, _root_bound(c4, c3, c2, c1, c0))
+        top = _turn_between(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, start, last)
+        if not _quartic(c4, c3, c2, c1, c0, top) > 0.0:
+            return top if rose else NEVER
+    return _from_right(c4, c3, c2, c1, c0, start, f, slope, end)
+
+
+@rare_kernel
+def _turn_between(c3: float, c2: float, c1: float, c0: float, low: float, high: float) -> float:
+    """Give the root of a cubic that falls from low to high: Newton's step, or half the bracket where it leaves it.
+
+    A step that does not halve the one before the last is replaced too, so that it ends, as bisection does.
     """
     t = 0.5 * (low + high)
-    width = high - low
-    for _ in range(1200):
-        f = _quartic(c4, c3, c2, c1, c0, t)
-        if (f <= 0.0) == rising:
+    before = last = high - low
+    for _ in range(STEPS):
+        f, slope = _cubic(c3, c2, c1, c0, t), (3.0 * c3 * t + 2.0 * c2) * t + c1
+        if f >= 0.0:
             low = t
         else:
             high = t
-        slope = _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, t)
-        following = t - f / slope if slope != 0.0 else low
-        halved = high - low <= 0.5 * width
-        width = high - low
-        if not (halved and low < following < high):
-            if following == t:  # Newton stands still: nothing below the last digit is left
-                return t
+        following = t - f / slope if slope < 0.0 else low
+        if not low < following < high or abs(following - t) > 0.5 * before:
             following = 0.5 * (low + high)
+        before, last = last, abs(following - t)
         if following in (low, high, t):
             return following
         t = following

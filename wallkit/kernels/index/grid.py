@@ -37,8 +37,8 @@ def scan(model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
         radius, x, y, vx, vy, energy, last, tolerance, best, feature,
     )  # fmt: skip
     best, feature = scan_corners(
-        model.corners, model.ids, cell.corners, cell.end,
-        model.one_sided, model.corner_wall, radius, x, y, vx, vy, energy, last, best, feature,
+        model.corners, model.ids, cell.corners, cell.end, model.one_sided, model.corner_wall, model.fans,
+        radius, x, y, vx, vy, energy, last, tolerance, best, feature,
     )  # fmt: skip
     return best, feature, touched
 

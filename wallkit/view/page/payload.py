@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.simulation.energy import lowest
+from wallkit.simulation.gliding import guides
 from wallkit.simulation.run import Ending, Kind, Run
 from wallkit.view.frame import walls_box
 from wallkit.view.outline import solid_areas
@@ -102,6 +103,7 @@ def run_table(run: Run, *, left_out: str = "", horizon: bool = True) -> Table:
             "ny": column(contacts["ny"], real),
             "wall": column(contacts["wall"], "i4"),
             "kind": column(contacts["kind"], "u1"),
+            **({"bend": column(bend, "f8")} if (bend := guides(run.scene.walls, contacts)).any() else {}),
         },
         "trusted": horizon_table(run) if horizon else None,
         "left_out": left_out,

@@ -14,6 +14,7 @@
   };
 
   const SLIDE = 2; // the kind of contact from which on a ball keeps to the wall (wallkit.Kind)
+  const FLY_ON = ["left the scene", "swings for ever"];
 
   // How many entries of the rising `times` are at most t (or below t); `at` maps a place to an index into times.
   const countUpTo = (t, length, at, below = false) => {
@@ -115,18 +116,21 @@
       return into;
     }
 
-    // The acceleration of a flight: gravity, or the part of it along the wall on which the ball slides.
+    // The acceleration of a flight: gravity, or the part of it along the wall on which the ball slides. Where a ball
+    // glides along an arc, or pivots about a vertex, `bend` is the signed radius of its centre's circle, else 0.
     pull(into) {
       [into.ax, into.ay] = this.gravity ?? [0, 0];
+      into.bend = into.contact < 0 || !this.bend ? 0 : this.bend[into.contact];
+      if (into.bend !== 0) return;
       if (!this.gravity || into.contact < 0 || this.kind[into.contact] !== SLIDE) return;
       const [tx, ty] = [-this.ny[into.contact], this.nx[into.contact]];
       const along = tx * into.ax + ty * into.ay;
       [into.ax, into.ay] = [tx * along, ty * along];
     }
 
-    // A ball that left the scene flies on; every other one stands where its run ended.
+    // A ball that left the scene flies on, one that swings for ever swings on; every other one stands where its run ended.
     endOf(ball) {
-      return this.ending[ball] === "left the scene" ? Infinity : this.end.time[ball];
+      return FLY_ON.includes(this.ending[ball]) ? Infinity : this.end.time[ball];
     }
 
     // Position and velocity at t, from the contact before t.
@@ -139,6 +143,10 @@
     // Carries a state on: p + v dt + a dt^2 / 2 and v + a dt. Rolling friction f slows down by f until the ball
     // stands, drag k gives p + v (1 - exp(-k dt)) / k; both leave the path straight.
     carry(state, dt) {
+      if (state.bend) {
+        const [nx, ny] = [this.nx[state.contact], this.ny[state.contact]];
+        return W.swing(state, state.bend, nx, ny, state.ax, state.ay, dt);
+      }
       const speed = Math.hypot(state.vx, state.vy);
       let [way, kept] = [dt, 1]; // how much of v is gone through, and what is left of it
       if (this.friction && speed > 0) {

@@ -312,6 +312,10 @@
   // Adds a flight's path: from p with v for `span` seconds. The control point of the parabola is p + v span / 2.
   W.traceFlight = (ctx, stage, motion, f, span) => {
     if (!(span > 0)) return;
+    if (f.bend) {
+      traceSwing(ctx, stage, motion, f, span);
+      return;
+    }
     const far = Number.isFinite(span) ? span : (4 * (stage.width + stage.height)) / stage.scale / Math.max(Math.hypot(f.vx, f.vy), 1e-300);
     const [ax, ay] = [stage.screenX(f.x), stage.screenY(f.y)];
     const end = motion.carry({ ...f }, far);
@@ -325,6 +329,19 @@
     if (!cut) return;
     ctx.moveTo(cut[0], cut[1]);
     ctx.lineTo(cut[2], cut[3]);
+  };
+
+  // Adds the path of a ball on a circle, as chords of a few degrees; of one that goes to and fro, the first turns.
+  const traceSwing = (ctx, stage, motion, f, span) => {
+    const rho = Math.abs(f.bend);
+    const rate = Math.max(Math.hypot(f.vx, f.vy) / rho, Math.sqrt(Math.hypot(f.ax, f.ay) / rho));
+    const pieces = Math.min(Math.max(4, Math.ceil(12 * rate * span)), 200);
+    const step = Math.min(span / pieces, 1 / (12 * rate));
+    ctx.moveTo(stage.screenX(f.x), stage.screenY(f.y));
+    for (let k = 1; k <= pieces; k++) {
+      const at = motion.carry({ ...f }, k * step);
+      ctx.lineTo(stage.screenX(at.x), stage.screenY(at.y));
+    }
   };
 
   W.arrow = (ctx, ax, ay, bx, by, colour, width = 2) => {

@@ -1,0 +1,104 @@
+"""Flights under gravity against arcs and corners: nearly straight sides keep their balls, roots keep their digits."""
+
+import itertools
+import math
+
+import mpmath
+import numpy as np
+import pytest
+
+from wallkit import Balls, Ending, Scene, Walls, simulate, survey
+from wallkit.kernels.impact.gravity_impact import fall_arcs, fall_corners
+from wallkit.kernels.impact.polynomial_roots import NEVER
+from wallkit.kernels.records import NO_HIT, Corner, in_lists
+from wallkit.simulation.edge_records import arcs_of, lines_of
+
+ROOM = [[0, 0], [0, 280], [400, 280], [400, 0]]
+
+
+def thrown(walls, radius, count=60, speed=100.0, start=(200.0, 140.0)):
+    angle = np.random.default_rng(1).uniform(0, 2 * np.pi, count)
+    velocity = speed * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return Scene(walls, Balls(np.tile(start, (count, 1)), velocity, radius), gravity=(0.0, -100.0))
+
+
+@pytest.mark.parametrize("bulge", [5e-3, 1e-4, 1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize("bows", [1, -1])
+def test_points_stay_in_a_room_whose_sides_are_nearly_straight_arcs(bulge, bows):
+    room = Walls.from_polylines([ROOM], bulges=[[bows * bulge] * 4])
+    totals = survey(thrown(room, 0.0), until=120.0)
+    x, y = totals.position.T
+    bow = 200 * bulge + 1e-9  # half a chord times the bulge is how far an arc bows
+    assert not np.any(totals.ending == Ending.LEFT_SCENE)
+    assert min(x.min(), y.min()) > -bow
+    assert max(x.max() - 400, y.max() - 280) < bow
+
+
+@pytest.mark.parametrize("radius", [0.0, 8.0])
+def test_an_arc_that_gets_flatter_goes_over_into_its_chord_without_a_step(radius):
+    # a chord is off from its arc by 200 bulge in place and by 2 bulge in direction: a flight of a few bounces, each of
+    # which makes an error some three times as large, ends within 1e5 bulge of where it does among lines
+    lines = simulate(thrown(Walls.from_polylines([ROOM]), radius, count=12), bounces=5)
+    for bulge in (1e-5, 1e-7, 1e-9, 1e-11, 1e-13):
+        arcs = simulate(thrown(Walls.from_polylines([ROOM], bulges=[[bulge] * 4]), radius, count=12), bounces=5)
+        assert list(arcs.contacts["edge"]) == list(lines.contacts["edge"])
+        for name in ("x", "y", "time"):
+            assert arcs.contacts[name] == pytest.approx(lines.contacts[name], rel=1e-12, abs=1e5 * bulge)
+
+
+def test_a_contact_with_a_corner_is_known_to_the_rounding_of_its_place():
+    # |e + v t + g t^2 / 2| = r in 40 digits; e, v and g of the size of a drawing. The place is rounded by some 2^-52 of
+    # what is summed up in it, and the time by as much over the closing speed: 16 of these are allowed
+    rng = np.random.default_rng(3)
+    found = 0
+    with mpmath.workdps(40):
+        while found < 60:
+            x, y, vx, vy = (float(v) for v in rng.uniform(-200, 200, 4))
+            radius, gravity = float(rng.choice([0.5, 5.0])), -100.0
+            t, feature = fall_corners(
+                [Corner(0.0, 0.0, 0.0, 0.0)], [0], 0, 1, None, [0], None, radius, x, y, vx, vy, 0.0, gravity,
+                NO_HIT, 1e-9, 0.0, NEVER, math.inf, NO_HIT,
+            )  # fmt: skip
+            if feature == NO_HIT:
+                continue
+            found += 1
+            at = mpmath.mpf(t)
+            px, py = x + vx * at, y + vy * at + mpmath.mpf(gravity) * at * at / 2
+            ux, uy = vx, vy + gravity * at
+            gap, closing = mpmath.hypot(px, py) - radius, -(px * ux + py * uy) / mpmath.hypot(px, py)
+            size = abs(x) + abs(y) + (abs(vx) + abs(vy)) * t + abs(gravity) * t * t
+            assert abs(gap) <= 16 * 2.0**-52 * (size + closing * t)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_window_of_time_leaves_out_no_contact_in_it(seed):
+    # any arc and corner asked for all time, and for windows that end or begin at the contact: the same bits
+    rng = np.random.default_rng(seed)
+    found = 0
+    for _ in range(400):
+        a, b, place = rng.uniform(-100, 100, (3, 2))
+        velocity, radius, bulge = rng.uniform(-60, 60, 2), float(rng.choice([0.0, 3.0])), float(rng.uniform(-3, 3))
+        lines = lines_of(np.array([a, b]), np.array([0]), np.array([1]))
+        arcs = in_lists(arcs_of(lines, np.array([bulge])))
+        corners = [Corner(*a.tolist(), 0.0, 0.0)]
+        flight = *place.tolist(), *velocity.tolist(), 0.0, -50.0
+
+        def ask(now, until, best, radius=radius, arcs=arcs, corners=corners, flight=flight):
+            best, feature, _touched = fall_arcs(
+                arcs, [0], 0, 1, None, [0], radius, *flight, NO_HIT, NO_HIT, 1e-10, (0.0, 0.0), now, until, best,
+                NO_HIT,
+            )  # fmt: skip
+            if radius > 0.0:
+                best, feature = fall_corners(
+                    corners, [0], 0, 1, None, [0], None, radius, *flight, NO_HIT, 1e-10, now, until, best, feature
+                )
+            return best, feature
+
+        free = ask(0.0, NEVER, math.inf)
+        if free[1] == NO_HIT:
+            continue
+        found += 1
+        for before, after in itertools.product((1.0, 0.5, 0.0), (1.0, 1.5)):
+            assert ask(before * free[0], after * free[0], math.inf) == free
+        assert ask(0.0, NEVER, math.nextafter(free[0], math.inf)) == free
+    assert found > 100

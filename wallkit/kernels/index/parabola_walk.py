@@ -1,0 +1,154 @@
+"""The way of a parabola through the grid, and what it meets there first.
+
+Both coordinates of the velocity keep their signs but for a moment each, and so does the eighth of a full turn in which
+the ball goes. Between two such *turns* the walk is that of a straight flight: a rectangle of cells after the other,
+each as large as there is nothing to meet going that way.
+"""
+
+from __future__ import annotations
+
+import math
+
+from wallkit.kernels.impact.gravity_impact import fall_arcs, fall_corners, fall_line
+from wallkit.kernels.impact.polynomial_roots import NEVER
+from wallkit.kernels.index.grid import clearing, leaf, moves_to_next, place
+from wallkit.kernels.jit import kernel
+from wallkit.kernels.records import WAYS
+
+
+@kernel
+def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature):
+    """Find the earliest contact before ``best``: (time, feature, edges touched by a point where it starts).
+
+    The cells at the grid's border reach on without end, so a ball that leaves the grid is followed back into it.
+    """
+    if grid is None:
+        return _fall_scan(
+            model, 0, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, 0.0, NEVER, best, feature
+        )
+    column, row = place(grid, x, y)
+    columns, rows = grid.columns << grid.shift, grid.rows << grid.shift
+    touched, way = 0, 0
+    now = turn = 0.0
+    for step in range(5 * (columns + rows) + 16):
+        if step == 0 or now == turn:
+            turn = _next_turn(grid, vx, vy, gx, gy, now)
+            way = _way_between(vx, vy, gx, gy, now, turn)
+        c, shift = 0, grid.shift
+        wide, high = clearing(model.clearings, grid, way, column, row)
+        listed = wide == 0
+        if listed:
+            c, shift = leaf(model.cells, grid, column, row)
+            wide = high = moves_to_next(model.cells[c])
+        left, right = _span(column, shift, wide, way & 1)
+        low, top = _span(row, shift, high, way & 2)
+        after_x = _until_left(grid.x0, grid.unit, left, right, columns, x, vx, gx, now, way & 1)
+        after_y = _until_left(grid.y0, grid.unit, low, top, rows, y, vy, gy, now, way & 2)
+        then = min(now + min(after_x, after_y), turn)
+        if listed:
+            best, feature, more = _fall_scan(
+                model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, now, then, best, feature
+            )
+            touched += more if now == 0.0 else 0
+        if best <= then or then == NEVER:
+            break
+        now = then
+        there_x, there_y = place(grid, x + now * (vx + 0.5 * now * gx), y + now * (vy + 0.5 * now * gy))
+        there_x = min(max(there_x, left), right - 1)
+        there_y = min(max(there_y, low), top - 1)
+        if now < turn and after_x < after_y:
+            there_x = right if way & 1 == 0 else left - 1
+        elif now < turn:
+            there_y = top if way & 2 == 0 else low - 1
+        column = max(there_x, column) if way & 1 == 0 else min(there_x, column)
+        row = max(there_y, row) if way & 2 == 0 else min(there_y, row)
+    return best, feature, touched
+
+
+@kernel
+def _fall_scan(
+    model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, now, until, best, feature
+):  # fmt: skip
+    """Earliest contact between two times with what one cell lists: (time, feature, edges touched at the start)."""
+    cell = model.cells[c]
+    touched, more = 0, 0
+    if cell.first < cell.arcs:
+        best, feature, touched = fall_line(
+            model.lines, model.ids, cell.first, cell.arcs, model.one_sided, model.edge_wall, radius,
+            x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature,
+        )  # fmt: skip
+    if cell.arcs < cell.corners:
+        best, feature, more = fall_arcs(
+            model.arcs, model.ids, cell.arcs, cell.corners, model.one_sided, model.edge_wall, radius,
+            x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, now, until, best, feature,
+        )  # fmt: skip
+    if cell.corners < cell.end:
+        best, feature = fall_corners(
+            model.corners, model.ids, cell.corners, cell.end, model.one_sided, model.corner_wall, model.fans,
+            radius, x, y, vx, vy, gx, gy, last, tolerance, now, until, best, feature,
+        )  # fmt: skip
+    return best, feature, touched + more
+
+
+@kernel
+def _next_turn(grid, vx, vy, gx, gy, now):
+    """The first time after now at which the way of a flight changes, see ``grid.way_of``."""
+    turn = min(_standstill(vx, gx, now), _standstill(vy, gy, now))
+    if grid.ways == WAYS:
+        turn = min(turn, min(_standstill(vx - vy, gx - gy, now), _standstill(vx + vy, gx + gy, now)))
+    return turn
+
+
+@kernel
+def _standstill(v, g, now):
+    """When v + g t changes its sign, if after now."""
+    t = -v / g if g != 0.0 else NEVER
+    return t if t > now else NEVER
+
+
+@kernel
+def _way_between(vx, vy, gx, gy, now, turn):
+    """The way of a flight between two turns, see ``grid.way_of``."""
+    t = 0.5 * (now + turn) if turn < NEVER else 2.0 * now + 1.0
+    ux, uy = vx + t * gx, vy + t * gy
+    return int(ux <= 0.0) + 2 * int(uy <= 0.0) + 4 * int(abs(ux) < abs(uy))
+
+
+@kernel
+def _span(number, shift, count, back):
+    """Where a rectangle ``count`` cells long, which begins with that of a column (or row), begins and ends, in units.
+
+    It goes the way of the flight: to lower numbers if ``back``.
+    """
+    cell = number >> shift
+    if back != 0:
+        return (cell + 1 - count) << shift, (cell + 1) << shift
+    return cell << shift, (cell + count) << shift
+
+
+@kernel
+def _until_left(origin, unit, first, end, count, p, v, g, now, back):
+    """How long after now a coordinate leaves what lies from first to end, at the end to which the flight goes.
+
+    Ahead lies d = u t + a t^2 / 2 with speed u >= 0: t = 2 d / (u + sqrt(u^2 + 2 a d)), or never if it turns before.
+    """
+    u, a = v + now * g, g
+    p_now = p + now * (v + 0.5 * now * g)
+    if back == 0:
+        if end >= count:
+            return NEVER
+        d = (origin + end * unit) - p_now
+    else:
+        if first <= 0:
+            return NEVER
+        d, u, a = p_now - (origin + first * unit), -u, -a
+    if d <= 0.0:
+        return 0.0
+    if a == 0.0:
+        return d / u if u > 0.0 else NEVER
+    u = max(u, 0.0)
+    square = u * u + 2.0 * a * d
+    if square < 0.0:
+        return NEVER
+    faster = u + math.sqrt(square)
+    return 2.0 * d / faster if faster > 0.0 else NEVER

@@ -1,0 +1,73 @@
+"""Where a ball is that keeps to a wall, between contacts: on a line, along an arc, or about a vertex."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray
+from wallkit.kernels.flight.pendulum import swing
+from wallkit.walls import Walls
+
+SLIDE = 2
+"""The kind of the contact from which on a ball keeps to the wall: ``wallkit.simulation.run.Kind.SLIDE``."""
+
+
+def guides(walls: Walls, contacts: NDArray[Any]) -> FloatArray:
+    """Give the signed radius of the circle on which each contact puts the centre of its ball; 0 for no circle.
+
+    Above 0 the circle's centre lies behind the wall, against the contact's normal (on the back of an arc, R + r, and
+    about a vertex, r); below 0 it lies on the ball's side (in a hollow, R - r). Contacts from which on the ball flies,
+    and slides on lines, have 0.
+    """
+    bent = np.zeros(len(contacts))
+    kept = np.flatnonzero(contacts["kind"] == SLIDE)
+    if not len(kept):
+        return bent
+    own = contacts[kept]
+    radius = np.hypot(own["x"] - own["px"], own["y"] - own["py"])
+    found = np.where(own["edge"] < 0, radius, 0.0)
+    edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
+    start, end = walls.edge_starts[edge], walls.edge_ends[edge]
+    bulge = np.where(own["edge"] < 0, 0.0, walls.bulges[start])
+    chord = walls.vertices[end] - walls.vertices[start]
+    length = np.hypot(chord[:, 0], chord[:, 1])
+    round_ = np.flatnonzero((np.abs(bulge) > 2.0**-44) & (length > 0.0))
+    if len(round_):
+        b, d, n = bulge[round_], chord[round_], np.stack([own["nx"], own["ny"]], axis=1)[round_]
+        curve = length[round_] * (1.0 + b * b) / (4.0 * np.abs(b))
+        # the outward normal at the foot: that of the chord, turned by what the arc has turned there
+        foot = np.stack([own["px"], own["py"]], axis=1)[round_] - walls.vertices[start[round_]]
+        back = length[round_] * (1.0 - b * b) / (4.0 * b)
+        side = np.stack([d[:, 1], -d[:, 0]], axis=1) / length[round_][:, None]
+        out = foot - 0.5 * d + back[:, None] * side
+        outside = (out * n).sum(axis=1) > 0.0
+        found[round_] = np.where(outside, curve + radius[round_], radius[round_] - curve)
+    bent[kept] = found
+    return bent
+
+
+def glide(gravity: FloatArray, state: FloatArray, normal: FloatArray, bent: float, span: float) -> FloatArray:
+    """Give x, y, vx, vy a time after a contact from which on a ball keeps to a wall.
+
+    Args:
+        gravity: (2,).
+        state: (4,) x, y, vx, vy just after the contact.
+        normal: (2,) unit, towards the ball.
+        bent: signed radius of the centre's circle, see :func:`guides`; 0 for a straight wall.
+        span: seconds since then.
+    """
+    (x, y, vx, vy), (gx, gy), (nx, ny) = state.tolist(), gravity.tolist(), normal.tolist()
+    if bent == 0.0:
+        along = gy * nx - gx * ny
+        ax, ay = -along * ny, along * nx
+        return np.array(
+            [x + span * (vx + 0.5 * span * ax), y + span * (vy + 0.5 * span * ay), vx + span * ax, vy + span * ay]
+        )
+    ex, ey = math.copysign(nx, nx * bent), math.copysign(ny, ny * bent)
+    rho = abs(bent)
+    fx, fy, speed, dx, dy = swing(rho, gx, gy, ex, ey, vy * ex - vx * ey, span)
+    return np.array([x + rho * dx, y + rho * dy, -speed * fy, speed * fx])
