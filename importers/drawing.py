@@ -37,6 +37,26 @@ class Subpath:
     closed: bool
 
 
+LevelKind = Literal["layer", "group", "object"]
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """What one object, or a group or layer around it, says about a path, in the words of its author.
+
+    Attributes:
+        kind: what it is; a clone of something is an object.
+        name: its label or id, decoded, or ``""``.
+        tags: its own ``data-*`` attributes without that prefix.
+        note: its description, or ``""``.
+    """
+
+    kind: LevelKind
+    name: str = ""
+    tags: dict[str, str] = field(default_factory=dict)
+    note: str = ""
+
+
 @dataclass(slots=True, repr=False)
 class DrawnPath:
     """One painted object of the file: its subpaths share fill, stroke and marks.
@@ -58,6 +78,9 @@ class DrawnPath:
         fill_rule: ``"nonzero"`` or ``"evenodd"``.
         line: line in the file where it begins, from 1; None where lines mean nothing.
         tags: free words the file carries for it (``data-*`` attributes, notes), by name.
+        title: what the file calls it to people who look at it (SVG's ``title``), or ``""``.
+        levels: what each of its layers and groups, itself, and the clones that show it say, the nearest last;
+            ``()`` where a reader knows no more than ``layer``, ``groups``, ``name`` and ``tags``.
     """
 
     subpaths: list[Subpath]
@@ -74,6 +97,8 @@ class DrawnPath:
     fill_rule: FillRule = "nonzero"
     line: int | None = None
     tags: dict[str, str] = field(default_factory=dict)
+    title: str = ""
+    levels: tuple[Level, ...] = ()
 
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
@@ -100,6 +125,7 @@ class DrawnPath:
             ],
             "line": self.line,
             "tags": dict(self.tags),
+            **({"title": self.title} if self.title else {}),
         }
 
 

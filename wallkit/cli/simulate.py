@@ -38,7 +38,7 @@ Bounces = Annotated[
 ]
 Gravity = Annotated[str | None, typer.Option(metavar="GX,GY", help="Units per second squared, in the drawing's axes.")]
 Restitution = Annotated[
-    float | None, typer.Option(metavar="E", help="Part of the normal speed that a bounce leaves.", min=0, max=1)
+    float | None, typer.Option(metavar="E", help="Part of the normal speed that a bounce leaves.", min=0, max=10)
 ]
 Tangential = Annotated[
     float | None,

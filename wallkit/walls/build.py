@@ -14,12 +14,14 @@ from wallkit.walls.arcs import fit_arcs
 from wallkit.walls.clean import clean
 from wallkit.walls.contacts import find_contacts
 from wallkit.walls.drawn_balls import drawn_balls
+from wallkit.walls.drawn_sensors import drawn_places, drawn_sensors
+from wallkit.walls.files import sensors_like
 from wallkit.walls.filling import material_rings
-from wallkit.walls.flatten import flatten
+from wallkit.walls.flatten import Pieces, flatten
 from wallkit.walls.import_options import ImportOptions, ImportWishes
 from wallkit.walls.nesting import depths
 from wallkit.walls.orient import turned_to
-from wallkit.walls.outlines import Outlines, assemble
+from wallkit.walls.outlines import Outlines, assemble, keep_sides
 from wallkit.walls.repair import repair
 from wallkit.walls.select import choose
 from wallkit.walls.solid import Nested, decide
@@ -66,17 +68,22 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
     drawn, _ = drawn_balls(drawing)
     if drawn or balls is None:
         balls = np.array([(ball.x, ball.y) for ball in drawn]).reshape(-1, 2) * (scale, -scale if flip_y else scale)
-    chosen, problems = choose(drawing, options, drawn)
-    chosen, pointless = _with_segments(chosen)
+    choice = choose(drawing, options, drawn)
+    chosen, pointless = _with_segments(choice.walls)
     if options.outline_strokes:
         chosen, outlined = _outlined(chosen, options.tolerance)
         pointless += outlined
     strokes = gather((sub for path in chosen for sub in path.subpaths), scale, flip_y)
     within = default_tolerance(strokes) if options.tolerance is None else options.tolerance * scale
-    pieces = fit_arcs(strokes, within) if options.curves == "arcs" else flatten(strokes, within)
-    walls = nested(clean(assemble(strokes, pieces, chosen)), options, within, balls)
-    found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *problems, *pointless)]
-    return replace(
+    pieces = _pieces(strokes, within, options)
+    markers = drawn_places(choice.places, scale, flip_y)
+    if not len(balls):
+        balls = np.array([(marker.x, marker.y) for marker in markers if marker.kind == "spawn"]).reshape(-1, 2)
+    outlines = clean(assemble(strokes, pieces, chosen))
+    walls = nested(keep_sides(outlines) if flip_y else outlines, options, within, balls)
+    sensors, doubtful = _sensors(choice.sensors, options, within)
+    found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *choice.problems, *pointless)]
+    walls = replace(
         walls,
         units=drawing.units if scale == 1 else "",
         y_axis=_flipped(drawing.y_axis) if flip_y else drawing.y_axis,
@@ -85,8 +92,25 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
         measured_normal_error=pieces.normal_error,
         source_file=drawing.file,
         source_sha256=drawing.sha256,
-        problems=found + walls.problems,
+        problems=found + walls.problems + doubtful,
+        markers=markers,
     )
+    return walls if sensors is None else replace(walls, sensors=sensors_like(walls, sensors))
+
+
+def _pieces(strokes: Strokes, within: float, options: ImportOptions) -> Pieces:
+    return fit_arcs(strokes, within) if options.curves == "arcs" else flatten(strokes, within)
+
+
+def _sensors(paths: list[DrawnPath], options: ImportOptions, within: float) -> tuple[Walls | None, list[Problem]]:
+    """Make sensors as exact as the walls; what is cleaned of them is told as for walls."""
+    paths, pointless = _with_segments(paths)
+    if not paths:
+        return None, pointless
+    strokes = gather((sub for path in paths for sub in path.subpaths), options.scale, options.flip_y)
+    outlines = clean(assemble(strokes, _pieces(strokes, within, options), paths))
+    sensors, problems = drawn_sensors(outlines)
+    return sensors, [_moved(problem, options.scale, options.flip_y) for problem in pointless] + problems
 
 
 def _read(source: str | Path | IO[bytes] | IO[str]) -> Drawing:

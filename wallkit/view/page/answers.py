@@ -21,6 +21,7 @@ from wallkit.view.page.documents import Document, Reader, Shelf
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
 from wallkit.view.page.warmth import Warmth
 from wallkit.walls import Walls
+from wallkit.walls.fields import MOST_RESTITUTION
 from wallkit.walls.import_options import ImportOptions
 
 MOST_BALLS = 1_000
@@ -229,8 +230,8 @@ def balls_of(body: Table) -> Balls:
 def with_material(walls: Walls, body: Table) -> Walls:
     """Set the restitutions that the page asks for on every wall; null leaves them as they are."""
     changes = {
-        name: number(body[name], name, 0.0, 1.0)
-        for name in ("restitution", "tangential_restitution")
+        name: number(body[name], name, 0.0, most)
+        for name, most in (("restitution", MOST_RESTITUTION), ("tangential_restitution", 1.0))
         if body.get(name) is not None
     }
     if not changes:
