@@ -194,7 +194,9 @@ class Drawing(Pictured):
         kind: what the file turned out to be, for people, such as ``"Illustrator 8"`` or ``"SVG"``.
         file: its name as given; ``"-"`` for standard input, ``""`` for text.
         sha256: hex digest of the bytes that were read.
-        artboards: where the file names them (Illustrator CS4 and later).
+        artboards: where the file names them (Illustrator CS4 and later, Inkscape 1.2 and later).
+        sheet: the page that it lies on, where it is known: SVG's viewport, a PDF's page, the artboard that was chosen.
+        page: number of the page or artboard that was chosen, from 1; None for all that was read without a choice.
     """
 
     units: str
@@ -206,6 +208,8 @@ class Drawing(Pictured):
     file: str = ""
     sha256: str = ""
     artboards: list[Artboard] = field(default_factory=list)
+    sheet: Artboard | None = None
+    page: int | None = None
 
     def __repr__(self) -> str:
         parts = [
@@ -228,6 +232,7 @@ class Drawing(Pictured):
             "units": self.units,
             "y_axis": self.y_axis,
             "artboards": [artboard.to_json() for artboard in self.artboards],
+            **({"sheet": self.sheet.to_json()} if self.sheet is not None else {}),
             "layers": [layer.to_json() for layer in self.layers],
             "paths": [path.to_json() for path in self.paths],
             "problems": [problem.to_json() for problem in self.problems],

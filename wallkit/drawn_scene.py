@@ -15,6 +15,7 @@ from wallkit.walls import Walls
 from wallkit.walls.build import build_walls
 from wallkit.walls.drawn_balls import drawn_balls
 from wallkit.walls.import_options import ImportOptions
+from wallkit.walls.placing import placed
 from wallkit.walls.walls import ARRAYS
 
 SPEED, ANGLE = 50.0, 30.0
@@ -50,6 +51,7 @@ def drawn_scene(drawing: Drawing, options: ImportOptions, balls: NDArray[np.floa
         options: how it becomes walls; scale and flip act on the balls, too.
         balls: (n, 2) places of balls that are not drawn, see :func:`wallkit.walls.build.build_walls`.
     """
+    drawing = placed(drawing, options)
     walls, sensors = apart(build_walls(drawing, options, balls))
     found, problems = drawn_balls(drawing, options.scale, options.flip_y)
     usual = SPEED * math.cos(math.radians(ANGLE)), SPEED * math.sin(math.radians(ANGLE))

@@ -145,7 +145,7 @@ def open_scene(
 
         stream = io.BytesIO(source)
         stream.name = name
-        return _of_drawing(read_drawing(stream), wishes)
+        return _of_drawing(read_drawing(stream, page=wishes.importing.page), wishes)
     if kind == "walls":
         from wallkit.walls.files import loads
 

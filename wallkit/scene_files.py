@@ -285,7 +285,7 @@ class _Reader:
             return None
         from importers.read import read_drawing
 
-        self.drawing = read_drawing(path)
+        self.drawing = read_drawing(path, page=self.options.page)
         return drawn_scene(self.drawing, self.options, balls if self.places is None else self.places)
 
     def path(self, value: Any, key: str) -> Path | None:

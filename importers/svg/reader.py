@@ -16,8 +16,9 @@ from importers.svg.conditions import chosen, holds
 from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transform, translation
 from importers.svg.names import INKSCAPE, SODIPODI, label_of, level_of, merged, name_of, title_of
 from importers.svg.notes import Notes
+from importers.svg.pages import pages_of, sheet_of
 from importers.svg.paint import Paints
-from importers.svg.placing import element_matrix, has_transform, nested_viewport, root_viewport, use_size
+from importers.svg.placing import element_matrix, has_transform, nested_viewport, root_size, root_viewport, use_size
 from importers.svg.references import References
 from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
 from importers.svg.source import SVG_NS, Source, attributes_of
@@ -130,6 +131,8 @@ class Reader:
             fix = "give the svg element a width, a height and a viewBox above 0"
             message = "the drawing has no size, so browsers show nothing of it; its outlines are in user units"
             self.notes.add("no-size", "warning", message, root, fix=fix)
+        self.drawing.sheet = sheet_of(root, *root_size(root, declared, style.font))
+        self.drawing.artboards = pages_of(root, matrix)
         hidden = declared.get("display") == "none"
         around = Around(matrix, style, viewport, hidden=hidden, unseen=_without_opacity(declared))
         self._push_children(root, around)

@@ -21,7 +21,8 @@ from wallkit.walls.flatten import Pieces, flatten
 from wallkit.walls.import_options import ImportOptions, ImportWishes
 from wallkit.walls.nesting import depths
 from wallkit.walls.orient import turned_to
-from wallkit.walls.outlines import Outlines, assemble, keep_sides
+from wallkit.walls.outlines import Outlines, assemble, keep_sides, on_grid
+from wallkit.walls.placing import placed
 from wallkit.walls.repair import repair
 from wallkit.walls.select import choose
 from wallkit.walls.solid import Nested, decide
@@ -53,14 +54,15 @@ def import_walls(source: Source, options: ImportOptions | None = None, /, **wish
     if options is not None and wishes:
         raise WallsError("options come in one value or as keywords", code="bad-option", fix="give one of the two")
     chosen = ImportOptions.of(**wishes) if options is None else options
-    return build_walls(source if isinstance(source, Drawing) else _read(source), chosen)
+    drawing = source if isinstance(source, Drawing) else _read(source, chosen)
+    return build_walls(placed(drawing, chosen), chosen)
 
 
 def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | None = None) -> Walls:
     """Turn a drawing into walls, with balls that are not drawn.
 
     Args:
-        drawing: as read.
+        drawing: in its place, see :func:`wallkit.walls.placing.placed`.
         options: how.
         balls: (n, 2) centres in the units of the result; where none are drawn they help to decide what is solid.
     """
@@ -79,7 +81,7 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
     markers = drawn_places(choice.places, scale, flip_y)
     if not len(balls):
         balls = np.array([(marker.x, marker.y) for marker in markers if marker.kind == "spawn"]).reshape(-1, 2)
-    outlines = clean(assemble(strokes, pieces, chosen))
+    outlines, moved = _outlines(strokes, pieces, chosen, options)
     walls = nested(keep_sides(outlines) if flip_y else outlines, options, within, balls)
     sensors, doubtful = _sensors(choice.sensors, options, within)
     found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *choice.problems, *pointless)]
@@ -88,7 +90,7 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
         units=drawing.units if scale == 1 else "",
         y_axis=_flipped(drawing.y_axis) if flip_y else drawing.y_axis,
         tolerance=within,
-        measured_error=walls.measured_error + pieces.error,
+        measured_error=walls.measured_error + pieces.error + moved,
         measured_normal_error=pieces.normal_error,
         source_file=drawing.file,
         source_sha256=drawing.sha256,
@@ -102,21 +104,32 @@ def _pieces(strokes: Strokes, within: float, options: ImportOptions) -> Pieces:
     return fit_arcs(strokes, within) if options.curves == "arcs" else flatten(strokes, within)
 
 
+def _outlines(
+    strokes: Strokes, pieces: Pieces, paths: list[DrawnPath], options: ImportOptions
+) -> tuple[Outlines, float]:
+    """Make clean polylines, on the grid that is asked for: them, and how far that moved anything at most."""
+    outlines = assemble(strokes, pieces, paths)
+    if not options.grid:
+        return clean(outlines), 0.0
+    outlines, moved = on_grid(outlines, options.grid)
+    return clean(outlines), moved
+
+
 def _sensors(paths: list[DrawnPath], options: ImportOptions, within: float) -> tuple[Walls | None, list[Problem]]:
     """Make sensors as exact as the walls; what is cleaned of them is told as for walls."""
     paths, pointless = _with_segments(paths)
     if not paths:
         return None, pointless
     strokes = gather((sub for path in paths for sub in path.subpaths), options.scale, options.flip_y)
-    outlines = clean(assemble(strokes, _pieces(strokes, within, options), paths))
+    outlines, _ = _outlines(strokes, _pieces(strokes, within, options), paths, options)
     sensors, problems = drawn_sensors(outlines)
     return sensors, [_moved(problem, options.scale, options.flip_y) for problem in pointless] + problems
 
 
-def _read(source: str | Path | IO[bytes] | IO[str]) -> Drawing:
+def _read(source: str | Path | IO[bytes] | IO[str], options: ImportOptions) -> Drawing:
     from importers.read import read_drawing  # late: it brings the readers of all formats
 
-    drawing: Drawing = read_drawing(source)
+    drawing: Drawing = read_drawing(source, page=options.page)
     return drawing
 
 

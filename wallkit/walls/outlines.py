@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -130,6 +131,21 @@ def keep_sides(outlines: Outlines) -> Outlines:
             vertices[begin:end] = outlines.vertices[begin:end][::-1]
             bulges[begin : end - 1] = 0.0 - outlines.bulges[begin : end - 1][::-1]
     return replace(outlines, vertices=vertices, bulges=bulges)
+
+
+def on_grid(outlines: Outlines, grid: float) -> tuple[Outlines, float]:
+    """Move vertices to the nearest multiples of ``grid``; a grid of 1 / n gives them as k / n, without an error more.
+
+    Returns:
+        The outlines, and how far any point of them moved at most. With its ends an arc is turned, scaled and moved:
+        its point at z (0 at a, 1 at b, complex) moves by (1 - z) da + z db, and |1 - z| + |z| <= sqrt(2) up to a half
+        circle.
+    """
+    parts = round(1.0 / grid) if grid < 1.0 else 0
+    whole = bool(parts) and abs(parts * grid - 1.0) <= 2.0**-50
+    vertices = np.round(outlines.vertices * parts) / parts if whole else np.round(outlines.vertices / grid) * grid
+    moved = float(np.hypot(*(vertices - outlines.vertices).T).max(initial=0.0))
+    return replace(outlines, vertices=vertices + 0.0), moved * (math.sqrt(2.0) if outlines.bulges.any() else 1.0)
 
 
 def assemble(strokes: Strokes, pieces: Pieces, paths: list[DrawnPath]) -> Outlines:
