@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TextIO
 import typer
 
 from wallkit.cli import import_options as options
+from wallkit.cli.watching import watchable
 
 if TYPE_CHECKING:
     from wallkit.walls import Walls
@@ -23,6 +24,7 @@ def register(app: typer.Typer) -> None:
 
 
 @options.with_import_options("lines")
+@watchable
 def import_drawing(
     file: options.File,
     out: Annotated[

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from wallkit.cli import import_options as drawing_options
+from wallkit.cli.watching import watchable
 
 if TYPE_CHECKING:
     from wallkit.opening import OpenedScene
@@ -64,6 +65,7 @@ def register(app: typer.Typer) -> None:
 
 
 @drawing_options.with_import_options()
+@watchable
 def simulate_file(
     file: File,
     out: Out = None,
