@@ -35,11 +35,12 @@ def keep_artboard(drawing: Drawing, page: int) -> None:
     Raises:
         DrawingError: there is no such artboard.
     """
+    drawing.page = page
     if not drawing.artboards and page == 1:
         return
     if page > len(drawing.artboards):
         raise no_such_page(page, max(len(drawing.artboards), 1), drawing.file)
-    artboard = drawing.artboards[page - 1]
+    artboard = drawing.sheet = drawing.artboards[page - 1]
     kept = []
     for path in drawing.paths:
         points = [point for subpath in path.subpaths for point in control_points(subpath.segments)]

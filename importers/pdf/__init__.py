@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from itertools import islice
 
 from importers.drawing import Artboard, Drawing
@@ -82,7 +83,7 @@ def _read_document(document: Document, choice: PageChoice) -> Drawing:
         if not pages:
             raise no_such_page(choice, sum(1 for _ in document.pages()), document.file)
     drawing = _read_content(document, pages, why)
-    drawing.kind = kind
+    drawing.kind, drawing.page = kind, choice if isinstance(choice, int) else None
     drawing.problems.extend(_page_problems(pages, document.page_count() if choice is None else 1))
     return drawing
 
@@ -133,6 +134,7 @@ def _read_content(document: Document, pages: list[Page], why: str) -> Drawing:
     problems = reader.findings.problems(Source(b"", has_lines=False))
     drawing = Drawing("pt", "up", layers.layers, reader.paths, problems)
     drawing.artboards = artboards if len(artboards) > 1 else []
+    drawing.sheet = replace(artboards[0], x_max=artboards[-1].x_max, y_max=max(board.y_max for board in artboards))
     return drawing
 
 

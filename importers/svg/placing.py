@@ -26,17 +26,24 @@ def root_viewport(root: Any, declared: Declared, font: Font) -> tuple[Matrix, Vi
     is False where browsers show nothing, for want of a size; the matrix is then that of the user units.
     """
     box = parse_view_box(root.get("viewBox"))
-    size = []
-    for index, name in enumerate(("width", "height")):
-        natural = box[2 + index] if box else DEFAULT_SIZE[index]
-        size.append(_root_length(root.get(name), declared.get(name), natural, box is not None, font))
-    width, height = size
+    width, height = root_size(root, declared, font)
     shown = width > 0 and height > 0 and not (box and (box[2] <= 0 or box[3] <= 0))
     matrix = fit(box, root.get("preserveAspectRatio"), width, height) if shown else IDENTITY
     viewport = Viewport(box[2], box[3]) if box and shown else Viewport(width, height)
     if has_transform(declared):
         matrix = multiply(_root_transform(declared, width, height, font), matrix)
     return matrix, viewport, shown
+
+
+def root_size(root: Any, declared: Declared, font: Font) -> tuple[float, float]:
+    """Give width and height of the outermost viewport in px."""
+    box = parse_view_box(root.get("viewBox"))
+    natural = (box[2], box[3]) if box else DEFAULT_SIZE
+    width, height = (
+        _root_length(root.get(name), declared.get(name), natural[index], box is not None, font)
+        for index, name in enumerate(("width", "height"))
+    )
+    return width, height
 
 
 def _root_length(text: str | None, declared: Any, natural: float, boxed: bool, font: Font) -> float:

@@ -9,15 +9,16 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from importers.boxes import Box, box_of, box_of_segments
-from importers.drawing import Drawing, DrawnPath, Layer, Subpath
+from importers.drawing import Drawing, DrawnPath, Layer, Level, Subpath
 from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.svg.cascade import Cascade
 from importers.svg.conditions import chosen, holds
 from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transform, translation
-from importers.svg.names import INKSCAPE, SODIPODI, name_of, tags_of
+from importers.svg.names import INKSCAPE, SODIPODI, label_of, level_of, merged, name_of, title_of
 from importers.svg.notes import Notes
+from importers.svg.pages import pages_of, sheet_of
 from importers.svg.paint import Paints
-from importers.svg.placing import element_matrix, has_transform, nested_viewport, root_viewport, use_size
+from importers.svg.placing import element_matrix, has_transform, nested_viewport, root_size, root_viewport, use_size
 from importers.svg.references import References
 from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
 from importers.svg.source import SVG_NS, Source, attributes_of
@@ -70,13 +71,15 @@ class Around:
     viewport: Viewport
     layer: str = ""
     groups: tuple[str, ...] = ()
-    tags: dict[str, str] | None = None
+    levels: tuple[Level, ...] = ()  # of layers and groups, the nearest last
+    clones: tuple[Level, ...] = ()  # of the `use`s that we are inside of, the outermost last: it goes before all else
     hidden: bool = False
     unseen: bool = False  # it, or a group around it, has no opacity
     locked: bool = False
     chain: tuple[Any, ...] = ()  # targets of the `use`s that we are inside of
     depth: int = 0
     outline: str = ""  # name of the innermost `use`, for shapes without one
+    label: str = ""  # label of the outermost `use` that has one, for all shapes in it
 
 
 class Reader:
@@ -128,8 +131,10 @@ class Reader:
             fix = "give the svg element a width, a height and a viewBox above 0"
             message = "the drawing has no size, so browsers show nothing of it; its outlines are in user units"
             self.notes.add("no-size", "warning", message, root, fix=fix)
+        self.drawing.sheet = sheet_of(root, *root_size(root, declared, style.font))
+        self.drawing.artboards = pages_of(root, matrix)
         hidden = declared.get("display") == "none"
-        around = Around(matrix, style, viewport, hidden=hidden, unseen=_without_opacity(declared), tags={})
+        around = Around(matrix, style, viewport, hidden=hidden, unseen=_without_opacity(declared))
         self._push_children(root, around)
 
     def _push_children(self, element: Any, around: Around) -> None:
@@ -214,21 +219,26 @@ class Reader:
             )
         name = name_of(element, attributes, self.illustrator)
         locked = around.locked or attributes.get(SODIPODI + "insensitive") == "true"
-        layer, groups = around.layer, around.groups
-        if self._is_layer(tag, element, attributes, around):
+        layer, groups, levels, clones = around.layer, around.groups, around.levels, around.clones
+        on_layer = self._is_layer(tag, element, attributes, around)
+        if tag == "use":
+            clones = (level_of(element, attributes, name, "group"), *clones)
+        else:
+            levels = (*levels, level_of(element, attributes, name, "layer" if on_layer else "group"))
+        if on_layer:
             layer = name
             found = self.layers.setdefault(name, Layer(name, visible=not hidden, locked=locked))
             found.visible = found.visible or not hidden
         else:
             groups = (*groups, name)
-        tags = tags_of(attributes, around.tags or {})
         return replace(
             around,
             matrix=matrix,
             style=style,
             layer=layer,
             groups=groups,
-            tags=tags,
+            levels=levels,
+            clones=clones,
             hidden=hidden,
             unseen=around.unseen or _without_opacity(declared),
             locked=locked,
@@ -277,7 +287,9 @@ class Reader:
         x, y = lengths.get("x") or 0.0, lengths.get("y") or 0.0
         matrix = multiply(inside.matrix, translation(x, y))
         name = name_of(element, attributes, self.illustrator)
-        inside = replace(inside, matrix=matrix, chain=(*inside.chain, target), outline=name or inside.outline)
+        label = inside.label or label_of(attributes)
+        chain = (*inside.chain, target)
+        inside = replace(inside, matrix=matrix, chain=chain, outline=name or inside.outline, label=label)
         tag = target.tag[len(self.prefix) :]
         if inside.depth > MAX_DEPTH:
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file)
@@ -319,7 +331,8 @@ class Reader:
         if has_transform(declared):
             own = [segment for sub in shape.subpaths for segment in sub.segments]
             matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: box_of_segments(own)))
-        name = name_of(element, attributes, self.illustrator) or around.outline
+        own_name = name_of(element, attributes, self.illustrator)
+        name = around.label or own_name or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
             self._report_shape(tag, element, shape, lengths, around.layer, name, matrix)
         subpaths = [Subpath(transform(sub.segments, matrix), sub.closed) for sub in shape.subpaths]
@@ -332,6 +345,7 @@ class Reader:
             message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
             self.notes.add("bad-coordinate", "error", message, element, layer=around.layer, name=name)
             return
+        levels = (*around.levels, level_of(element, attributes, own_name, "object"), *around.clones)
         fill, stroke, width = None, None, None
         if not (around.unseen or _without_opacity(declared)):
             fill = self.paints.word(style.fill) if style.fill_seen and tag != "line" else None
@@ -349,7 +363,9 @@ class Reader:
                 stroke_width=width,
                 fill_rule="evenodd" if style.fill_rule == "evenodd" else "nonzero",
                 line=self.source.line(element),
-                tags=dict(tags_of(attributes, around.tags or {})),
+                tags=merged(levels),
+                title=title_of(element),
+                levels=levels,
             )
         )
 

@@ -44,7 +44,7 @@ CALLS = {
     }),
     "Balls.take": (SCENE.balls.take, {}, {"balls": (1, -1, 0.0, "0", [True, False], [[0]], None, slice("a", None))}),
     "Material": (Material, {}, {
-        "restitution": (*NO_NUMBERS, -0.1, 1.1),
+        "restitution": (*NO_NUMBERS, -0.1, 10.1),
         "tangential_restitution": (*NO_NUMBERS, -0.1, 1.1),
     }),
     "Scene": (Scene, {"walls": ROOM}, {

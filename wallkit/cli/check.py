@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from wallkit.cli import import_options as options
+from wallkit.cli.watching import watchable
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,6 +32,7 @@ def register(app: typer.Typer) -> None:
 
 
 @options.with_import_options()
+@watchable
 def check(
     file: options.File,
     radius: Annotated[

@@ -17,10 +17,11 @@ from importers.drawing import Drawing
 from importers.errors import WallkitError
 from importers.problems import Problem
 from wallkit.scene.ball_findings import ball_findings
-from wallkit.scene.drawn_scene import ANGLE, SPEED, Drawn, drawn_scene
+from wallkit.scene.drawn_scene import ANGLE, SPEED, Drawn, apart, drawn_scene
 from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Walls
 from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
+from wallkit.walls.origins import Marker
 
 if TYPE_CHECKING:
     from wallkit.scene.scene_files import SceneFile
@@ -144,7 +145,7 @@ def open_scene(
 
         stream = io.BytesIO(source)
         stream.name = name
-        return _of_drawing(read_drawing(stream), wishes)
+        return _of_drawing(read_drawing(stream, page=wishes.importing.page), wishes)
     if kind == "walls":
         from wallkit.walls.walls_json import loads
 
@@ -176,14 +177,15 @@ def _given(wishes: Wishes) -> np.ndarray | None:
 
 def _of_drawing(drawing: Drawing, wishes: Wishes) -> OpenedScene:
     drawn = drawn_scene(drawing, wishes.importing, _given(wishes))
-    opened = OpenedScene(Scene(drawn.walls, drawn.balls), None, None, drawing.kind or "drawing", drawn.problems)
+    scene = Scene(drawn.walls, drawn.balls, sensors=drawn.sensors)
+    opened = OpenedScene(scene, None, None, drawing.kind or "drawing", drawn.problems)
     opened.drawing = drawing
     return _completed(opened, drawn, wishes)
 
 
 def _of_walls(walls: Walls, wishes: Wishes) -> OpenedScene:
-    walls = _repaired(walls, wishes.importing, "walls")
-    return _completed(OpenedScene(Scene(walls), None, None, "walls", []), None, wishes)
+    walls, sensors = apart(_repaired(walls, wishes.importing, "walls"))
+    return _completed(OpenedScene(Scene(walls, sensors=sensors), None, None, "walls", []), None, wishes)
 
 
 def _of_scene_file(read: SceneFile, wishes: Wishes) -> OpenedScene:
@@ -238,8 +240,18 @@ def _completed(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> Open
         drag=scene.drag if wishes.drag is None else wishes.drag,
     )
     about_balls = [] if opened.found_place else ball_findings(walls, balls)
-    opened.problems = [*walls.problems, *opened.problems, *about_balls]
+    opened.problems = [*walls.problems, *opened.problems, *about_balls, *_bumpers(opened.scene.walls)]
     return opened
+
+
+def _bumpers(walls: Walls) -> list[Problem]:
+    """Say that energy grows, where it does."""
+    count = sum(material.restitution > 1.0 for material in walls.materials)
+    if not count:
+        return []
+    words = "1 wall has" if count == 1 else f"{count} walls have"
+    message = f"{words} a restitution above 1: each bounce there adds energy, and without an end a ball may collapse"
+    return [Problem("energy-grows", "info", message, "nothing to do for a bumper; else give 1 or less")]
 
 
 def _with_material(walls: Walls, wishes: Wishes) -> Walls:
@@ -260,6 +272,9 @@ def _walls_and_balls(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -
         return walls, Balls(np.array(wishes.ball), np.tile(velocity, (len(wishes.ball), 1)), wishes.radius or 0.0)
     if wishes.balls is None and len(balls):
         return walls, _changed(balls, drawn, wishes, assumed)
+    spawn = next((marker for marker in walls.markers if marker.kind == "spawn"), None)
+    if spawn is not None and wishes.balls is None:
+        return walls, _at_the_spawn(spawn, wishes, assumed)
     return _at_the_roomiest_spot(opened, wishes)
 
 
@@ -273,6 +288,14 @@ def _changed(balls: Balls, drawn: Drawn | None, wishes: Wishes, assumed: list[st
     if drawn is not None and drawn.used:
         assumed.append(f"{len(balls)} {'ball' if len(balls) == 1 else 'balls'} drawn on the layer 'balls'")
     return Balls(balls.position, balls.velocity, wishes.radius) if wishes.radius is not None else balls
+
+
+def _at_the_spawn(spawn: Marker, wishes: Wishes, assumed: list[str]) -> Balls:
+    """Give one ball where the drawing says that balls start, as large as the circle that says so."""
+    radius = spawn.radius if wishes.radius is None else wishes.radius
+    called = f"the spawn {spawn.name!r}" if spawn.name else "the spawn"
+    assumed.append(f"one ball of radius {radius:g} at {called}, ({spawn.x:.6g}, {spawn.y:.6g}) (--ball, --radius)")
+    return Balls([[spawn.x, spawn.y]], [_velocity(wishes, assumed)], radius)
 
 
 def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, Balls]:
