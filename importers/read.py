@@ -72,10 +72,25 @@ def read_drawing_text(text: str | bytes, file: str = "") -> Drawing:
     if isinstance(text, str):
         text = _to_bytes(text.removeprefix("\ufeff"))
     check_input_size(len(text), file)
-    drawing = _read_by_content(text, file)
+    drawing = _read_by_any(text, file)
     drawing.file = file
     drawing.sha256 = hashlib.sha256(text).hexdigest()
     return drawing
+
+
+def _read_by_any(data: bytes, file: str) -> Drawing:
+    """Read by one of our readers, or where none fits by one of another package."""
+    try:
+        return _read_by_content(data, file)
+    except DrawingError as error:
+        if error.code != "not-a-drawing":
+            raise
+        from importers.other_packages import read_by_other_packages
+
+        drawing = read_by_other_packages(data, file)
+        if drawing is None:
+            raise
+        return drawing
 
 
 def _to_bytes(text: str) -> bytes:
