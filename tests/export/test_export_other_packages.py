@@ -68,7 +68,7 @@ def test_what_no_reader_knows_is_still_no_drawing(tmp_path):
     ("body", "words"),
     [
         ("def both(*arguments):\n    raise KeyError('x')\n", "failed: KeyError"),
-        ("def both(*arguments):\n    return 7\n", ""),
+        ("def both(*arguments):\n    return 7\n", "failed: TypeError|returned int"),
         ("", "both"),
     ],
 )
