@@ -29,8 +29,8 @@ class ExportOptions:
             Where the y axes differ, y is mirrored about that point; without a page about the end of the box.
         page: (x_min, y_min, x_max, y_max) of the page in the drawing, or None.
         grid: coordinates are rounded to multiples of it, in target units; 0 leaves them.
-        tolerance: largest distance of lines from the arcs that they stand for, in the drawing's units; None is the walls'
-            own.
+        tolerance: largest distance of lines from the arcs that they stand for, in the drawing's units; None is
+            the walls' own.
         max_vertices: of a convex piece, at least 3.
         min_spacing: vertices nearer to the one before are left out, in target units; None is 0, and 0.0051 m for
             the Box2D family, which merges or refuses nearer ones.
