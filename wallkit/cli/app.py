@@ -22,7 +22,7 @@ app = typer.Typer(
 
 def _show_version(wanted: bool) -> None:
     if wanted:
-        from wallkit import __version__
+        from wallkit.version import __version__
 
         typer.echo(f"wallkit {__version__}")
         raise typer.Exit

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import io
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from wallkit.cli import import_options as importing
+from wallkit.cli import import_options as options
 
 if TYPE_CHECKING:
     from importers.drawing import Drawing
@@ -32,6 +32,7 @@ def _list_formats(wanted: bool) -> None:
         raise typer.Exit
 
 
+@options.with_import_options("arcs")
 def export_level(
     file: Annotated[str, typer.Argument(metavar="FILE", help="Drawing, walls or scene; - is standard input.")],
     out: Annotated[str, typer.Option("-o", "--out", metavar="OUT", help="Where to write; - is standard output.")] = "-",
@@ -41,62 +42,38 @@ def export_level(
     list_formats: Annotated[
         bool, typer.Option("--list", callback=_list_formats, is_eager=True, help="List the formats and end.")
     ] = False,
-    scale: Annotated[
+    target_scale: Annotated[
         float | None,
-        typer.Option("--scale", "--meters-per-unit", help="Target units (px, m) per unit of the drawing."),
+        typer.Option("--target-scale", "--meters-per-unit", help="Target units (px, m) per unit of the walls."),
     ] = None,
     origin: Annotated[
         str, typer.Option(metavar="page|box|X,Y", help="What becomes (0, 0); y is mirrored about it where need be.")
     ] = "page",
     grid: Annotated[float, typer.Option(metavar="G", help="Round coordinates to multiples of it.")] = 0.0,
-    tolerance: importing.Tolerance = None,
-    curves: Annotated[
-        str | None, typer.Option(help="lines or arcs; without it arcs for the formats that keep them.")
-    ] = None,
     max_vertices: Annotated[int, typer.Option(help="Of a convex piece.")] = 8,
     min_spacing: Annotated[float | None, typer.Option(metavar="D", help="Leave out vertices nearer than it.")] = None,
     arena_frame: Annotated[float | None, typer.Option(metavar="W", help="Width of the material around a room.")] = None,
     thickness: Annotated[float | None, typer.Option(metavar="W", help="Of open walls, where all is solid.")] = None,
-    layer: importing.Layer = None,
-    hidden: importing.Hidden = False,
-    arena: importing.Arena = False,
-    sides: importing.Sides = "both",
+    importing: dict[str, Any] | None = None,
 ) -> None:
     """Write walls where the level is made: Tiled, Godot, Box2D and planck, pymunk, Phaser, DXF, SVG, GeoJSON..."""
     from wallkit.cli.messages import show_problems
+    from wallkit.cli.scene_input import opened
     from wallkit.export.formats import find_format
+    from wallkit.opening import Wishes
 
     chosen = find_format(out, format)
-    wanted: dict[str, Any] = {"tolerance": tolerance, "curves": curves or ("arcs" if chosen.arcs else "lines")}
-    wanted |= {"layers": layer or None, "hidden": hidden, "arena": arena, "sides": sides}
-    walls, page = walls_of(file, wanted)
-    options: dict[str, Any] = {"scale": scale, "origin": origin, "page": page, "grid": grid, "tolerance": tolerance}
-    options |= {"max_vertices": max_vertices, "min_spacing": min_spacing}
-    options |= {"arena_frame": arena_frame, "thickness": thickness}
-    problems = write_level(walls, out, chosen.name, **options)
+    asked = options.options_of(importing or {})
+    if not chosen.arcs:  # lines within the tolerance of the curve, rather than of arcs that are near it
+        asked = replace(asked, curves="lines")
+    found = opened(file, Wishes(importing=asked, may_be_empty=True))
+    walls = found.scene.walls
+    page = None if found.drawing is None else page_of(found.drawing, asked.scale, asked.flip_y)
+    wanted: dict[str, Any] = {"scale": target_scale, "origin": origin, "page": page, "grid": grid}
+    wanted |= {"tolerance": asked.tolerance, "max_vertices": max_vertices, "min_spacing": min_spacing}
+    wanted |= {"arena_frame": arena_frame, "thickness": thickness}
+    problems = write_level(walls, out, chosen.name, **wanted)
     show_problems([*walls.problems, *problems], walls.source_file or file)
-
-
-def walls_of(file: str, importing: dict[str, Any]) -> tuple[Walls, Box | None]:
-    """Read FILE, whatever it is, as walls; with the page of a drawing that has one."""
-    from wallkit.cli.scene_input import read_input
-    from wallkit.scene_files import kind_of, read_scene
-
-    data = read_input(file)
-    kind = kind_of(data)
-    if kind == "walls":
-        from wallkit.walls.files import loads
-
-        return loads(data, file), None
-    if kind == "scene":
-        return read_scene(data, file=file, folder=Path() if file == "-" else Path(file).parent).scene.walls, None
-    from importers.read import read_drawing
-    from wallkit.walls.build import import_walls
-
-    stream = io.BytesIO(data)
-    stream.name = file
-    drawing = read_drawing(stream)
-    return import_walls(drawing, **importing), page_of(drawing)
 
 
 def page_of(drawing: Drawing, scale: float = 1.0, flip_y: bool = False) -> Box | None:

@@ -20,6 +20,7 @@ def register(app: typer.Typer) -> None:
     app.command("import")(import_drawing)
 
 
+@options.with_import_options("lines")
 def import_drawing(
     file: options.File,
     out: Annotated[
@@ -29,22 +30,7 @@ def import_drawing(
         ),
     ] = "-",
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls and all findings (.svg, .png).")] = "",
-    tolerance: options.Tolerance = None,
-    curves: options.Curves = "lines",
-    layer: options.Layer = None,
-    hidden: options.Hidden = False,
-    arena: options.Arena = False,
-    sides: options.Sides = "both",
-    scale: options.Scale = 1.0,
-    flip_y: options.FlipY = False,
-    snap: options.Snap = 0.0,
-    join: options.Join = False,
-    drop_duplicates: options.DropDuplicates = False,
-    resolve: options.Resolve = False,
-    union: options.Union = False,
-    min_width: options.MinWidth = 0.0,
-    simplify: options.Simplify = 0.0,
-    outline_strokes: options.OutlineStrokes = False,
+    importing: dict[str, Any] | None = None,
 ) -> None:
     """Turn a drawing into walls: closed and open polylines with outward normals."""
     from importers.read import read_drawing
@@ -52,33 +38,22 @@ def import_drawing(
     from wallkit.cli.messages import show_problems
     from wallkit.export.formats import known_ending
     from wallkit.walls.build import import_walls
-    from wallkit.walls.repair import Repairs
 
     _check_ending(out)
+    asked = options.options_of(importing or {})
     drawing = read_drawing(source(file))
-    repairs = Repairs(snap, join, drop_duplicates, resolve, union, min_width, simplify)
-    walls = import_walls(
-        drawing,
-        tolerance=tolerance,
-        curves=curves,
-        layers=layer or None,
-        hidden=hidden,
-        arena=arena,
-        sides=sides,
-        scale=scale,
-        flip_y=flip_y,
-        repairs=None if repairs == Repairs() else repairs,
-        outline_strokes=outline_strokes,
-    )
+    walls = import_walls(drawing, asked)
     if preview:
         draw(walls, preview)
     problems = walls.problems
     if out == "-" or not known_ending(out):
         walls.save(out)
     else:
-        problems = problems + write_level(walls, out, None, page=page_of(drawing, scale, flip_y))
+        problems = problems + write_level(walls, out, None, page=page_of(drawing, asked.scale, asked.flip_y))
     show_problems(problems, walls.source_file)
     summarise(walls)
+    if walls.solid is not None and walls.solid.how != "asked":
+        print(f"assumed: {walls.solid.sentence()}", file=sys.stderr)
 
 
 def source(file: str) -> Any:

@@ -277,13 +277,13 @@ def _spaced(walls: list[LevelWall], spacing: float, findings: Findings) -> list[
         "export-merged",
         merged,
         f"vertices within {spacing:g} of the one before are left out" if spacing else "equal vertices are one",
-        "--min-spacing sets the distance, --scale the size" if spacing else "a finer --grid",
+        "--min-spacing sets the distance, --target-scale the size" if spacing else "a finer --grid",
     )
     findings.note(
         "export-left-out",
         gone,
         "no edge is left, so the wall is left out",
-        "a larger --scale, or a finer --grid",
+        "a larger --target-scale, or a finer --grid",
         "warning",
     )
     return kept
