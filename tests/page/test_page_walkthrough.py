@@ -41,7 +41,7 @@ def served(tmp_path):
 
 def test_the_page_plays_the_level_and_keeps_its_balls(served, browser):
     from wallkit.export import ExportOptions, build_level
-    from wallkit.starts import roomiest
+    from wallkit.scene.starting_places import roomiest
 
     folder, url = served
     walls = wallkit.import_walls(ROOT / "samples" / "lagoon.ai")
