@@ -68,7 +68,7 @@ class FreeSpace:
     Attributes:
         gaps: narrowest first.
         closed_rooms: (n, 3) x, y, radius of the roomiest circle of each part that no way leads out of.
-        complete: false when the drawing was too large or too tangled to be sure.
+        complete: false when the drawing was too large or too tangled; then nothing is told.
         parts: what walls part from one another; None where there are no walls, or too many.
         solids: where material is, for balls that stand in it; None likewise.
         inside: no room is outside material, so that the rooms are those that the walls enclose.
@@ -109,7 +109,10 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     if nothing or len(edges) > MOST_EDGES:
         return FreeSpace([], np.empty((0, 3)), nothing)
     a, b = _noded(edges)
-    mesh = with_feet(triangulate(a, b))
+    coarse = triangulate(a, b)
+    mesh = None if coarse is None else with_feet(coarse)
+    if mesh is None:
+        return FreeSpace([], np.empty((0, 3)), False)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
     found = _rooms(mesh, narrow, least)
     seam = 4 * SHORTEST * diagonal(vertices)
@@ -257,7 +260,7 @@ def _rooms(mesh: Triangulation, narrow: float, least: float) -> FreeSpace:
     roots = np.unique([_find(parent, edge) for edge in np.flatnonzero(~mesh.wall).tolist()])
     closed = best[roots[np.isfinite(size[best[roots]]) & (size[best[roots]] > least)]]
     gaps = sorted(_gaps(mesh, turns, tree, notes, size, place, outside), key=lambda gap: gap.width)
-    return FreeSpace(gaps, np.column_stack([place[closed], size[closed]]), mesh.complete)
+    return FreeSpace(gaps, np.column_stack([place[closed], size[closed]]))
 
 
 def _gaps(
