@@ -19,6 +19,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from wallkit.walls.contacts import find_contacts
 from wallkit.walls.edges import Edges
 from wallkit.walls.material import Solids
 from wallkit.walls.narrows import with_feet
@@ -32,6 +33,7 @@ from wallkit.walls.validate import diagonal
 from wallkit.walls.walls import Walls
 
 MOST_EDGES = 200_000
+MOST_CROSSINGS = 20_000
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
@@ -106,7 +108,7 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
     edges = Edges(vertices, offsets, walls.closed)
     nothing = not len(edges) or diagonal(vertices) == 0
-    if nothing or len(edges) > MOST_EDGES:
+    if nothing or len(edges) > MOST_EDGES or _is_tangle(edges):
         return FreeSpace([], np.empty((0, 3)), nothing)
     a, b = _noded(edges)
     coarse = triangulate(a, b)
@@ -125,6 +127,12 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
         chosen = replace(_where_free(found, solids, False), inside=True)
     chosen = _roomier(chosen, mesh)
     return _sharpened(chosen, walls, vertices) if walls.has_arcs else chosen
+
+
+def _is_tangle(edges: Edges) -> bool:
+    """More crossings than can be looked at: all edges cut where they cross would be too many."""
+    contacts = find_contacts(edges)
+    return not contacts.complete or len(contacts.crossing_at) > MOST_CROSSINGS
 
 
 def _where_free(found: FreeSpace, solids: Solids, free: bool) -> FreeSpace:
