@@ -19,9 +19,13 @@ def drawing_from_svgpathtools(paths: Iterable[Any]) -> Drawing:
         paths: svgpathtools paths, or anything that iterates over its segments.
 
     Raises:
-        DrawingError: a segment is none of Line, QuadraticBezier, CubicBezier and Arc.
+        DrawingError: these are no paths, or a segment is none of Line, QuadraticBezier, CubicBezier and Arc.
     """
-    return Drawing(units="px", y_axis="down", kind="svgpathtools", paths=[_path(path) for path in paths])
+    try:
+        return Drawing(units="px", y_axis="down", kind="svgpathtools", paths=[_path(path) for path in paths])
+    except (AttributeError, TypeError) as error:  # something to go through, or a segment, is another thing
+        message, fix = f"these are no paths of svgpathtools: {error}", "give a list of svgpathtools.Path"
+        raise DrawingError(message, code="not-a-drawing", fix=fix) from error
 
 
 def _path(path: Iterable[Any]) -> DrawnPath:

@@ -16,6 +16,7 @@ from importers.svg.conditions import chosen, holds
 from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transform, translation
 from importers.svg.names import INKSCAPE, SODIPODI, name_of, tags_of
 from importers.svg.notes import Notes
+from importers.svg.paint import Paints
 from importers.svg.placing import element_matrix, has_transform, nested_viewport, root_viewport, use_size
 from importers.svg.references import References
 from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
@@ -71,6 +72,7 @@ class Around:
     groups: tuple[str, ...] = ()
     tags: dict[str, str] | None = None
     hidden: bool = False
+    unseen: bool = False  # it, or a group around it, has no opacity
     locked: bool = False
     chain: tuple[Any, ...] = ()  # targets of the `use`s that we are inside of
     depth: int = 0
@@ -92,6 +94,7 @@ class Reader:
         head = source.text[:4000]
         self.illustrator = "Adobe Illustrator" in head or "ns.adobe.com/AdobeIllustrator" in head
         self.inkscape_layers = bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
+        self.paints = Paints(self.references.at, self.references.referred, self._stop)
         self.layers: dict[str, Layer] = {}
         self.stack: list[tuple[Any, Around]] = []
         self.boxes: dict[Any, Box | None] = {}
@@ -126,7 +129,8 @@ class Reader:
             message = "the drawing has no size, so browsers show nothing of it; its outlines are in user units"
             self.notes.add("no-size", "warning", message, root, fix=fix)
         hidden = declared.get("display") == "none"
-        self._push_children(root, Around(matrix, style, viewport, hidden=hidden, tags={}))
+        around = Around(matrix, style, viewport, hidden=hidden, unseen=_without_opacity(declared), tags={})
+        self._push_children(root, around)
 
     def _push_children(self, element: Any, around: Around) -> None:
         if around.depth >= MAX_DEPTH:
@@ -226,6 +230,7 @@ class Reader:
             groups=groups,
             tags=tags,
             hidden=hidden,
+            unseen=around.unseen or _without_opacity(declared),
             locked=locked,
             depth=around.depth + 1,
         )
@@ -327,10 +332,10 @@ class Reader:
             message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
             self.notes.add("bad-coordinate", "error", message, element, layer=around.layer, name=name)
             return
-        fill, stroke, width = self._paint(style.fill), self._paint(style.stroke), None
-        if stroke is not None:
-            width = to_px(style.stroke_width, around.viewport.diagonal, style.font) * mean_scale(matrix)
-            width = width if width <= MAX_COORDINATE else None
+        fill, stroke, width = None, None, None
+        if not (around.unseen or _without_opacity(declared)):
+            fill = self.paints.word(style.fill) if style.fill_seen and tag != "line" else None
+            stroke, width = self._stroke(style, around.viewport, matrix)
         self.drawing.paths.append(
             DrawnPath(
                 subpaths=subpaths,
@@ -348,8 +353,19 @@ class Reader:
             )
         )
 
-    def _paint(self, paint: str | None) -> str | None:
-        return self.references.paint(paint) if paint is not None and paint[0] != "#" else paint
+    def _stroke(self, style: Style, viewport: Viewport, matrix: Matrix) -> tuple[str | None, float | None]:
+        """Give the paint and the width of a stroke that is seen; a stroke without width paints nothing."""
+        stroke = self.paints.word(style.stroke) if style.stroke_seen else None
+        if stroke is None:
+            return None, None
+        width = to_px(style.stroke_width, viewport.diagonal, style.font) * mean_scale(matrix)
+        if not width > 0:
+            return None, None
+        return stroke, width if width <= MAX_COORDINATE else None
+
+    def _stop(self, stop: Any) -> Declared:
+        """Give the declarations of a gradient's stop."""
+        return self.cascade.declared(stop, attributes_of(stop))
 
     def _report_shape(
         self, tag: str, element: Any, shape: Shape, lengths: Lengths, layer: str, name: str, matrix: Matrix
@@ -383,6 +399,12 @@ class Reader:
             )
         elif not shape.subpaths:
             self.notes.count("nothing-drawn", "info", f"<{tag}> draws nothing: {shape.nothing}", element)
+
+
+def _without_opacity(declared: Declared) -> bool:
+    """Tell whether an element and all in it is fully transparent; what has no box has no opacity of its own."""
+    opacity = declared.get("opacity")
+    return isinstance(opacity, float) and opacity <= 0 and declared.get("display") != "contents"
 
 
 def _within(subpaths: list[Subpath]) -> bool:  # every number finite and no larger than coordinates may be

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 from urllib.parse import unquote
 
 from importers.limits import MAX_ELEMENTS, MAX_REFERENCES, limit_error
 from importers.svg.notes import Notes
 from importers.svg.shapes import SHAPES
-from importers.svg.style import parse_colour
 
 _XLINK = "{http://www.w3.org/1999/xlink}href"
-_URL = re.compile(r"""url\(\s*["']?\s*([^"')]*?)\s*["']?\s*\)\s*(.*)""", re.IGNORECASE | re.DOTALL)
 
 
 class References:
@@ -36,7 +33,8 @@ class References:
                 return str(href)
         return None
 
-    def _lookup(self, element: Any) -> Any:
+    def referred(self, element: Any) -> Any:
+        """Give the element of this file that the href of another names, or None."""
         href = (self._href(element) or "").strip()
         if not href.startswith("#"):
             return None
@@ -46,7 +44,7 @@ class References:
     def target(self, element: Any, chain: tuple[Any, ...]) -> tuple[Any, str]:
         """Give what a ``use`` shows, or None and why it shows nothing."""
         href = self._href(element)
-        found = self._lookup(element)
+        found = self.referred(element)
         if found is None:
             if href is None:
                 return None, "a use without href"
@@ -59,18 +57,9 @@ class References:
             return None, f"{href!r} contains this very use, so it shows nothing"
         return found, ""
 
-    def paint(self, text: str) -> str | None:
-        """Give the word for a paint: ``gradient``, ``pattern``, or the colour that stands in for a missing one."""
-        match = _URL.fullmatch(text.strip())
-        if match is None:
-            return None
-        server = self._ids.get(match[1][1:]) if match[1].startswith("#") else None
-        tag = server.tag.rpartition("}")[2] if server is not None else ""
-        if tag in ("linearGradient", "radialGradient"):
-            return "gradient"
-        if tag == "pattern":
-            return "pattern"
-        return parse_colour(match[2]) if match[2] else None
+    def at(self, address: str) -> Any:
+        """Give the element that ``#id`` names, or None."""
+        return self._ids.get(address[1:]) if address.startswith("#") else None
 
     def _check_size(self) -> None:
         """Count what all references together unfold to, each target once: a small file can ask for billions.
@@ -88,7 +77,7 @@ class References:
                 continue
             parts = [c for c in element.iterchildren("*") if c.tag != self._prefix + "defs" or element is self._root]
             if element.tag == self._prefix + "use":
-                target = self._lookup(element)
+                target = self.referred(element)
                 if target is not None:
                     parts.append(target)
             missing = [part for part in parts if part not in sizes and part not in open_now]
@@ -112,7 +101,7 @@ class References:
 
     def report(self, notes: Notes) -> None:
         """Count the shapes that are there only to be referred to, and that nothing does draw."""
-        used = {self._lookup(use) for use in self._uses}
+        used = {self.referred(use) for use in self._uses}
         shapes = [self._prefix + tag for tag in SHAPES]
         for element in self.kept_back:
             tag = element.tag[len(self._prefix) :]

@@ -13,10 +13,10 @@ from functools import lru_cache
 from typing import Any, Literal
 
 import tinycss2
-import tinycss2.color4
 
+from importers.svg.paint import NOTHING, parse_colour
 from importers.svg.transforms import parse_transform_attribute, parse_transform_property
-from importers.svg.units import ROOT_FONT, Font, Terms, parse_length, to_px, too_nested
+from importers.svg.units import ROOT_FONT, Font, Terms, parse_length, to_px, too_nested, units_of
 
 # Where a declaration stands: browsers read an attribute, a ``style`` attribute and a style sheet each a little
 # differently (numbers without units).
@@ -28,7 +28,18 @@ INHERIT = "inherit"  # also stands for "unset" of an inherited property
 INITIAL = "initial"
 _WIDE = {"inherit": INHERIT, "initial": INITIAL, "unset": "unset", "revert": "unset", "revert-layer": "unset"}
 _INHERITED = frozenset(
-    ("fill", "stroke", "stroke-width", "fill-rule", "color", "visibility", "font-size", "line-height")
+    (
+        "fill",
+        "stroke",
+        "stroke-width",
+        "fill-rule",
+        "fill-opacity",
+        "stroke-opacity",
+        "color",
+        "visibility",
+        "font-size",
+        "line-height",
+    )
 )
 _KEYWORDS = {
     "visibility": frozenset(("visible", "hidden", "collapse")),
@@ -53,11 +64,13 @@ class Style:
     """What an element hands down to its children.
 
     Attributes:
-        fill: ``"#rrggbb"``, ``"pattern"``, ``"gradient"``, or None.
+        fill: ``"#rrggbb"``, ``url(...)`` with what stands in for it, or None.
         stroke: the same.
         stroke_width: as a length, resolved where it is used.
         fill_rule: ``"nonzero"`` or ``"evenodd"``.
-        color: what ``currentColor`` means, as ``"#rrggbb"``.
+        fill_seen: the fill has some opacity.
+        stroke_seen: the stroke has some opacity.
+        color: what ``currentColor`` means, as ``"#rrggbb"`` or ``"none"``.
         visible: ``visibility`` is ``visible``.
         font: for font units.
         line_factor: ``line-height`` as a bare number, which children multiply by their own font size.
@@ -67,6 +80,8 @@ class Style:
     stroke: str | None = None
     stroke_width: Terms = ((1.0, "px"),)
     fill_rule: str = "nonzero"
+    fill_seen: bool = True
+    stroke_seen: bool = True
     color: str = "#000000"
     visible: bool = True
     font: Font = ROOT_FONT
@@ -122,19 +137,12 @@ def _paint(text: str, origin: Origin) -> str | None:
     return parse_colour(word)
 
 
-def parse_colour(text: str) -> str | None:
-    """Read a CSS colour to ``"#rrggbb"``; None for what is none. Transparency is not kept."""
-    try:
-        colour = tinycss2.color4.parse_color(text.strip())
-    except (ValueError, TypeError, ZeroDivisionError, OverflowError):
+def _opacity(text: str, origin: Origin) -> float | None:
+    """Read an opacity: a number or a percentage."""
+    terms = parse_length(text, True)
+    if terms is None or any(unit not in ("", "%") for unit in units_of(terms)):
         return None
-    if colour is None or isinstance(colour, str):
-        return "currentcolor" if colour == "currentcolor" else None
-    try:
-        srgb = colour.to("srgb")
-        return "#" + "".join(f"{min(255, max(0, round(float(v or 0) * 255))):02x}" for v in srgb.coordinates[:3])
-    except (NotImplementedError, ValueError, TypeError, AttributeError, OverflowError):
-        return None
+    return to_px(terms, 1.0, ROOT_FONT)
 
 
 def _font_size(text: str, origin: Origin) -> Any:
@@ -231,6 +239,8 @@ _PARSERS: dict[str, Callable[[str, Origin], Any]] = {
     "fill": _paint,
     "stroke": _paint,
     "color": lambda text, origin: parse_colour(text),
+    **dict.fromkeys(("opacity", "fill-opacity", "stroke-opacity", "stop-opacity"), _opacity),
+    "stop-color": lambda text, origin: parse_colour(text),
     "stroke-width": _positive,
     "font-size": _font_size,
     "line-height": _line_height,
@@ -350,6 +360,9 @@ def inherit(parent: Style, declared: Declared) -> Style:
     for name in ("fill", "stroke"):
         if name in declared and declared[name] != INHERIT:
             changes[name] = _used_paint(declared[name], "#000000" if name == "fill" else None, colour)
+    for name, field in (("fill-opacity", "fill_seen"), ("stroke-opacity", "stroke_seen")):
+        if declared.get(name, INHERIT) != INHERIT:
+            changes[field] = declared[name] == INITIAL or declared[name] > 0
     if declared.get("stroke-width", INHERIT) != INHERIT:
         value = declared["stroke-width"]
         changes["stroke_width"] = ((1.0, "px"),) if value == INITIAL else value
@@ -363,10 +376,10 @@ def inherit(parent: Style, declared: Declared) -> Style:
 def _used_paint(value: str, initial: str | None, colour: str) -> str | None:
     if value == INITIAL:
         return initial
-    if value == "none":
-        return None
     if value == "currentcolor":
-        return colour
+        value = colour
+    if value == NOTHING:
+        return None
     if value.lower().startswith("url("):
         return value
     return value if value.startswith("#") else None

@@ -143,19 +143,20 @@ _PICKS: dict[str, Callable[[list[float]], float]] = {
 
 def needs_window(terms: Terms) -> bool:
     """Tell whether a length depends on the browser's window."""
-    return any(unit in _WINDOW_UNITS for unit in _units(terms))
+    return any(unit in _WINDOW_UNITS for unit in units_of(terms))
 
 
 def needs_metrics(terms: Terms) -> bool:
     """Tell whether a length depends on the proportions of a font that is not at hand."""
-    return any(unit in _FONT_UNITS and unit not in ("em", "rem") for unit in _units(terms))
+    return any(unit in _FONT_UNITS and unit not in ("em", "rem") for unit in units_of(terms))
 
 
-def _units(terms: Terms) -> Iterator[str]:
+def units_of(terms: Terms) -> Iterator[str]:
+    """Give the units of a length, those within ``min()`` and the like too."""
     for _, unit in terms:
         if isinstance(unit, tuple):
             for argument in unit[1]:
-                yield from _units(argument)
+                yield from units_of(argument)
         else:
             yield unit
 

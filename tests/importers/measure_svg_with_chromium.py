@@ -4,9 +4,10 @@
 
 The numbers in the tests come from this and from nothing of ours. Each drawing is put into a page, and the
 browser is asked for the matrix of every shape to the px of the outermost svg (getScreenCTM), for points along it
-(getPointAtLength) and for its local box (getBBox). What a `use` shows cannot be asked directly, so each `use` is
-first replaced by a copy of what it shows, as SVG 2 (5.6) describes. Drawings without a size get that of their
-viewBox, so that one user unit is one px.
+(getPointAtLength), for its local box (getBBox) and for its computed paint. "paint" says whether fill and stroke put
+any colour on the screen, which a canvas tells by filling a pixel with it. What a `use` shows cannot be asked
+directly, so each `use` is first replaced by a copy of what it shows, as SVG 2 (5.6) describes. Drawings without a
+size get that of their viewBox, so that one user unit is one px.
 """
 
 import argparse
@@ -50,6 +51,37 @@ function unfold(root) {
     outer.append(inner);
   }
 }
+const pixel = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
+function coloured(paint) {  // does a pixel filled with it have any opacity
+  pixel.clearRect(0, 0, 1, 1);
+  pixel.fillStyle = '#000';
+  pixel.fillStyle = paint;
+  pixel.fillRect(0, 0, 1, 1);
+  return pixel.getImageData(0, 0, 1, 1).data[3] > 0;
+}
+function seen(root, paint, opacity) {
+  if (paint == 'none' || !(opacity > 0)) return false;
+  const [, address, instead] = paint.match(/^url\("(.*?)"\) ?(.*)$/) ?? [, '', paint];
+  const server = address[0] == '#' ? root.querySelector('#' + CSS.escape(address.slice(1))) : null;
+  if (!/^(linearGradient|radialGradient|pattern)$/.test(server?.localName))
+    return !['', 'none'].includes(instead) && coloured(instead);
+  let holder = server;  // of the stops, or of the tile
+  for (let n = 0; n < 9 && holder && !holder.firstElementChild; n++)
+    holder = root.querySelector('#' + CSS.escape((holder.href.baseVal || '').slice(1) || '-'));
+  if (server.localName == 'pattern') return Boolean(holder?.firstElementChild);
+  return [...(holder?.children ?? [])].some(stop => {
+    const style = getComputedStyle(stop);
+    return style.stopOpacity > 0 && coloured(style.stopColor);
+  });
+}
+function painted(root, div, el) {
+  for (let n = el; n != div; n = n.parentElement)
+    if (getComputedStyle(n).display != 'contents' && !(getComputedStyle(n).opacity > 0)) return '';
+  const style = getComputedStyle(el), found = [];
+  if (el.localName != 'line' && seen(root, style.fill, style.fillOpacity)) found.push('fill');
+  if (parseFloat(style.strokeWidth) > 0 && seen(root, style.stroke, style.strokeOpacity)) found.push('stroke');
+  return found.join(' ');
+}
 function measure(text) {
   const root = document.importNode(new DOMParser().parseFromString(text, 'image/svg+xml').documentElement, true);
   const div = document.createElement('div');
@@ -80,7 +112,9 @@ function measure(text) {
     const xs = points.map(p => p[0]), ys = points.map(p => p[1]);
     const round = v => Math.round(v * 1e4) / 1e4;
     shapes.push({
-      tag, box: [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)].map(round),
+      tag,
+      paint: painted(root, div, el),
+      box: [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)].map(round),
       points: [0, 1, 2, 3, 4].map(i => points[i * 900 + 100].map(round)),
     });
   }

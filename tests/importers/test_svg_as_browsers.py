@@ -22,6 +22,11 @@ def visible(story):
     return [path for path in drawing.paths if path.visible]
 
 
+def painted(path):
+    """Whether fill and stroke put any colour on the screen, as the measuring script has it."""
+    return " ".join(name for name in ("fill", "stroke") if getattr(path, name) is not None)
+
+
 def test_every_drawing_has_been_measured():
     assert sorted(EXPECTED) == sorted(file.stem for file in HERE.glob("*.svg"))
 
@@ -32,6 +37,7 @@ def test_the_shapes_that_a_browser_renders_where_it_renders_them_and_no_others(s
     assert len(paths) == len(shapes)
     for path, shape in zip(paths, shapes, strict=True):
         near = TOLERANCE + 1e-6 * max(map(abs, shape["box"]))
+        assert painted(path) == shape["paint"]
         assert box(path) == pytest.approx(shape["box"], abs=near)
         assert box_of([path]) == pytest.approx(shape["box"], abs=near)
         for point in shape["points"]:

@@ -15,6 +15,8 @@ from importers.boxes import box_of_segments
 from importers.errors import DrawingError, LimitError
 from importers.svg import looks_like_svg, read_svg
 from importers.svg.matrix import multiply, rotation, transform
+from importers.svg.reader import Reader
+from importers.svg.source import parse
 
 NS = (
     'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
@@ -104,7 +106,8 @@ def test_data_attributes_become_tags_and_come_down_from_groups():
 
 def test_paint_is_inherited_resolved_and_named():
     drawing = svg(
-        '<linearGradient id="l"/><pattern id="p"/><g fill="currentColor" color="rgb(10%,20%,30%)" stroke-width="2">'
+        '<linearGradient id="l"><stop/></linearGradient><pattern id="p"><path d="M0 0h1v1z"/></pattern>'
+        '<g fill="currentColor" color="rgb(10%,20%,30%)" stroke-width="2">'
         '<rect width="1" height="1" transform="scale(2 8)" stroke="red"/><rect width="1" height="1" fill="url(#l)"/>'
         '<rect width="1" height="1" fill="url(#p)" fill-rule="evenodd"/>'
         '<rect width="1" height="1" fill="url(#none) lime" stroke="url(#none)"/><rect width="1" height="1" fill="qwe"/>'
@@ -333,3 +336,23 @@ def test_every_code_of_the_reader_is_in_the_list_for_people():
     assert {"bad-path-data", "not-a-drawing", "css-skipped", "text-left-out", "bad-points", "no-size"} <= found
     listed = set(re.findall(r"`([a-z-]+)`", (root / "docs" / "problems.md").read_text("utf-8")))
     assert found <= listed
+
+
+def test_an_open_outline_in_a_group_that_is_filled_without_opacity_is_not_filled_and_its_json_says_null():
+    drawing = svg(
+        '<g style="fill:#000000; fill-opacity:0.0; stroke:#000000; stroke-width:0.5; stroke-opacity:1;">'
+        '<path d="M30 10 A20 20 0 0 0 10 30"/></g>'
+    )
+    written = drawing.to_json()["paths"][0]
+    assert (written["fill"], written["stroke"], written["stroke_width"]) == (None, "#000000", 0.5)
+
+
+def test_a_chain_of_gradients_is_looked_at_once_whatever_asks_for_it():
+    chain = "".join(f'<linearGradient id="g{i}" href="#g{i + 1}"/>' for i in range(2000))
+    shapes = "".join(f'<rect width="1" height="1" fill="url(#g{i})"/>' for i in range(2000))
+    reading = Reader(parse(f"<svg {NS}>{chain}{shapes}</svg>", ""))
+    asked = []
+    follow = reading.paints._target
+    reading.paints._target = lambda element: asked.append(element) or follow(element)
+    assert {path.fill for path in reading.read().paths} == {None}
+    assert len(asked) == 2000

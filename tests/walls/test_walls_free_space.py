@@ -260,3 +260,15 @@ def test_a_ball_in_the_smaller_room_is_shut_in_and_one_in_the_larger_is_shut_out
         for radius, start in ((2.1, (20, 20)), (2.1, (60, 20)), (1.9, (20, 20)))
     ]
     assert codes == [["unreachable"], ["shut-in"], []]
+
+
+def test_a_room_whose_outline_closes_with_an_edge_as_short_as_rounding_is_a_room():
+    """Relative coordinates with few digits miss the first point by a little, and `z` closes that with a short edge."""
+    corners = [(300 * math.cos(k * math.tau / 40), 200 * math.sin(k * math.tau / 40)) for k in range(40)]
+    corners.append((300.0 - 1.6e-4, 0.0))
+    space = free_space(import_walls(drawing(path(polygon(*corners)), path(square(-100, -20, 60))), arena=True))
+    free = shapely.difference(shapely.Polygon(corners), shapely.box(-100, -20, -40, 40))
+    largest = shapely.length(shapely.maximum_inscribed_circle(free, tolerance=0.01))
+    assert space.gaps == []
+    # Without the room the block's own inside would be all that there is, of radius 30.
+    assert max(r for _, _, r in space.closed_rooms.tolist()) == pytest.approx(largest, rel=2e-3)

@@ -119,8 +119,13 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     found = _rooms(mesh, narrow, least)
     seam = 4 * SHORTEST * diagonal(vertices)
     solids = Solids.of(walls, edges)
+    sealed = [(*gap.room, gap.room_radius) for gap in found.gaps if gap.width <= seam]  # closed, but for rounding
     found = replace(
-        found, gaps=[gap for gap in found.gaps if gap.width > seam], parts=Parts.of(mesh, seam), solids=solids
+        found,
+        gaps=[gap for gap in found.gaps if gap.width > seam],
+        closed_rooms=np.concatenate([found.closed_rooms, np.array(sealed).reshape(-1, 3)]),
+        parts=Parts.of(mesh, seam),
+        solids=solids,
     )
     chosen = _where_free(found, solids, True)
     if not len(chosen.gaps) and not len(chosen.closed_rooms):
