@@ -34,8 +34,8 @@ CHILD = """
 import json, resource, sys, time
 import numpy as np
 import importers.drawing as d
-from wallkit.walls.build import import_walls
-from wallkit.walls.free_space import free_space
+from wallkit.walls.importing.pipeline import import_walls
+from wallkit.walls.checking.free_space import free_space
 n, looks, code = int(sys.argv[1]), sys.argv[2] == "True", sys.argv[3]
 rng = np.random.default_rng(1)
 SQUARE = [(-300, -300), (300, -300), (300, 300), (-300, 300)]

@@ -11,11 +11,11 @@ import pytest
 import shapely
 from drawn import drawing, line, path, polygon, square
 
-from wallkit.walls import Walls, contacts
-from wallkit.walls.build import import_walls
-from wallkit.walls.edges import Edges
-from wallkit.walls.free_space import free_space
-from wallkit.walls.leaks import leak_problems, reach_of
+from wallkit.walls import Walls, crossings
+from wallkit.walls.checking.free_space import free_space
+from wallkit.walls.checking.leaks import leak_problems, reach_of
+from wallkit.walls.edge_tree import Edges
+from wallkit.walls.importing.pipeline import import_walls
 
 BOUNDED = """
 import resource, sys
@@ -23,11 +23,11 @@ resource.setrlimit(resource.RLIMIT_DATA, (512 << 20, 512 << 20))
 resource.setrlimit(resource.RLIMIT_CPU, (25, 25))
 import numpy as np
 from wallkit.walls import Walls
-from wallkit.walls.contacts import find_contacts
-from wallkit.walls.edges import Edges
-from wallkit.walls.free_space import free_space
+from wallkit.walls.crossings import find_contacts
+from wallkit.walls.edge_tree import Edges
+from wallkit.walls.checking.free_space import free_space
 from wallkit.walls.nesting import depths
-from wallkit.walls.validate import validate
+from wallkit.walls.checking.self_check import validate
 rng = np.random.default_rng(4)
 walls = {}
 found = validate(walls)
@@ -70,18 +70,18 @@ def test_a_tangle_ends_within_its_bounds_and_says_what_is_not_known(walls, told)
 
 
 def looked_at(monkeypatch, walls):
-    """How many pairs of edges are looked at for contacts."""
+    """How many pairs of edges are looked at for crossings."""
     count = 0
-    inner = contacts._classify
+    inner = crossings._classify
 
     def counted(edges, first, second):
         nonlocal count
         count += len(first)
         return inner(edges, first, second)
 
-    monkeypatch.setattr(contacts, "_classify", counted)
-    contacts.find_contacts(Edges(walls.vertices, walls.offsets, walls.closed))
-    monkeypatch.setattr(contacts, "_classify", inner)
+    monkeypatch.setattr(crossings, "_classify", counted)
+    crossings.find_contacts(Edges(walls.vertices, walls.offsets, walls.closed))
+    monkeypatch.setattr(crossings, "_classify", inner)
     return count
 
 
