@@ -6,9 +6,10 @@ from collections.abc import Callable
 from typing import Any
 
 from importers.boxes import Box
+from importers.svg.inheritance import Style
 from importers.svg.matrix import IDENTITY, Matrix, multiply, translation
 from importers.svg.shapes import Lengths
-from importers.svg.style import Declared, Style
+from importers.svg.style import Declared
 from importers.svg.transforms import resolve
 from importers.svg.units import Font, Viewport, parse_length, to_px
 from importers.svg.viewbox import fit, parse_view_box
