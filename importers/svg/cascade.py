@@ -11,7 +11,7 @@ from importers.svg.declarations import Winners, winners
 from importers.svg.inheritance import Style, inherit
 from importers.svg.media import matches_media
 from importers.svg.notes import Notes
-from importers.svg.sheet import Sheet
+from importers.svg.sheet import Report, Sheet
 from importers.svg.style import (
     INHERITED,
     PRESENTATION,
@@ -53,12 +53,11 @@ class Cascade:
                 texts.append((element, _FONT_FACE.sub("", "".join(element.itertext()))))
             else:
                 notes.count("css-skipped", "info", f"a style sheet for {(media or kind)[:60]} is left out", element)
-        self._element = texts[0][0] if texts else root
         self._inlines: dict[str, Winners] = {}
         self._kept: list[Style] = []
         self._styles: dict[tuple[int, tuple[tuple[str, Any], ...]], Style] = {}
         self._charge(sum(len(text) for _, text in texts))
-        self._sheet = Sheet([text for _, text in texts], root, self._report, work)
+        self._sheet = Sheet([text for _, text in texts], root, _reporter(notes, texts[0][0] if texts else root), work)
 
     def _charge(self, letters: int) -> None:
         """Count letters of CSS against their limit, and the steps that the slow parser takes."""
@@ -77,10 +76,6 @@ class Cascade:
                 found = parse_any_inline(text)
             kept = self._inlines[text] = winners(found)
         return kept
-
-    def _report(self, code: str, severity: Severity, message: str) -> None:
-        fix = "write the style on the elements" if severity == "warning" else ""
-        self._notes.count(code, severity, message, self._element, fix=fix)
 
     def declared(
         self, element: Any, attributes: dict[str, str], around: Style, chain: tuple[Any, ...] = ()
@@ -168,3 +163,13 @@ class Cascade:
         if style is None:
             style = self._styles[key] = inherit(parent, declared)
         return style
+
+
+def _reporter(notes: Notes, element: Any) -> Report:
+    """Give what a sheet says things to; it holds no cascade, so that nothing waits for the cycle collector."""
+
+    def report(code: str, severity: Severity, message: str) -> None:
+        fix = "write the style on the elements" if severity == "warning" else ""
+        notes.count(code, severity, message, element, fix=fix)
+
+    return report

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from importers.numbers import finite
-from importers.svg.paint import NOTHING
+from importers.svg.colour import NOTHING
 from importers.svg.style import INHERIT, INITIAL, VARIABLES, Declared
 from importers.svg.units import ROOT_FONT, Font, Terms, to_px
 

@@ -72,7 +72,7 @@ class Reader:
         head = source.text[:4000]
         self.illustrator = "Adobe Illustrator" in head or "ns.adobe.com/AdobeIllustrator" in head
         self.inkscape_layers = bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
-        self.paints = Paints(self.references.at, self.references.referred, self._stop)
+        self.paints = Paints(self.references, self.cascade, source)
         self.layers: dict[str, Layer] = {}
         self.stack: list[tuple[Any, Around]] = []
         self.shapes: dict[Any, Shape] = {}
@@ -372,10 +372,6 @@ class Reader:
         if width <= 0:
             return None, None
         return stroke, width if width <= MAX_COORDINATE else None
-
-    def _stop(self, stop: Any) -> Declared:
-        """Give the declarations of a gradient's stop."""
-        return self.cascade.declared(stop, self.source.attributes(stop), self.initial)
 
 
 def _without_opacity(declared: Declared) -> bool:

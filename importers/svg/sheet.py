@@ -217,17 +217,8 @@ class Sheet:
         steps = len(prelude) // 16
         for selector in selectors:
             if steps:
-                selector.test = self._charged(selector.test, steps)
+                selector.test = _charged(selector.test, steps, self._work)
         return [selector for selector in selectors if selector.pseudo_element is None]
-
-    def _charged(self, test: Callable[[Any], bool], steps: int) -> Callable[[Any], bool]:
-        """Give a selector's test that is paid for by the length of the selector."""
-
-        def charged(element: Any) -> bool:
-            self._work.charge("selectors", steps)
-            return test(element)
-
-        return charged
 
     def matches(self, element: Any, root: Any) -> list[Winners]:
         """Give the blocks of the rules that match, the weaker before the stronger.
@@ -251,6 +242,16 @@ class Sheet:
         found = [match[3] for match in matcher.match(wrapper)]
         self._work.charge("declarations", sum(1 + len(one.normal) + len(one.important) for one in found))
         return found
+
+
+def _charged(test: Callable[[Any], bool], steps: int, work: Work) -> Callable[[Any], bool]:
+    """Give a selector's test that is paid for by the length of the selector."""
+
+    def charged(element: Any) -> bool:
+        work.charge("selectors", steps)
+        return test(element)
+
+    return charged
 
 
 class _Simple:

@@ -15,7 +15,7 @@ from typing import Any, Literal
 import tinycss2
 
 from importers.numbers import NumberError
-from importers.svg.paint import parse_colour
+from importers.svg.colour import parse_colour
 from importers.svg.transforms import parse_transform_attribute, parse_transform_property
 from importers.svg.units import ROOT_FONT, Terms, parse_length, to_px, units_of, unreadable
 

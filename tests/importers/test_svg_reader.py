@@ -347,8 +347,8 @@ def test_a_chain_of_gradients_is_looked_at_once_whatever_asks_for_it():
     shapes = "".join(f'<rect width="1" height="1" fill="url(#g{i})"/>' for i in range(2000))
     reading = Reader(parse(f"<svg {NS}>{chain}{shapes}</svg>", ""))
     asked = []
-    follow = reading.paints._target
-    reading.paints._target = lambda element: asked.append(element) or follow(element)
+    follow = reading.references.referred
+    reading.references.referred = lambda element: asked.append(element) or follow(element)
     assert {path.fill for path in reading.read().paths} == {None}
     assert len(asked) == 2000
 
