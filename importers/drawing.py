@@ -163,6 +163,7 @@ class Drawing(Pictured):
         file: its name as given; ``"-"`` for standard input, ``""`` for text.
         sha256: hex digest of the bytes that were read.
         artboards: where the file names them (Illustrator CS4 and later).
+        page: the box (x_min, y_min, x_max, y_max) of the page or picture that is read; None where there is none.
     """
 
     units: str
@@ -174,6 +175,7 @@ class Drawing(Pictured):
     file: str = ""
     sha256: str = ""
     artboards: list[Artboard] = field(default_factory=list)
+    page: tuple[float, float, float, float] | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Give the whole as the stable ``wallkit-drawing`` format, version 1."""

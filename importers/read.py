@@ -11,6 +11,7 @@ from typing import IO, Any
 from importers.drawing import Drawing
 from importers.errors import DrawingError
 from importers.limits import MAX_INPUT_BYTES, Unpacker, check_input_size
+from importers.pages import note_background
 
 _GZIP = b"\x1f\x8b"
 _SAVE = "save it as SVG or as Illustrator 8 from your drawing program"
@@ -74,6 +75,7 @@ def read_drawing_text(text: str | bytes, file: str = "") -> Drawing:
     check_input_size(len(text), file)
     drawing = _read_by_content(text, file)
     drawing.file = file
+    note_background(drawing)
     drawing.sha256 = hashlib.sha256(text).hexdigest()
     return drawing
 

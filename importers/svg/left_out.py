@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from importers.boxes import box_of
+from importers.drawing import DrawnPath
 from importers.svg.matrix import Matrix, transform
 from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS
 from importers.svg.notes import Notes
 from importers.svg.references import References
+from importers.svg.regions import EVERYWHERE, Region
 from importers.svg.shapes import Lengths, Shape
 
 _NEVER = frozenset(("defs", "clipPath", "mask", "pattern", "marker", "symbol"))
@@ -98,3 +101,36 @@ def note_shape(
         )
     elif not shape.subpaths:
         notes.count("nothing-drawn", "info", f"<{tag}> draws nothing: {shape.nothing}", element)
+
+
+def note_unseen(tag: str, element: Any, path: DrawnPath, page: Region, clip: Region, notes: Notes) -> None:
+    """Say that not all of a shape, or nothing of it, is seen for a clip, a mask or the end of the picture.
+
+    Args:
+        tag: of the element.
+        element: the shape.
+        path: what it draws.
+        page: what the picture and the viewports in it show.
+        clip: what clips and masks leave of it.
+        notes: to say it to.
+    """
+    x, y = start = path.subpaths[0].segments[0][1:]
+    if clip.box == EVERYWHERE and clip.exact and not page.misses((x, y, x, y)):
+        return  # its first point is seen, and nothing cuts it
+    box = box_of([path])
+    if box is None:
+        return
+    reach = 2.0 * (path.stroke_width or 0.0)  # half the width, as far as a corner of it may jut out
+    wide = (box[0] - reach, box[1] - reach, box[2] + reach, box[3] + reach)
+    if clip.misses(wide):
+        message = f"<{tag}> is wholly outside its clip, so nothing of it is seen"
+        fix = "delete it if it is to be no wall"
+        notes.add("outside-clip", "warning", message, element, fix=fix, layer=path.layer, name=path.name, at=start)
+    elif page.misses(wide):
+        message = f"<{tag}> is wholly outside the picture, so nothing of it is seen"
+        fix = "delete it if it is to be no wall, or make the picture larger"
+        notes.add("outside-picture", "warning", message, element, fix=fix, layer=path.layer, name=path.name, at=start)
+    if clip.cuts(wide):
+        message = "a shape under a clip path or a mask is taken whole"
+        fix = "cut it in the drawing program if its walls are to end there"
+        notes.count("clip-not-applied", "warning", message, element, fix=fix)

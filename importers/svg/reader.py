@@ -5,6 +5,7 @@ The walk keeps its own stack, so no depth of groups or chain of references can e
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,15 +14,17 @@ from importers.drawing import Drawing, DrawnPath, Layer, Subpath
 from importers.limits import LETTERS_OF_A_STEP, MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.numbers import NumberError
 from importers.svg.cascade import Cascade
+from importers.svg.clipping import Clips
 from importers.svg.conditions import chosen, holds
 from importers.svg.inheritance import Style
-from importers.svg.left_out import NO_GEOMETRY, note_foreign, note_shape, note_skipped
+from importers.svg.left_out import NO_GEOMETRY, note_foreign, note_shape, note_skipped, note_unseen
 from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transform, translation
 from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS, name_of, tags_of
 from importers.svg.notes import Notes
 from importers.svg.paint import Paints
 from importers.svg.placing import DEFAULT_SIZE, element_matrix, has_transform, nested_viewport, root_viewport, use_size
 from importers.svg.references import References
+from importers.svg.regions import ALL, Region
 from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
 from importers.svg.source import Source
 from importers.svg.style import Declared
@@ -50,6 +53,8 @@ class Around:
     groups: tuple[str, ...] = ()
     tags: dict[str, str] | None = None
     hidden: bool = False
+    page: Region = ALL  # what the picture and the viewports in it show
+    clip: Region = ALL  # what clips and masks leave
     unseen: bool = False  # it, or a group around it, has no opacity
     locked: bool = False
     chain: tuple[Any, ...] = ()  # targets of the `use`s that we are inside of
@@ -73,6 +78,7 @@ class Reader:
         self.illustrator = "Adobe Illustrator" in head or "ns.adobe.com/AdobeIllustrator" in head
         self.inkscape_layers = bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
         self.paints = Paints(self.references, self.cascade, source)
+        self.clips = Clips(self.references, self.cascade, source, self.prefix)
         self.layers: dict[str, Layer] = {}
         self.stack: list[tuple[Any, Around]] = []
         self.shapes: dict[Any, Shape] = {}
@@ -127,19 +133,22 @@ class Reader:
         declared = self.cascade.declared(root, self.source.attributes(root), self.initial)
         try:
             style = self.cascade.inherited(self.initial, declared)
-            matrix, viewport, shown = root_viewport(root, declared, style.font)
+            matrix, viewport, page = root_viewport(root, declared, style.font)
         except NumberError as error:
             message = "a number of the svg element is too large; the outlines are in user units"
             fix = "write a smaller number"
             place = error.attribute if error.attribute and error.attribute in root.attrib else ""
             self.notes.add("bad-number", "error", message, root, fix=fix, attribute=place, offset=error.offset)
-            style, matrix, viewport, shown = self.initial, IDENTITY, Viewport(*DEFAULT_SIZE), True
-        if not shown:
+            style, matrix, viewport, page = self.initial, IDENTITY, Viewport(*DEFAULT_SIZE), None
+        if page is None:
             fix = "give the svg element a width, a height and a viewBox above 0"
             message = "the drawing has no size, so browsers show nothing of it; its outlines are in user units"
             self.notes.add("no-size", "warning", message, root, fix=fix)
         hidden = declared.get("display") == "none"
-        around = Around(matrix, style, viewport, hidden=hidden, unseen=_without_opacity(declared), tags={})
+        self.drawing.page = page
+        region = ALL if page is None else Region(page)
+        around = Around(matrix, style, viewport, page=region, hidden=hidden, unseen=_without_opacity(declared), tags={})
+        around = replace(around, clip=self._clip(declared, around, matrix, lambda: None))
         self._push_children(root, around)
 
     def _push_children(self, element: Any, around: Around) -> None:
@@ -176,7 +185,7 @@ class Reader:
         if tag == "use":
             self._use(element, attributes, declared, inside)
         elif tag == "svg":
-            self._nested(element, attributes, inside)
+            self._nested(element, attributes, declared, inside)
         elif tag == "switch":
             picked = chosen(element, self.prefix)
             for child in element.iterchildren("*"):
@@ -218,6 +227,7 @@ class Reader:
             layer=layer,
             groups=groups,
             tags=tags,
+            clip=self._clip(declared, around, matrix, lambda: self._box_of(tag, element, attributes, around, style)),
             hidden=hidden,
             unseen=around.unseen or _without_opacity(declared),
             locked=locked,
@@ -232,20 +242,38 @@ class Reader:
                 fix = "write the transform without transform-box"
                 self.notes.count("box-in-box", "error", "transform-box in transform-box is too deep", element, fix=fix)
                 return None
-            saved = self.stack, self.drawing, self.notes, self.layers
-            self.stack, self.drawing = [], Drawing(units="px", y_axis="down")
-            self.notes, self.layers = Notes(self.source), {}
-            self.aside += 1
             inside = replace(around, matrix=IDENTITY, style=style, depth=around.depth + 1)
             if tag == "use":
-                self._use(element, attributes, {}, inside)
+                paths = self._aside(lambda: self._use(element, attributes, {}, inside))
             else:
-                self._push_children(element, inside)
+                paths = self._aside(lambda: self._push_children(element, inside))
+            self.boxes[key] = box_of(paths)
+        return self.boxes[key]
+
+    def _aside(self, push: Callable[[], None]) -> list[DrawnPath]:
+        """Read on the side what a function puts on the stack: nothing of it is drawn, said or a layer."""
+        saved = self.stack, self.drawing, self.notes, self.layers
+        self.stack, self.drawing = [], Drawing(units="px", y_axis="down")
+        self.notes, self.layers = Notes(self.source), {}
+        self.aside += 1
+        try:
+            push()
             self._walk()
-            self.boxes[key] = box_of(self.drawing.paths)
+            return self.drawing.paths
+        finally:
             self.aside -= 1
             self.stack, self.drawing, self.notes, self.layers = saved
-        return self.boxes[key]
+
+    def _shapes_aside(self, children: list[Any], matrix: Matrix, style: Style, viewport: Viewport) -> list[DrawnPath]:
+        """Give what elements draw by themselves."""
+        return self._aside(lambda: self.stack.extend((child, Around(matrix, style, viewport)) for child in children))
+
+    def _clip(self, declared: Declared, around: Around, matrix: Matrix, own_box: Callable[[], Box | None]) -> Region:
+        """Give what clips and masks on an element and around it leave of it."""
+        if self.aside or not ("clip-path" in declared or "mask" in declared) or declared.get("display") == "contents":
+            return around.clip
+        own = self.clips.region(declared, around.viewport, own_box, self._shapes_aside)
+        return own.through(matrix).within(around.clip)
 
     def _is_layer(self, tag: str, element: Any, attributes: Attributes, around: Around) -> bool:
         if tag != "g" or around.chain:
@@ -273,10 +301,9 @@ class Reader:
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file)
         if tag in ("symbol", "svg"):
             own = self.source.attributes(target)
-            within = self._inside(
-                tag, target, own, self.cascade.declared(target, own, inside.style, inside.chain), inside
-            )
-            self._nested(target, own, within, use_size(tag, lengths))
+            said = self.cascade.declared(target, own, inside.style, inside.chain)
+            within = self._inside(tag, target, own, said, inside)
+            self._nested(target, own, said, within, use_size(tag, lengths))
         elif tag in SHAPES or tag in _GROUPS or tag in NO_GEOMETRY:
             self.stack.append((target, inside))
         else:
@@ -286,6 +313,7 @@ class Reader:
         self,
         element: Any,
         attributes: Attributes,
+        declared: Declared,
         inside: Around,
         size: tuple[float | None, float | None] = (None, None),
     ) -> None:
@@ -296,8 +324,12 @@ class Reader:
             self.notes.count("nothing-drawn", "info", "<svg> or <symbol> without a size draws nothing", element)
             self._push_children(element, replace(inside, hidden=True))
             return
-        matrix, viewport = placed
-        self._push_children(element, replace(inside, matrix=multiply(inside.matrix, matrix), viewport=viewport))
+        matrix, viewport, box = placed
+        page = inside.page
+        if declared.get("overflow") not in ("visible", "auto"):
+            page = Region(box).through(inside.matrix).within(page)
+        matrix = multiply(inside.matrix, matrix)
+        self._push_children(element, replace(inside, matrix=matrix, viewport=viewport, page=page))
 
     def _draw(self, tag: str, element: Any, attributes: Attributes, around: Around) -> None:
         declared = self.cascade.declared(element, attributes, around.style, around.chain)
@@ -308,8 +340,8 @@ class Reader:
         lengths = Lengths(attributes, declared, around.viewport, style.font)
         shape = self._shape(tag, element, attributes, lengths)
         matrix = around.matrix
+        own = [segment for sub in shape.subpaths for segment in sub.segments]
         if has_transform(declared):
-            own = [segment for sub in shape.subpaths for segment in sub.segments]
             matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: box_of_segments(own)))
         name = name_of(element, attributes, self.illustrator) or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
@@ -328,22 +360,24 @@ class Reader:
         if not (around.unseen or _without_opacity(declared)):
             fill = self.paints.word(style.fill) if style.fill_seen and tag != "line" else None
             stroke, width = self._stroke(style, around.viewport, matrix)
-        self.drawing.paths.append(
-            DrawnPath(
-                subpaths=subpaths,
-                name=name,
-                layer=around.layer,
-                groups=around.groups,
-                visible=style.visible and not hidden,
-                locked=around.locked or attributes.get(SODIPODI + "insensitive") == "true",
-                fill=fill,
-                stroke=stroke,
-                stroke_width=width,
-                fill_rule="evenodd" if style.fill_rule == "evenodd" else "nonzero",
-                line=self.source.line(element),
-                tags=dict(self._tags(attributes, around)),
-            )
+        drawn = DrawnPath(
+            subpaths=subpaths,
+            name=name,
+            layer=around.layer,
+            groups=around.groups,
+            visible=style.visible and not hidden,
+            locked=around.locked or attributes.get(SODIPODI + "insensitive") == "true",
+            fill=fill,
+            stroke=stroke,
+            stroke_width=width,
+            fill_rule="evenodd" if style.fill_rule == "evenodd" else "nonzero",
+            line=self.source.line(element),
+            tags=dict(self._tags(attributes, around)),
         )
+        self.drawing.paths.append(drawn)
+        if drawn.visible and not self.aside:
+            clip = self._clip(declared, around, matrix, lambda: box_of_segments(own))
+            note_unseen(tag, element, drawn, around.page, clip, self.notes)
 
     def _tags(self, attributes: Attributes, around: Around) -> dict[str, str]:
         self.work.charge("tags", 4 * len(around.tags or ()))
