@@ -145,6 +145,11 @@ class Sheet:
         """Give the selectors of a rule within the rule of others: ``&`` stands for those."""
         if not around:
             return prelude
+        letters = len(prelude) + (prelude.count("&") + prelude.count(",") + 1) * (len(around) + 6)
+        self._work.charge("selectors", min(letters, _MOST_LETTERS))
+        if letters > _MOST_LETTERS:
+            self._report("css-skipped", "warning", "a rule within a rule whose selectors are too long is left out")
+            return ""
         parts = []
         for tokens in split_at_commas(prelude):
             own = tinycss2.serialize(tokens).strip()
@@ -153,12 +158,7 @@ class Sheet:
                 for token in tokens
             ).strip()
             parts.append(f":is({around}) {own}" if written == own else written)
-        result = ", ".join(parts)
-        self._work.charge("selectors", len(result))
-        if len(result) > _MOST_LETTERS:
-            self._report("css-skipped", "warning", "a rule within a rule whose selectors are too long is left out")
-            return ""
-        return result
+        return ", ".join(parts)
 
     def _at_rule(self, rule: Any, around: str) -> list[Any]:
         """Give the rules within an at-rule that holds; what stands bare in one in a rule is that rule's own."""

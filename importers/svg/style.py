@@ -307,17 +307,20 @@ def parse_inline(text: str) -> list[Declaration] | None:
         if piece.count("(") != piece.count(")") or piece.count("'") % 2 or piece.count('"') % 2:
             return None
         name, colon, value = piece.partition(":")
-        name = name.strip()
-        if name[:2] == "--":
-            return None
-        name = name.lower()
+        own = name.strip()
+        name = own.lower()
         if name == "font" and colon:
             return None
-        if not colon or name not in _PARSERS:
+        custom = own[:2] == "--"
+        if not colon or not (custom or name in _PARSERS):
             continue
         plain, mark, word = value.rpartition("!")
         important = bool(mark) and word.strip().lower() == "important"
-        parsed = parse_declaration(name, plain if important else value, "inline")
+        text = plain if important else value
+        if custom:
+            found.append((own, text.strip(), important))
+            continue
+        parsed = parse_declaration(name, text, "inline")
         if parsed is not None:
             found.append((name, parsed, important))
     return found
