@@ -6,8 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from wallkit import Run, simulate
-from wallkit.cli.scene_input import Wishes, prepare
 from wallkit.files import write_whole
+from wallkit.opening import Wishes, open_scene
 from wallkit.view.film import film
 from wallkit.view.picture import walls_svg
 from wallkit.view.raster import png
@@ -20,8 +20,8 @@ IMAGES = HERE / "images"
 
 def flown(sample: str, wishes: Wishes) -> Run:
     """Simulate a sample as the command line does."""
-    prepared = prepare(str(SAMPLES / sample), wishes)
-    return simulate(prepared.scene, prepared.until, prepared.bounces)
+    opened = open_scene(SAMPLES / sample, wishes)
+    return simulate(opened.scene, opened.until, opened.bounces)
 
 
 def lagoon() -> str:

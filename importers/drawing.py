@@ -37,7 +37,7 @@ class Subpath:
     closed: bool
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class DrawnPath:
     """One painted object of the file: its subpaths share fill, stroke and marks.
 
@@ -74,6 +74,12 @@ class DrawnPath:
     fill_rule: FillRule = "nonzero"
     line: int | None = None
     tags: dict[str, str] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        name = f" {self.name!r}" if self.name else ""
+        layer = f" on layer {self.layer!r}" if self.layer else ""
+        paint = f"fill {self.fill}, stroke {self.stroke}"
+        return f"<DrawnPath{name}{layer}: {_subpaths(self.subpaths)}, {paint}{'' if self.visible else ', hidden'}>"
 
     def to_json(self) -> dict[str, Any]:
         """Give the path as the ``wallkit-drawing`` format has it."""
@@ -146,7 +152,7 @@ class Artboard:
         return {"name": self.name, "box": [self.x_min, self.y_min, self.x_max, self.y_max]}
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class Drawing(Pictured):
     """A vector file, read: layers, paths with exact segments, and what was left out and why.
 
@@ -177,6 +183,18 @@ class Drawing(Pictured):
     artboards: list[Artboard] = field(default_factory=list)
     page: tuple[float, float, float, float] | None = None
 
+    def __repr__(self) -> str:
+        parts = [
+            " ".join(part for part in (self.kind, repr(self.file) if self.file else "") if part),
+            _counted(len(self.layers), "layer") if self.layers else "",
+            _counted(len(self.paths), "path"),
+            _subpaths([subpath for path in self.paths for subpath in path.subpaths]),
+            self.units,
+            f"y {self.y_axis}",
+            _counted(len(self.problems), "problem") if self.problems else "",
+        ]
+        return f"<Drawing: {', '.join(filter(None, parts))}>"
+
     def to_json(self) -> dict[str, Any]:
         """Give the whole as the stable ``wallkit-drawing`` format, version 1."""
         return {
@@ -201,6 +219,15 @@ class Drawing(Pictured):
             return None
         xs, ys = zip(*points, strict=True)
         return min(xs), min(ys), max(xs), max(ys)
+
+
+def _subpaths(subpaths: list[Subpath]) -> str:
+    segments = sum(len(subpath.segments) - 1 for subpath in subpaths)
+    return f"{_counted(len(subpaths), 'subpath')} with {_counted(segments, 'segment')}"
+
+
+def _counted(number: int, word: str) -> str:
+    return f"{number:,} {word}{'' if number == 1 else 's'}"
 
 
 def control_points(segments: Sequence[Segment]) -> list[tuple[float, float]]:

@@ -1,74 +1,59 @@
-"""The page behind a drawing: a painted rectangle of its size that no one means as a wall."""
+"""Which page of a drawing is meant: one by its number, all, or what a reader takes when nobody says."""
 
 from __future__ import annotations
 
-from importers.boxes import Box, box_of
-from importers.drawing import Drawing, DrawnPath
+from typing import Literal
+
+from importers.drawing import Drawing, control_points
+from importers.errors import DrawingError
 from importers.problems import Problem
 
-# Programs round the size of a page to their own units: a px of 1/96 inch, a point, a tenth of a mm
-_NEAR = 0.01  # of the page's larger side
+PageChoice = int | Literal["all"] | None
 
 
-def page_background(drawing: Drawing) -> DrawnPath | None:
-    """Give the first painted path where it is a filled upright rectangle of the page's size; None otherwise.
+def check_page(page: PageChoice, file: str = "") -> None:
+    """Raise DrawingError for what is no choice of a page: numbers begin with 1."""
+    if page is None or page == "all" or (isinstance(page, int) and not isinstance(page, bool) and page >= 1):
+        return
+    raise DrawingError(f"{page!r} is no page", code="no-such-page", fix="give a number from 1, or all", file=file)
 
-    LibreOffice, matplotlib, Graphviz and others paint their page before all else. As a wall it would lie around
-    everything, and every depth would be one more than it looks.
+
+def no_such_page(page: int, pages: int, file: str = "") -> DrawingError:
+    """Make the error for a page that a drawing has not."""
+    message = f"there is no page {page}: the drawing has {pages:,}" if pages != 1 else "the drawing has one page only"
+    fix = f"give a number from 1 to {pages:,}, or all" if pages != 1 else "leave the page out"
+    return DrawingError(message, code="no-such-page", fix=fix, file=file)
+
+
+def keep_artboard(drawing: Drawing, page: int) -> None:
+    """Leave out of a drawing what lies outside one of its artboards; what lies on two of them is on both.
 
     Args:
-        drawing: with its page or artboards; without any there is no background.
+        drawing: what was read; a drawing without artboards is one page.
+        page: the artboard's number, from 1.
+
+    Raises:
+        DrawingError: there is no such artboard.
     """
-    painted = (path for path in drawing.paths if is_painted(path))
-    first = next(painted, None)
-    if first is None or first.fill is None or len(first.subpaths) != 1 or next(painted, None) is None:
-        return None
-    box = _rectangle(first)
-    pages = [] if drawing.page is None else [drawing.page]
-    pages += [(board.x_min, board.y_min, board.x_max, board.y_max) for board in drawing.artboards]
-    return first if box is not None and any(_same(box, page) for page in pages) else None
-
-
-def _same(box: Box, page: Box) -> bool:
-    near = _NEAR * max(page[2] - page[0], page[3] - page[1])
-    return all(abs(a - b) <= near for a, b in zip(box, page, strict=True))
-
-
-def is_painted(path: DrawnPath) -> bool:
-    """Tell whether anything of a path is seen."""
-    return path.visible and not path.clip and (path.fill is not None or path.stroke is not None)
-
-
-def _rectangle(path: DrawnPath) -> Box | None:
-    """Give the box of a path that is an upright rectangle."""
-    corners = [segment[1:] for segment in path.subpaths[0].segments]
-    if any(segment[0] not in ("M", "L") for segment in path.subpaths[0].segments):
-        return None
-    if len(corners) == 5 and corners[4] == corners[0]:
-        corners.pop()
-    box = box_of([path])
-    if box is None or len(corners) != 4 or len(set(corners)) != 4:
-        return None
-    upright = all(x in (box[0], box[2]) and y in (box[1], box[3]) for x, y in corners)
-    return box if upright else None
-
-
-def note_background(drawing: Drawing) -> None:
-    """Add the problem that names the rectangle of the page's size behind everything."""
-    path = page_background(drawing)
-    if path is None:
+    if not drawing.artboards and page == 1:
         return
-    left, top = path.subpaths[0].segments[0][1:]
-    drawing.problems.append(
-        Problem(
-            "page-background",
-            "info",
-            "a filled rectangle of the page's size lies behind everything, and is a wall around it all",
-            "delete it if it is only the paper, or take the walls by their layer (--layer)",
-            layer=path.layer,
-            name=path.name,
-            line=path.line,
-            x=left,
-            y=top,
-        )
-    )
+    if page > len(drawing.artboards):
+        raise no_such_page(page, max(len(drawing.artboards), 1), drawing.file)
+    artboard = drawing.artboards[page - 1]
+    kept = []
+    for path in drawing.paths:
+        points = [point for subpath in path.subpaths for point in control_points(subpath.segments)]
+        xs, ys = [x for x, _ in points], [y for _, y in points]
+        if (
+            points
+            and (max(xs) >= artboard.x_min and min(xs) <= artboard.x_max)
+            and (max(ys) >= artboard.y_min and min(ys) <= artboard.y_max)
+        ):
+            kept.append(path)
+    left_out = len(drawing.paths) - len(kept)
+    if left_out:
+        name = f"artboard {page}" + (f' "{artboard.name}"' if artboard.name else "")
+        paths = "1 path is" if left_out == 1 else f"{left_out:,} paths are"
+        message = f"{paths} outside {name} and left out"
+        drawing.problems.append(Problem("other-artboards", "info", message, "choose all pages to have everything"))
+    drawing.paths = kept

@@ -11,7 +11,8 @@ from typing import IO, Any
 from importers.drawing import Drawing
 from importers.errors import DrawingError
 from importers.limits import MAX_INPUT_BYTES, Unpacker, check_input_size
-from importers.pages import note_background
+from importers.page_background import note_background
+from importers.pages import PageChoice, check_page, keep_artboard
 
 _GZIP = b"\x1f\x8b"
 _SAVE = "save it as SVG or as Illustrator 8 from your drawing program"
@@ -41,39 +42,50 @@ _OTHERS: tuple[tuple[bytes, str, str], ...] = (
 )
 
 
-def read_drawing(source: str | os.PathLike[str] | IO[Any]) -> Drawing:
+def read_drawing(source: str | os.PathLike[str] | IO[Any], *, page: PageChoice = None) -> Drawing:
     """Read a drawing: pasted Illustrator text, Illustrator of any version, EPS, PDF or SVG.
 
     Args:
         source: a path, ``"-"`` for standard input, or a file object, text or binary.
+        page: which page or artboard, from 1, or ``"all"``: pages of a PDF then stand side by side. None takes the
+            first page of a PDF, and what lies on all artboards of anything else.
 
     Raises:
-        DrawingError: it is not there, cannot be read, or is no drawing; the message says what it looks like.
+        DrawingError: it is not there, cannot be read, has no such page, or is no drawing; the message says what
+            it looks like.
         LimitError: it is larger than one of the limits in importers.limits.
     """
     if isinstance(source, str | os.PathLike):
         name = os.fspath(source)
         data = _read_stream(sys.stdin, "-") if name == "-" else _read_path(name)
-        return read_drawing_text(data, name)
+        return read_drawing_text(data, name, page=page)
+    if not hasattr(source, "read"):
+        fix = "give a path or an open file; a text goes to read_drawing_text"
+        raise DrawingError(f"source is a {type(source).__name__}", code="unreadable", fix=fix)
     name = getattr(source, "name", "")
-    return read_drawing_text(_read_stream(source, name), name if isinstance(name, str) else "")
+    return read_drawing_text(_read_stream(source, name), name if isinstance(name, str) else "", page=page)
 
 
-def read_drawing_text(text: str | bytes, file: str = "") -> Drawing:
+def read_drawing_text(text: str | bytes, file: str = "", *, page: PageChoice = None) -> Drawing:
     """Read a drawing that is at hand as text or bytes.
 
     Args:
         text: the drawing.
         file: what to call it in messages.
+        page: which page or artboard, as for :func:`read_drawing`.
 
     Raises:
         DrawingError: it is no drawing; the message says what it looks like.
         LimitError: it is larger than one of the limits in importers.limits.
     """
+    for name, value, kinds in (("text", text, (str, bytes, bytearray)), ("file", file, (str,))):
+        if not isinstance(value, kinds):
+            raise DrawingError(f"{name} is a {type(value).__name__}", code="unreadable", fix="give a text")
     if isinstance(text, str):
         text = _to_bytes(text.removeprefix("\ufeff"))
     check_input_size(len(text), file)
-    drawing = _read_by_content(text, file)
+    check_page(page, file)
+    drawing = _read_by_content(text, file, page)
     drawing.file = file
     note_background(drawing)
     drawing.sha256 = hashlib.sha256(text).hexdigest()
@@ -90,7 +102,7 @@ def _to_bytes(text: str) -> bytes:
     return text.encode("utf-8", "replace")
 
 
-def _read_by_content(data: bytes, file: str) -> Drawing:
+def _read_by_content(data: bytes, file: str, page: PageChoice) -> Drawing:
     from importers.svg import looks_like_svg, read_svg
 
     if data.startswith(_GZIP):
@@ -101,17 +113,24 @@ def _read_by_content(data: bytes, file: str) -> Drawing:
         if data.startswith(start):
             raise _not_a_drawing(what, fix, file)
     if looks_like_svg(data):
-        return read_svg(data, file)
+        return _only(read_svg(data, file), page)
     if b"%PDF-" in data[:1024]:
         from importers.pdf import looks_like_pdf, read_pdf
 
         if looks_like_pdf(data):
-            return read_pdf(data, file)
+            return read_pdf(data, file, page)
     from importers.illustrator import looks_like_illustrator, read_illustrator
 
     if looks_like_illustrator(data):
-        return read_illustrator(data, file)
+        return _only(read_illustrator(data, file), page)
     raise _unknown(data, file)
+
+
+def _only(drawing: Drawing, page: PageChoice) -> Drawing:
+    """Give what lies on one artboard of a drawing, when one is asked for."""
+    if isinstance(page, int):
+        keep_artboard(drawing, page)
+    return drawing
 
 
 def _unknown(data: bytes, file: str) -> DrawingError:

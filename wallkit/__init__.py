@@ -19,12 +19,14 @@ except ImportError as error:  # a user's own ``importers`` folder or an unrelate
         "before it on the import path; rename or move that one"
     ) from error
 from importers.pictured import paint_with
+from wallkit.version import __version__
 
 if TYPE_CHECKING:
     from importers.drawing import Drawing, DrawnPath, Layer, Subpath
     from importers.problems import Problem
     from importers.read import read_drawing, read_drawing_text
     from importers.svg.from_svgpathtools import drawing_from_svgpathtools
+    from wallkit.opening import OpenedScene, Wishes, open_scene
     from wallkit.preparing import Prepared, prepare
     from wallkit.run import Ending, Kind, Run
     from wallkit.scene import Balls, Scene, SceneError
@@ -32,15 +34,15 @@ if TYPE_CHECKING:
     from wallkit.surveys import Totals, survey
     from wallkit.walls import Material, Wall, Walls
     from wallkit.walls.build import import_walls
+    from wallkit.walls.import_options import ImportOptions
     from wallkit.world import World
-
-__version__ = "0.1.0"
 
 _HOMES = {
     "importers.drawing": ("Drawing", "DrawnPath", "Layer", "Subpath"),
     "importers.problems": ("Problem",),
     "importers.read": ("read_drawing", "read_drawing_text"),
     "importers.svg.from_svgpathtools": ("drawing_from_svgpathtools",),
+    "wallkit.opening": ("OpenedScene", "Wishes", "open_scene"),
     "wallkit.run": ("Ending", "Kind", "Run"),
     "wallkit.scene": ("Balls", "Scene", "SceneError"),
     "wallkit.simulation": ("simulate",),
@@ -48,6 +50,7 @@ _HOMES = {
     "wallkit.surveys": ("Totals", "survey"),
     "wallkit.walls": ("Material", "Wall", "Walls"),
     "wallkit.walls.build": ("import_walls",),
+    "wallkit.walls.import_options": ("ImportOptions",),
     "wallkit.world": ("World",),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
@@ -58,10 +61,12 @@ __all__ = [
     "DrawingError",
     "DrawnPath",
     "Ending",
+    "ImportOptions",
     "Kind",
     "Layer",
     "LimitError",
     "Material",
+    "OpenedScene",
     "Prepared",
     "Problem",
     "Run",
@@ -72,9 +77,12 @@ __all__ = [
     "Wall",
     "WallkitError",
     "Walls",
+    "Wishes",
     "World",
+    "__version__",
     "drawing_from_svgpathtools",
     "import_walls",
+    "open_scene",
     "prepare",
     "read_drawing",
     "read_drawing_text",

@@ -41,6 +41,7 @@ FloatArray = NDArray[np.float64]
 Source = Literal["rounding", "drawing"]
 Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
 RMS_ROUNDING = 0.6 * 2.0**-53
+VERTEX, ENTER = 1, 4  # kinds of contacts, see wallkit.run.Kind: bounces up to the one, sensors from the other
 COMPILED_FROM = 50_000  # contacts
 SURE = 3.0  # promised is this many times the root mean square
 
@@ -51,8 +52,8 @@ class Horizon:
 
     Attributes:
         tolerance: of the place of a contact, in the drawing's units.
-        bounces: so many contacts, from the first, are good to it.
-        time: of the last of these; the run's end where all are good.
+        bounces: so many bounces, from the first, are good to it.
+        time: of the last contact that is; the run's end where all are good.
         whole: nothing of the run is in doubt.
         source: what the error comes from: the rounding of the arithmetic, or the drawing's own tolerance.
         reason: why trust ends: ``"growth"``, ``"corner"`` (it may pass a corner on the other side), ``"graze"``
@@ -88,13 +89,14 @@ def trusted_until(
 
     Args:
         scene: what was run.
-        contacts: its contacts (the dtype ``wallkit.run.CONTACT``), of all balls, in order of time for each.
+        contacts: its contacts (the dtype ``wallkit.run.CONTACT``), of all balls, in order of time for each; where a
+            slide begins and ends is part of the path, and no bounce.
         ball: which ball.
         tolerance: of the place of a contact, in the drawing's units; above 0.
         source: ``"rounding"``, or ``"drawing"``: walls that are off by their ``measured_error``.
         end: the time at which the run ended, for a run that is good throughout.
     """
-    own = contacts[contacts["ball"] == ball]
+    own = contacts[(contacts["ball"] == ball) & (contacts["kind"] < ENTER)]  # a sensor changes no flight
     _rms, worst = predicted_errors(scene, own, ball, source)
     bad = np.flatnonzero(~(worst <= tolerance))
     limit = int(bad[0]) if len(bad) else len(own)
@@ -104,7 +106,8 @@ def trusted_until(
         limit, reason = doubt, why
     whole = limit == len(own)
     time = float(own["time"][limit - 1]) if limit else 0.0
-    return Horizon(tolerance, limit, end if whole and math.isfinite(end) else time, whole, source, reason)
+    bounces = int(np.count_nonzero(own["kind"][:limit] <= VERTEX))
+    return Horizon(tolerance, bounces, end if whole and math.isfinite(end) else time, whole, source, reason)
 
 
 def predicted_errors(
@@ -263,5 +266,7 @@ def _grazing_depth(scene: Scene, own: Any, ball: int) -> FloatArray:
     speed = np.hypot(own["vx"], own["vy"])
     cosine = np.divide(own["vx"] * own["nx"] + own["vy"] * own["ny"], speed, out=np.ones(len(own)), where=speed > 0)
     lost = cosine**2 / (1 + np.sqrt(np.maximum(0.0, 1 - cosine**2)))
-    depth: FloatArray = np.divide(lost, bends, out=np.full(len(own), np.inf), where=bends > 0)
+    depth: FloatArray = np.divide(
+        lost, bends, out=np.full(len(own), np.inf), where=(bends > 0) & (own["kind"] <= VERTEX)
+    )
     return depth

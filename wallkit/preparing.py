@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.arguments import flag, of_type
 from wallkit.clearance import check_starts
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.model import Model
 from wallkit.kernels.room import all_clear, all_clear_in_cells
 from wallkit.modelling import Modelled
-from wallkit.scene import Balls, FloatArray, Scene
+from wallkit.scene import Balls, FloatArray, Scene, SceneError
 from wallkit.sensing import modelled_sensors
 
 CLOSE_CELLS = 1 << 15
@@ -22,7 +23,7 @@ WORTH_A_QUICK_LOOK = 100
 """Balls from which on a compiled look for overlaps pays among few lines."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Prepared:
     """A scene made ready by :func:`prepare`: checked, in local coordinates, indexed.
 
@@ -38,6 +39,12 @@ class Prepared:
     order: NDArray[np.int64] | None
     sensors: Model | None = None
 
+    def __repr__(self) -> str:
+        index = (
+            "no index" if self.modelled.model.grid is None else f"an index of {len(self.modelled.model.cells):,} cells"
+        )
+        return f"<Prepared: {self.scene!r}, {index}>"
+
 
 def prepare(scene: Scene, *, check: bool = True) -> Prepared:
     """Do once what every ``survey`` of a scene would do first: check it, and index its walls.
@@ -47,8 +54,9 @@ def prepare(scene: Scene, *, check: bool = True) -> Prepared:
         check: look whether a disc overlaps a wall at the start; False where that is known, to save the time.
 
     Raises:
-        SceneError: the scene cannot be simulated.
+        SceneError: the scene cannot be simulated, or an argument is none of what may be.
     """
+    of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
     return _prepared(scene, Modelled(scene, machine_code=True, fine=True), check=check)
 
 
@@ -60,9 +68,9 @@ def prepare_again(ready: Prepared, balls: Balls, *, check: bool = True) -> Prepa
 
 
 def _prepared(scene: Scene, modelled: Modelled, *, check: bool) -> Prepared:
-    if check and not _surely_clear(scene, modelled):
+    if flag(check, "check", error=SceneError, code="bad-argument") and not _surely_clear(scene, modelled):
         check_starts(scene)
-    order = _neighbours_together(np.asarray(scene.balls.position)) if _is_wide(modelled.model) else None
+    order = _neighbours_together(scene.balls.position) if _is_wide(modelled.model) else None
     sensors = None
     if scene.sensors is not None and len(scene.sensors):
         sensors = modelled_sensors(scene, scene.sensors, modelled.origin).model
@@ -84,7 +92,7 @@ def _surely_clear(scene: Scene, modelled: Modelled) -> bool:
     if model.grid is None:
         origin = tuple(modelled.origin.tolist())
         return bool(compiled(all_clear)(model.lines, model.extent, origin, np.ravel(scene.balls.position), radii))
-    position = np.asarray(scene.balls.position) - modelled.origin
+    position = scene.balls.position - modelled.origin
     return bool(compiled(all_clear_in_cells)(model.lines, model.extent, *ball_cells(position, radii)))
 
 

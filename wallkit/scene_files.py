@@ -9,32 +9,30 @@ import json
 import math
 import re
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from importers.limits import check_input_size
 from wallkit.scene import Balls, Scene, SceneError
 from wallkit.walls import Material, Walls
 from wallkit.walls.files import from_json, load, to_json
+from wallkit.walls.import_options import ImportOptions, option_names
+from wallkit.walls.walls import WallsError
+
+if TYPE_CHECKING:
+    from importers.drawing import Drawing
+    from wallkit.drawn_scene import Drawn
+
+FloatArray = NDArray[np.float64]
 
 Kind = Literal["drawing", "walls", "scene"]
 
-_IMPORT_OPTIONS = {
-    "tolerance",
-    "curves",
-    "layers",
-    "hidden",
-    "snap",
-    "arena",
-    "sides",
-    "scale",
-    "flip_y",
-    "outline_strokes",
-}
 _TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
 
@@ -47,11 +45,17 @@ class SceneFile:
         scene: what is simulated; its balls may be none.
         until: the end that the file asks for in seconds, or None.
         bounces: the number of bounces a ball that it asks for, or None.
+        drawn: what the drawing that it names holds, or None where it names none.
+        drawing: that drawing.
+        importing: how it became walls.
     """
 
     scene: Scene
     until: float | None = None
     bounces: int | None = None
+    drawn: Drawn | None = None
+    drawing: Drawing | None = None
+    importing: ImportOptions | None = None
 
 
 def kind_of(data: bytes) -> Kind:
@@ -87,13 +91,22 @@ def load_scene(path: str | Path) -> SceneFile:
     return read_scene(data, file=str(path), folder=Path(path).parent)
 
 
-def read_scene(data: bytes, *, file: str = "", folder: Path | None = None) -> SceneFile:
+def read_scene(
+    data: bytes,
+    *,
+    file: str = "",
+    folder: Path | None = None,
+    importing: Mapping[str, Any] | None = None,
+    balls: FloatArray | None = None,
+) -> SceneFile:
     """Read a scene from the bytes of a TOML or JSON file.
 
     Args:
         data: the file's content.
         file: its name, for messages.
         folder: where the files that it names are; None forbids naming any (a scene from a stranger).
+        importing: options of ``import_walls`` that go before those of the file.
+        balls: (n, 2) places of balls that go before those of the file, where these help to decide what is solid.
 
     Raises:
         SceneError: as :func:`load_scene`.
@@ -102,7 +115,7 @@ def read_scene(data: bytes, *, file: str = "", folder: Path | None = None) -> Sc
     table = _parsed(data, file)
     if table.get("format") == "wallkit-run":
         table = table.get("scene", {}) if isinstance(table.get("scene"), dict) else {}
-    reader = _Reader(file, folder)
+    reader = _Reader(file, folder, importing or {}, balls)
     result = reader.scene_file(table)
     reader.finish()
     return result
@@ -134,9 +147,13 @@ def _no_constant(word: str) -> None:
 class _Reader:
     """Turns the parsed table into a scene and collects what is wrong on the way, each with its key."""
 
-    def __init__(self, file: str, folder: Path | None) -> None:
+    def __init__(self, file: str, folder: Path | None, importing: Mapping[str, Any], balls: FloatArray | None) -> None:
         self.file = file
         self.folder = folder
+        self.importing = importing
+        self.places = balls
+        self.drawing: Drawing | None = None
+        self.options: ImportOptions | None = None
         self.wrong: list[str] = []
 
     def finish(self) -> None:
@@ -146,26 +163,30 @@ class _Reader:
 
     def scene_file(self, table: dict[str, Any]) -> SceneFile:
         known = {"format", "version", "walls", "drawing", "import", "gravity", "rolling_friction", "drag", "sensors",
-                 "materials", "balls", "run"}  # fmt: skip
+                 "materials", "balls", "run", "y_axis"}  # fmt: skip
         self.known_keys(table, known, "")
         if table.get("format", "wallkit-scene") != "wallkit-scene":
             self.wrong.append(f"format: {table['format']!r} is not 'wallkit-scene'")
         if table.get("version", 1) != 1:
             self.wrong.append(f"version: {table['version']!r} is not 1, the one that this wallkit reads")
-        walls, drawn = self.walls(table)
+        balls = self.balls(table["balls"]) if "balls" in table else Balls(np.empty((0, 2)), np.empty((0, 2)))
+        walls, drawn = self.walls(table, balls)
         if walls is None:  # the rest is still checked, on no walls
             walls = Walls.from_polylines([])
+        if "balls" not in table and drawn is not None:
+            balls = drawn.balls
+        elif drawn is not None:
+            drawn = replace(drawn, used=False, still=False)
         self.materials(walls, table.get("materials", []))
         gravity = self.pair(table["gravity"], "gravity") if "gravity" in table else None
         slowing = {key: self.number(table[key], key, least=0.0) for key in ("rolling_friction", "drag") if key in table}
         walls, sensors = self.sensors(walls, table["sensors"]) if "sensors" in table else (walls, None)
-        balls = drawn if drawn is not None and "balls" not in table else self.balls(table.get("balls", []))
         run = self.table(table.get("run", {}), "run")
         self.known_keys(run, {"until", "bounces"}, "run.")
         until = self.number(run["until"], "run.until", least=0.0) if "until" in run else None
-        bounces = self.number(run["bounces"], "run.bounces", least=0.0) if "bounces" in run else None
+        bounces = self.whole(run["bounces"], "run.bounces") if "bounces" in run else None
         scene = Scene(walls, balls, gravity, sensors=sensors, **slowing)
-        return SceneFile(scene, until, None if bounces is None else int(bounces))
+        return SceneFile(scene, until, bounces, drawn, self.drawing, self.options)
 
     # -- values
 
@@ -194,6 +215,18 @@ class _Reader:
             return max(least, 0.0)
         return float(value)
 
+    def whole(self, value: Any, key: str) -> int:
+        number = self.number(value, key, least=0.0)
+        if number != int(number):
+            self.wrong.append(f"{key}: {value!r} is not a whole number")
+        return int(number)
+
+    def one_of(self, value: Any, key: str, words: tuple[Any, ...]) -> Any:
+        if not any(value is word or (isinstance(value, str) and value == word) for word in words):
+            self.wrong.append(f"{key}: {value!r} is not {' or '.join(str(word).lower() for word in words)}")
+            return words[0]
+        return value
+
     def pair(self, value: Any, key: str) -> tuple[float, float]:
         if not isinstance(value, list) or len(value) != 2:
             self.wrong.append(f"{key}: {value!r} is not a pair of numbers")
@@ -208,45 +241,47 @@ class _Reader:
 
     # -- parts
 
-    def walls(self, table: dict[str, Any]) -> tuple[Walls | None, Balls | None]:
-        """Give the walls, and the balls that a drawing has on its layer ``balls``."""
+    def walls(self, table: dict[str, Any], balls: Balls) -> tuple[Walls | None, Drawn | None]:
+        """Give the walls, and what else a drawing holds."""
         sources = [key for key in ("walls", "drawing") if key in table]
         if len(sources) != 1:
             self.wrong.append("walls, drawing: give exactly one of the two")
             return None, None
+        value = table[sources[0]]
+        if "y_axis" in table and not isinstance(value, list):
+            self.wrong.append("y_axis: only goes with walls of the scene's own; a drawing and saved walls have theirs")
         if sources == ["drawing"]:
-            return self.drawing(table)
+            drawn = self.drawn(table, np.asarray(balls.position))
+            return None if drawn is None else drawn.walls, drawn
         if "import" in table:
             self.wrong.append("import: only goes with a drawing")
-        value = table["walls"]
         if isinstance(value, str):
             path = self.path(value, "walls")
             return load(path) if path else None, None
-        return from_json(value, self.file) if isinstance(value, dict) else self.polylines(value), None
+        if isinstance(value, dict):
+            return from_json(value, self.file), None
+        walls = self.polylines(value)
+        if walls is not None:
+            walls.y_axis = self.one_of(table.get("y_axis", "up"), "y_axis", ("up", "down"))
+        return walls, None
 
-    def drawing(self, table: dict[str, Any]) -> tuple[Walls | None, Balls | None]:
+    def drawn(self, table: dict[str, Any], balls: FloatArray) -> Drawn | None:
         path = self.path(table["drawing"], "drawing")
         options = self.table(table.get("import", {}), "import")
-        self.known_keys(options, _IMPORT_OPTIONS, "import.")
-        options = {key: value for key, value in options.items() if key in _IMPORT_OPTIONS}
-        if path is None:
-            return None, None
-        from importers.read import read_drawing
-        from wallkit.starts import drawn_balls
-        from wallkit.walls.build import import_walls
-
-        drawing = read_drawing(path)
+        self.known_keys(options, set(option_names()), "import.")
+        known = {key: value for key, value in options.items() if key in option_names()}
         try:
-            walls = import_walls(drawing, **{"curves": "arcs", **options})
-        except TypeError:
-            self.wrong.append("import: an option has a value of the wrong kind")
-            return None, None
-        found, problems = drawn_balls(drawing, options.get("scale", 1.0), options.get("flip_y", False))
-        walls.problems.extend(problems)
-        velocity = [ball.velocity or (0.0, 0.0) for ball in found]
-        balls = Balls(np.array([(b.x, b.y) for b in found]).reshape(-1, 2), np.array(velocity).reshape(-1, 2),
-                      np.array([ball.radius for ball in found]))  # fmt: skip
-        return walls, balls
+            self.options = ImportOptions(**{"curves": "arcs", **known, **self.importing})
+        except WallsError as error:
+            self.wrong.append(f"import.{error.message}: {error.fix}")
+            return None
+        if path is None:
+            return None
+        from importers.read import read_drawing
+        from wallkit.drawn_scene import drawn_scene
+
+        self.drawing = read_drawing(path)
+        return drawn_scene(self.drawing, self.options, balls if self.places is None else self.places)
 
     def path(self, value: Any, key: str) -> Path | None:
         name = self.text(value, key)
@@ -268,12 +303,12 @@ class _Reader:
         try:
             return Walls.from_polylines(
                 [row.get("vertices", ()) for _, row in rows],
-                [bool(row.get("closed", True)) for _, row in rows],
+                [self.one_of(row.get("closed", True), f"{key}.closed", (True, False)) for key, row in rows],
                 bulges=[row.get("bulges") for _, row in rows],
-                sides=[row.get("sides", "both") for _, row in rows],
+                sides=[self.one_of(row.get("sides", "both"), f"{key}.sides", ("both", "outward")) for key, row in rows],
                 material=[self.material(row.get("material", {}), f"{key}.material") for key, row in rows],
-                names=[str(row.get("name", "")) for _, row in rows],
-                layers=[str(row.get("layer", "")) for _, row in rows],
+                names=[self.text(row.get("name", ""), f"{key}.name") for key, row in rows],
+                layers=[self.text(row.get("layer", ""), f"{key}.layer") for key, row in rows],
             )
         except (ValueError, TypeError):
             self.wrong.append(f"{name}: vertices are lists of [x, y]")

@@ -6,11 +6,12 @@ import math
 import sys
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.arguments import flag, number, of_type, refused, whole_number, word
 from wallkit.clearance import check_starts, settled
 from wallkit.kernels.flight import FALLING_TOLERANCE, TOLERANCE, fly, fly_all
 from wallkit.kernels.jit import compiled
@@ -51,10 +52,15 @@ def simulate(
         progress: called now and then with the part done, 0 to 1.
 
     Raises:
-        SceneError: neither limit was given, a disc overlaps a wall at the start, or the scene cannot be simulated.
+        SceneError: neither limit was given, an argument is none of what may be, a disc overlaps a wall at the start,
+            or the scene cannot be simulated.
     """
     limit_time, limit_bounces = limits(until, bounces)
-    if settle:
+    of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
+    word(mode, "mode", get_args(Mode), error=SceneError, code="bad-mode")
+    if progress is not None and not callable(progress):
+        raise refused("progress", progress, "a function of one number, or None", SceneError, "bad-argument")
+    if flag(settle, "settle", error=SceneError, code="bad-argument"):
         scene = settled(scene)
     check_starts(scene)
     flights = Flights(scene, mode=mode)
@@ -265,8 +271,12 @@ def limits(until: float | None, bounces: int | None) -> tuple[float, int]:
         raise SceneError(
             "neither a time nor a number of bounces was given", code="no-limit", fix="give until= or bounces="
         )
-    if until is not None and not until >= 0.0:
-        raise SceneError(f"until is {until!r}", code="bad-limit", fix="give seconds, 0 or more")
-    if bounces is not None and bounces < 0:
-        raise SceneError(f"bounces is {bounces!r}", code="bad-limit", fix="give 0 or more")
-    return (math.inf if until is None else float(until)), (BOUNCE_GUARD if bounces is None else int(bounces))
+    limit_time, limit_bounces = math.inf, BOUNCE_GUARD
+    if until is not None:
+        may_be = "seconds, 0 or more"
+        limit_time = number(until, "until", may_be, error=SceneError, code="bad-limit", least=0.0, infinite=True)
+    if bounces is not None:
+        limit_bounces = whole_number(
+            bounces, "bounces", "a whole number, 0 or more", error=SceneError, code="bad-limit", least=0
+        )
+    return limit_time, limit_bounces

@@ -1,4 +1,4 @@
-"""Where balls start when nobody says so: those drawn on the layer ``balls``, else the roomiest spot."""
+"""Where a ball starts when nobody says so: the roomiest spot; and many balls: at random around it."""
 
 from __future__ import annotations
 
@@ -9,30 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from importers.drawing import Drawing, DrawnPath, Segment
-from importers.problems import Problem
-from wallkit.curves import chords, flattened
+from wallkit.curves import flattened
 from wallkit.walls import Walls
+from wallkit.walls.solid import walls_around
+from wallkit.walls.validate import straight_edges
 
 FloatArray = NDArray[np.float64]
 
-BALLS_LAYER = "balls"
-
-# A circle of four cubics, as drawing programs write it, is off by 2.7e-4 of its radius; hand-made ones by more.
-_ROUND = 0.02
 _FINE_STEP = math.pi / 256  # chords of arcs are then off by at most 2e-5 of the radius
 _WAYS = 64  # directions that are tried out of a face that may be open
 _FACES = 24  # so many of the largest faces are searched for the roomiest spot
-
-
-@dataclass(frozen=True, slots=True)
-class DrawnBall:
-    """A circle on the layer ``balls``; ``velocity`` is None where no line starts in it."""
-
-    x: float
-    y: float
-    radius: float
-    velocity: tuple[float, float] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,91 +31,14 @@ class Spot:
     face: Any
 
 
-def drawn_balls(drawing: Drawing, scale: float = 1.0, flip_y: bool = False) -> tuple[list[DrawnBall], list[Problem]]:
-    """Read the layer ``balls``: a circle is a ball, a line that starts in it is its velocity per second.
-
-    Args:
-        drawing: as read; hidden paths and guides do not count.
-        scale: as for the walls: places, radii and velocities are multiplied by it.
-        flip_y: as for the walls: y changes its sign.
-
-    Returns:
-        The balls in the file's order, and a problem for each path there that is neither.
-    """
-    fx, fy = scale, -scale if flip_y else scale
-    circles: list[tuple[float, float, float]] = []
-    lines: list[tuple[DrawnPath, tuple[float, float], tuple[float, float]]] = []
-    problems: list[Problem] = []
-    for path in drawing.paths:
-        if BALLS_LAYER not in (path.layer, *path.groups) or not path.visible or path.guide or path.clip:
-            continue
-        for sub in path.subpaths:
-            points = _sampled(sub.segments) * (fx, fy)
-            circle = _circle(points)
-            if circle:
-                circles.append(circle)
-            elif not sub.closed and len(sub.segments) > 1:
-                lines.append((path, tuple(points[0]), tuple(points[-1])))
-            else:
-                problems.append(_stray(path, points[0]))
-    velocities: dict[int, tuple[float, float]] = {}
-    for path, start, end in lines:
-        owner = _owner(circles, start)
-        if owner is None:
-            problems.append(_stray(path, np.array(start)))
-        else:
-            velocities[owner] = end[0] - circles[owner][0], end[1] - circles[owner][1]
-    return [DrawnBall(*circle, velocities.get(index)) for index, circle in enumerate(circles)], problems
-
-
-def _stray(path: DrawnPath, place: FloatArray) -> Problem:
-    return Problem(
-        code="not-a-ball",
-        severity="warning",
-        message="a path on layer 'balls' is neither a circle nor a line that starts in one; left out",
-        fix="draw circles for balls and a line from a circle's centre for its velocity per second",
-        layer=path.layer,
-        name=path.name,
-        line=path.line,
-        x=float(place[0]),
-        y=float(place[1]),
-    )
-
-
-def _owner(circles: list[tuple[float, float, float]], start: tuple[float, float]) -> int | None:
-    """Give the circle that a point is in, the one with the nearest centre where there are several."""
-    distances = [math.hypot(start[0] - x, start[1] - y) for x, y, _ in circles]
-    inside = [index for index, (_, _, radius) in enumerate(circles) if distances[index] <= radius]
-    return min(inside, key=distances.__getitem__, default=None)
-
-
-def _circle(points: FloatArray) -> tuple[float, float, float] | None:
-    """Give centre and radius where the points of a path lie around one centre, all sides of it."""
-    if len(points) < 9:  # a curve has more; a square would pass otherwise
-        return None
-    low, high = points.min(axis=0), points.max(axis=0)
-    centre, radius = (low + high) / 2, float((high - low).mean()) / 2
-    away = np.hypot(*(points - centre).T)
-    if radius == 0 or np.abs(away - radius).max() > _ROUND * radius:
-        return None
-    return float(centre[0]), float(centre[1]), radius
-
-
-def _sampled(segments: list[Segment]) -> FloatArray:
-    """Give points along a subpath."""
-    parts = [np.array([segments[0][1:3]], dtype=np.float64)]
-    for segment in segments[1:]:
-        parts.append(chords(parts[-1][-1], segment[0], segment[1:]))
-    return np.concatenate(parts)
-
-
-def roomiest(walls: Walls) -> Spot | None:
+def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
     """Find the place inside the walls that is farthest from all of them, to 1 % of the distance or better.
 
     Inside is every bounded face that the walls make; where there are open walls, also what remains of the box
     around them, if most ways out of it end at a wall, or if there is nothing else. Faces of less than half the
-    largest one's area do not count: a room with a wide pillar is meant, not the pillar. The search is shapely's
-    ``maximum_inscribed_circle`` (GEOS, after Mapbox's polylabel).
+    largest one's area do not count: a room with a wide pillar is meant, not the pillar. Nor does what ``walls.solid``
+    says is material, unless ``anywhere`` is asked for. The search is shapely's ``maximum_inscribed_circle`` (GEOS,
+    after Mapbox's polylabel).
 
     Returns:
         The spot, or None where no face has room.
@@ -142,30 +51,43 @@ def roomiest(walls: Walls) -> Spot | None:
     lines = [np.vstack([ring, ring[:1]]) if c else ring for ring, c in zip(rings, walls.closed, strict=True)]
     noded = shapely.node(shapely.multilinestrings([shapely.linestrings(line) for line in lines]))
     best: Spot | None = None
-    for face in _faces(walls, noded):
+    for face in _faces(walls, noded, anywhere):
         # A circle in a face of area A has at most the radius sqrt(A / pi): smaller faces cannot win any more.
         if best and math.sqrt(face.area / math.pi) <= best.room:
             continue
         spot = _spot(face, noded)
-        if spot and (best is None or spot.room > best.room) and not _in_material(walls, rings, spot):
+        better = spot and (best is None or spot.room > best.room)
+        if spot and better and (anywhere or not _in_material(walls, rings, spot)):
             best = spot
     return best
 
 
-def _faces(walls: Walls, noded: Any) -> list[Any]:
+def _faces(walls: Walls, noded: Any, anywhere: bool) -> list[Any]:
     """Give the faces that may be meant as rooms, the largest first."""
     import shapely
 
-    faces = [*shapely.get_parts(shapely.polygonize([*shapely.get_parts(noded)]))]
-    if not walls.closed.all():
-        around = shapely.get_parts(shapely.difference(shapely.envelope(noded), shapely.union_all(faces)))
+    bounded = shapely.get_parts(shapely.polygonize([*shapely.get_parts(noded)]))
+    faces = [*bounded] if anywhere else [*bounded[~_solid_faces(walls, bounded)]]
+    if not walls.closed.all() and (anywhere or walls.solid is None or not walls.solid.room):
+        around = shapely.get_parts(shapely.difference(shapely.envelope(noded), shapely.union_all(bounded)))
         around = [part for part in around if part.geom_type == "Polygon" and not part.is_empty]
         nearly = [part for part in sorted(around, key=shapely.area)[-4:] if _is_nearly_closed(part, noded)]
         faces += nearly if faces or nearly else around
     faces.sort(key=shapely.area, reverse=True)
-    if any(sides == "both" for sides in walls.sides):
+    if faces and any(sides == "both" for sides in walls.sides):
         faces = [face for face in faces if face.area >= 0.5 * faces[0].area]
     return faces[:_FACES]
+
+
+def _solid_faces(walls: Walls, faces: Any) -> Any:
+    """Mark faces that are material by what the import has decided; none where nobody has."""
+    import shapely
+
+    if walls.solid is None or not len(faces):
+        return np.zeros(len(faces), dtype=np.bool_)
+    inner = shapely.get_coordinates(shapely.point_on_surface(faces))
+    around, _ = walls_around(straight_edges(walls), inner)
+    return (np.bincount(around, minlength=len(faces)) + walls.solid.room) % 2 == 1
 
 
 def _is_nearly_closed(face: Any, noded: Any) -> bool:
@@ -185,11 +107,11 @@ def _is_nearly_closed(face: Any, noded: Any) -> bool:
 def _in_material(walls: Walls, rings: list[FloatArray], spot: Spot) -> bool:
     """Tell whether a spot is in what only one-sided walls keep balls out of: the smallest ring around it is a solid.
 
-    Two-sided walls keep a ball in as well as out; a room drawn as a plain outline has its room there.
+    Two-sided walls keep a ball in as well as out; a room given as a plain ring of numbers has its room there.
     """
     import shapely
 
-    if all(sides == "both" for sides in walls.sides):
+    if walls.solid is not None or all(sides == "both" for sides in walls.sides):
         return False
     around = [ring for ring, closed in zip(rings, walls.closed, strict=True)
               if closed and len(ring) > 2 and shapely.contains_xy(shapely.polygons(ring), spot.x, spot.y)]  # fmt: skip

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from concurrent.futures import Executor
+import concurrent.futures
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.arguments import of_type, whole_number
 from wallkit.flying import LEAST, way_to_fly
 from wallkit.kernels.lockstep import Outcome
 from wallkit.preparing import Prepared, prepare
-from wallkit.scene import FloatArray, Scene
+from wallkit.run import Ending
+from wallkit.scene import FloatArray, Scene, SceneError
 from wallkit.simulation import limits
 from wallkit.threads import cores, in_threads
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Totals:
     """What is left of a survey.
 
@@ -39,6 +42,15 @@ class Totals:
     ending: NDArray[np.uint8]
     crossings: NDArray[np.int64]
 
+    def __repr__(self) -> str:
+        counts = np.bincount(self.ending, minlength=len(Ending))
+        parts = [
+            f"{len(self.bounces):,} ball{'' if len(self.bounces) == 1 else 's'}",
+            f"{int(self.bounces.sum()):,} bounces in {float(self.time.max(initial=0.0)):.6g} s",
+            *(f"{Ending(code).label} {counts[code]:,}" for code in np.argsort(-counts, kind="stable") if counts[code]),
+        ]
+        return f"<Totals: {', '.join(parts)}>"
+
 
 def survey(
     scene: Scene | Prepared,
@@ -59,13 +71,21 @@ def survey(
         until: seconds; None for no end in time.
         bounces: bounces a ball; None for the guard of ``simulate``. At least one of the two must be given.
         threads: how many to use; None for one a core.
-        executor: threads of your own to use instead (a ``ThreadPoolExecutor``).
+        executor: threads of your own to use instead (a ``concurrent.futures.ThreadPoolExecutor``). The balls' totals
+            are written into memory that all threads share, so that processes cannot take their place.
         check: look whether a disc overlaps a wall at the start; False where that is known, to save the time.
 
     Raises:
-        SceneError: neither limit was given, or the scene cannot be simulated.
+        SceneError: neither limit was given, an argument is none of what may be, or the scene cannot be simulated.
     """
     limit_time, limit_bounces = limits(until, bounces)
+    if threads is not None:
+        may_be = "a whole number, 1 or more, or None for one a core"
+        threads = whole_number(threads, "threads", may_be, error=SceneError, code="bad-threads", least=1)
+    _check_executor(executor)
+    of_type(
+        scene, "scene", (Scene, Prepared), "a Scene, or what prepare() made of one", error=SceneError, code="bad-scene"
+    )
     ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
     scene, modelled = ready.scene, ready.modelled
     threads = max(1, min(cores() if threads is None else threads, len(modelled.radii) // LEAST))
@@ -76,6 +96,22 @@ def survey(
         found += other
     hits, crossings = found[: len(scene.walls)], found[len(scene.walls) :].reshape(-1, 2)
     return Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings)
+
+
+def _check_executor(executor: object) -> None:
+    """Refuse what does not run in this process: there the work would fill a copy of the totals, and ours stay empty.
+
+    An InterpreterPoolExecutor (Python 3.14) is a ThreadPoolExecutor by its class, and copies all the same.
+    """
+    copies = getattr(concurrent.futures, "InterpreterPoolExecutor", ())
+    if executor is None or (isinstance(executor, ThreadPoolExecutor) and not isinstance(executor, copies)):
+        return
+    kind = f"{type(executor).__module__}.{type(executor).__qualname__}"
+    raise SceneError(
+        f"executor is a {kind}, and a survey needs threads of its own process",
+        code="bad-executor",
+        fix="give a concurrent.futures.ThreadPoolExecutor, or threads=",
+    )
 
 
 def _room_for(count: int) -> Outcome:

@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from wallkit.arguments import flag, floats, number, of_type, refused, whole_number, word
 from wallkit.damping import carried_on, damping_of
 from wallkit.kernels.model import NO_HIT
 from wallkit.run import CONTACT, Kind
@@ -55,10 +56,9 @@ class World:
     """
 
     def __init__(self, scene: Scene, way: Way = "exact", *, compile: bool = False) -> None:
-        if way not in get_args(Way):
-            raise SceneError(
-                f"there is no way {way!r} to treat a contact", code="bad-way", fix=f"one of {', '.join(get_args(Way))}"
-            )
+        of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
+        word(way, "way", get_args(Way), error=SceneError, code="bad-way")
+        flag(compile, "compile", error=SceneError, code="bad-argument")
         self.scene = scene
         self.way: Way = way
         self.time = 0.0
@@ -82,6 +82,9 @@ class World:
 
     def __len__(self) -> int:
         return len(self._base)
+
+    def __repr__(self) -> str:
+        return f"<World: {self.way!r} at {self.time:.6g} s, {self.scene!r}>"
 
     @property
     def position(self) -> FloatArray:
@@ -110,8 +113,7 @@ class World:
         Raises:
             SceneError: ``dt`` is negative or not finite.
         """
-        if not (math.isfinite(dt) and dt >= 0.0):
-            raise SceneError(f"a step of {dt!r} seconds", code="bad-step", fix="give seconds, 0 or more")
+        dt = number(dt, "dt", "finite seconds, 0 or more", error=SceneError, code="bad-step", least=0.0)
         whole = dt + self._lost  # Kahan's sum: what one frame loses to rounding the next one gets
         end = self.time + whole
         self._lost = whole - (end - self.time)
@@ -142,13 +144,13 @@ class World:
         A velocity into the wall that the ball touches is turned at once, without a loss.
 
         Raises:
-            SceneError: a number is not finite.
+            SceneError: there is no such ball, or a place or velocity is not two finite numbers.
         """
+        most, may_be = len(self) - 1, f"a whole number from 0 to {len(self) - 1}"
+        ball = whole_number(ball, "ball", may_be, error=SceneError, code="bad-ball", least=0, most=most)
         touched = int(self._touched[ball]) if position is None and self._since[ball] == self.time else NO_HIT
-        here = self.position[ball] if position is None else np.asarray(position, dtype=np.float64)
-        speed = self.velocity[ball] if velocity is None else np.asarray(velocity, dtype=np.float64)
-        if here.shape != (2,) or speed.shape != (2,) or not (np.isfinite(here).all() and np.isfinite(speed).all()):
-            raise SceneError(f"ball {ball} cannot be put at {position!r}, {velocity!r}", code="bad-ball")
+        here = self.position[ball] if position is None else _pair(position, "position")
+        speed = self.velocity[ball] if velocity is None else _pair(velocity, "velocity")
         normal = self._normal[ball]
         if touched != NO_HIT and speed @ normal < 0.0:
             speed = speed - 2.0 * (speed @ normal) * normal
@@ -210,3 +212,11 @@ class World:
         self._base[ball] = *position, *velocity
         self._since[ball], self._touched[ball], self._pull[ball] = time, last, self._gravity
         self._look_ahead(ball)
+
+
+def _pair(value: ArrayLike, name: str) -> FloatArray:
+    may_be = "two finite numbers"
+    pair = floats(value, name, may_be, error=SceneError, code="bad-ball")
+    if pair.shape != (2,) or not np.isfinite(pair).all():
+        raise refused(name, value, may_be, SceneError, "bad-ball")
+    return pair

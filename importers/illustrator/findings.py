@@ -86,7 +86,7 @@ PAGES = Kind(
     "warning",
     "the file has another page; only the first is read",
     "the file has {count} more pages; only the first is read",
-    "save each page as a file of its own",
+    "choose a page by its number, or all pages; or save each page as a file of its own",
 )
 ATTRIBUTE = Kind(
     "bad-attribute",

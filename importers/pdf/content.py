@@ -3,34 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import partial
 from typing import Any
 
-from importers import colours
-from importers.drawing import DrawnPath, FillRule, Layer, Segment, Subpath
-from importers.findings import Findings
+from importers.drawing import Layer
 from importers.illustrator import findings as common
 from importers.illustrator.text import MAX_STRING_BYTES, string_end
-from importers.limits import (
-    MAX_COORDINATE,
-    MAX_DEPTH,
-    MAX_ELEMENTS,
-    MAX_OPERATORS,
-    MAX_REFERENCES,
-    limit_error,
-)
+from importers.limits import MAX_DECODED_BYTES, MAX_DEPTH, MAX_ELEMENTS, MAX_OPERATORS, MAX_REFERENCES, limit_error
 from importers.pdf import findings
 from importers.pdf.document import Document, get, is_stream, items, number, word
 from importers.pdf.layers import OptionalContent
-from importers.pdf.state import IDENTITY, Graphics, Matrix, multiply
+from importers.pdf.painting import Handler, Name, Operands, Painter, State
+from importers.pdf.state import IDENTITY, Matrix
 
 _BATCH = 20_000
 _BYTES_PER_TOKEN = 16  # of strings, whose cost grows with their length
 _MAX_OPERANDS = 4096
+# Blanks, numbers, and the operator if one follows: all may be missing, so it never fails and reads no number twice.
 _OPERATOR = re.compile(
-    rb"[\s\x00]{0,200}((?:[-+.\deE]{1,40}\s{1,20}){0,8})([A-Za-z]{1,3}\d?\*?|['\"])(?=[\s\x00/(\[<%]|\Z)"
+    rb"[\s\x00]{0,200}((?:[-+.\deE]{1,40}\s{1,20}){0,8})(?:([A-Za-z]{1,3}\d?\*?|['\"])(?=[\s\x00/(\[<%]|\Z))?"
 )
 _WHITE = re.compile(rb"[\s\x00]+")
 _WORD = re.compile(rb"[^\s\x00()<>\[\]{}/%]+")
@@ -40,17 +31,7 @@ _HEX = re.compile(rb"<[^<>]*>")
 _NAME_ESCAPE = re.compile(rb"#([0-9A-Fa-f]{2})")
 _IMAGE_DATA = re.compile(rb"\bID[\s]")
 _IMAGE_END = re.compile(rb"[\s\x00]EI(?=[\s\x00]|\Z)")
-_WITHOUT_GEOMETRY = b"j J M d ri i gs Tc Tw Tz TL Tf Tr Ts Td TD Tm T* BX EX MP DP d0 d1 << >> true false null".split()
-
-Operands = list[Any]  # numbers as bytes, names as Name, texts as None
-Handler = Callable[[Operands], None]
-
-
-@dataclass(frozen=True, slots=True)
-class Name:
-    """A name operand with its slash."""
-
-    text: str
+_WITHOUT_GEOMETRY = b"j J M d ri i Tc Tw Tz TL Tf Tr Ts Td TD Tm T* BX EX MP DP d0 d1 << >> true false null".split()
 
 
 @dataclass(slots=True)
@@ -65,6 +46,7 @@ class Frame:
     marked_depth: int = 0
     marked: bool = False  # the form is optional content of its own
     spaces: dict[str, str] = field(default_factory=dict)
+    states: dict[str, State] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,36 +59,21 @@ class Form:
     matrix: Matrix
     marked: bool  # it is optional content of its own
     layer: Layer | None
+    grouped: bool  # it is drawn as a whole, with the opacity of fills at hand
 
 
-class PageReader:
-    """Reads one page's content.
-
-    Attributes:
-        paths: in the order of drawing.
-        findings: what was left out or could not be read.
-    """
+class PageReader(Painter):
+    """Reads one page's content: the loop over its operators, and forms within forms."""
 
     def __init__(self, document: Document, layers: OptionalContent) -> None:
+        super().__init__(document.file)
         self.document = document
         self.layers = layers
-        self.paths: list[DrawnPath] = []
-        self.findings = Findings()
-        self._graphics = Graphics()
-        self._kept: list[Graphics] = []
         self._frames: list[Frame] = []
         self._marked: list[Layer | None] = []  # one for each marked-content sequence that is open
-        self._layer: Layer | None = None
-        self._hidden = False
-        self._segments: list[Segment] = []
-        self._subpaths: list[Subpath] = []
-        self._reopen: Segment | None = None
-        self._spoiled = False
-        self._clip = False
         self._text_shown = False
-        self._count = 0
         self._operators = 0
-        self._references = 0
+        self._bytes = 0
         self._forms: dict[tuple[int, int], Form] = {}
         self._drawn: dict[tuple[tuple[int, int], str], Form | str] = {}  # by where and under which name
         self._active: set[tuple[int, int]] = set()  # forms that are being read
@@ -115,19 +82,8 @@ class PageReader:
     def _make_handlers(self) -> dict[bytes, Handler]:
         """List what each operator does."""
         handlers: dict[bytes, Handler] = dict.fromkeys(_WITHOUT_GEOMETRY, self._ignore)
-        handlers.update({b"m": self._move, b"l": self._line, b"c": self._curve, b"v": self._curve_from_point})
-        handlers.update({b"y": self._curve_to_point, b"h": self._close, b"re": self._rectangle})
-        for name in ("f", "F", "f*", "B", "B*", "b", "b*", "S", "s", "n"):
-            handlers[name.encode()] = partial(self._paint, name)
-        handlers.update({b"W": self._set_clip, b"W*": self._set_clip, b"q": self._keep, b"Q": self._restore})
-        handlers.update({b"cm": self._transform, b"w": self._set_width, b"Do": self._draw, b"sh": self._shade})
-        for name, attribute in (("g", "fill"), ("rg", "fill"), ("k", "fill")):
-            handlers[name.encode()] = partial(self._set_device_colour, attribute)
-            handlers[name.upper().encode()] = partial(self._set_device_colour, "stroke")
-        for name in ("sc", "scn"):
-            handlers[name.encode()] = partial(self._set_colour, "fill")
-            handlers[name.upper().encode()] = partial(self._set_colour, "stroke")
-        handlers.update({b"cs": partial(self._set_space, "fill"), b"CS": partial(self._set_space, "stroke")})
+        handlers.update(self.path_handlers())
+        handlers.update({b"Do": self._draw, b"sh": self._shade})
         handlers.update({b"BMC": self._begin_marked, b"BDC": self._begin_marked, b"EMC": self._end_marked})
         handlers.update({b"BT": self._begin_text, b"ET": self._end_text})
         handlers.update(dict.fromkeys((b"Tj", b"TJ", b"'", b'"'), self._show_text))
@@ -135,13 +91,22 @@ class PageReader:
 
     # --- the loop ---------------------------------------------------------------------------------------
 
-    def read(self, contents: bytes, resources: Any) -> None:
+    def read(self, contents: bytes, resources: Any, *, index: int = 0, right: float = 0.0) -> None:
         """Read a page's content.
+
+        Args:
+            contents: its bytes.
+            resources: what it names.
+            index: which of the pages that are read it is.
+            right: how far to the right it is moved.
 
         Raises:
             LimitError: more segments, forms or nesting than the limits allow.
         """
-        self._frames.append(Frame(contents, resources))
+        self.begin_page(right)
+        self._marked = []
+        self._update_layer()
+        self._go_into(Frame(contents, resources, key=(-index, 0)))
         stack: Operands = []
         while self._frames:
             frame = self._frames[-1]
@@ -165,12 +130,17 @@ class PageReader:
             done += 1
             match = match_operator(data, position, stop)
             if match is None:
+                break  # it never fails
+            numbers, operator = match.groups()
+            position = match.end()
+            if operator is None:
+                if numbers:
+                    stack += numbers.split()
+                    self._operators += 2
                 position = self._read_token(data, position, stack)
                 if position >= stop:
                     break
                 continue
-            numbers, operator = match.groups()
-            position = match.end()
             if operator == b"BI":
                 position = self._skip_image(data, position)
                 stack.clear()
@@ -194,9 +164,9 @@ class PageReader:
         """Read what is not just numbers and a short operator; give the position after it."""
         white = _WHITE.match(data, position)
         if white:
-            position = white.end()
-            if position == len(data):
-                return position
+            return white.end()
+        if position == len(data):
+            return position
         self._operators += 1  # read one by one, which costs twice as much
         if len(stack) > _MAX_OPERANDS:
             stack.clear()
@@ -239,14 +209,9 @@ class PageReader:
     def _check_counts(self) -> None:
         """Raise LimitError when there is too much of something."""
         if self._count + len(self._segments) + len(self._subpaths) > MAX_ELEMENTS:
-            raise limit_error("segments and paths of a drawing", f"{MAX_ELEMENTS:,}", file=self.document.file)
+            raise limit_error("segments and paths of a drawing", f"{MAX_ELEMENTS:,}", file=self.file)
         if self._operators > MAX_OPERATORS:
-            raise limit_error("operators of a drawing", f"{MAX_OPERATORS:,}", file=self.document.file)
-
-    def _find(self, kind: Any, what: str = "") -> None:
-        """Note a finding at the place where the content draws."""
-        point = self._segments[-1][-2:] if self._segments else None
-        self.findings.add(kind, None, what=what, layer=self._layer.name if self._layer else "", at=point)
+            raise limit_error("operators of a drawing", f"{MAX_OPERATORS:,}", file=self.file)
 
     def _unknown(self, operator: bytes) -> None:
         self._find(common.UNKNOWN, operator[:24].decode("latin-1"))
@@ -267,168 +232,6 @@ class PageReader:
                 return
         self._find(common.OPERANDS, what)
 
-    # --- paths ------------------------------------------------------------------------------------------
-
-    def _ignore(self, _operands: Operands) -> None:
-        """Do nothing: no geometry depends on it."""
-
-    def _place(self, operands: Operands) -> list[float]:
-        """Give points in the page's units."""
-        numbers = [*map(float, operands)]
-        if self._graphics.matrix != IDENTITY:
-            a, b, c, d, e, f = self._graphics.matrix
-            pairs = zip(numbers[0::2], numbers[1::2], strict=True)
-            numbers = [part for x, y in pairs for part in (a * x + c * y + e, b * x + d * y + f)]
-        if not (max(numbers) <= MAX_COORDINATE and min(numbers) >= -MAX_COORDINATE):
-            self._spoiled = True
-        return numbers
-
-    def _move(self, operands: Operands) -> None:
-        x, y = self._place(operands)
-        if len(self._segments) > 1:
-            self._subpaths.append(Subpath(self._segments, closed=False))
-        self._segments = [("M", x, y)]
-
-    def _line(self, operands: Operands) -> None:
-        x, y = self._place(operands)
-        if self._segments or self._has_point("l", x, y):
-            self._segments.append(("L", x, y))
-
-    def _curve(self, operands: Operands) -> None:
-        x1, y1, x2, y2, x, y = self._place(operands)
-        if self._segments or self._has_point("c", x, y):
-            self._segments.append(("C", x1, y1, x2, y2, x, y))
-
-    def _curve_from_point(self, operands: Operands) -> None:
-        x2, y2, x, y = self._place(operands)
-        if self._segments or self._has_point("v", x, y):
-            self._segments.append(("C", *self._segments[-1][-2:], x2, y2, x, y))
-
-    def _curve_to_point(self, operands: Operands) -> None:
-        x1, y1, x, y = self._place(operands)
-        if self._segments or self._has_point("y", x, y):
-            self._segments.append(("C", x1, y1, x, y, x, y))
-
-    def _has_point(self, operator: str, x: float, y: float) -> bool:
-        """Find a current point when no subpath is open; without one, the subpath begins at x, y."""
-        if self._reopen is not None:
-            self._segments = [self._reopen]
-            return True
-        self._find(common.NO_POINT, operator)
-        self._segments = [("M", x, y)]
-        return False
-
-    def _close(self, _operands: Operands) -> None:
-        if self._segments:
-            self._subpaths.append(Subpath(self._segments, closed=True))
-            self._reopen = self._segments[0]
-            self._segments = []
-
-    def _rectangle(self, operands: Operands) -> None:
-        x, y, width, height = map(float, operands)
-        if len(self._segments) > 1:
-            self._subpaths.append(Subpath(self._segments, closed=False))
-        corners = self._place([x, y, x + width, y, x + width, y + height, x, y + height])
-        points = [*zip(corners[0::2], corners[1::2], strict=True)]
-        self._segments = [("M", *points[0]), *(("L", *point) for point in points[1:])]
-        self._close([])
-
-    def _set_clip(self, _operands: Operands) -> None:
-        self._clip = True
-
-    def _paint(self, operator: str, _operands: Operands) -> None:
-        """Paint the path and forget it; ``n`` paints nothing and is how clipping paths end."""
-        kind = operator.rstrip("*")
-        closing = kind in ("s", "b")
-        if self._segments and (closing or len(self._segments) > 1 or not self._subpaths):
-            self._subpaths.append(Subpath(self._segments, closed=closing))
-        subpaths, spoiled, clip = self._subpaths, self._spoiled, self._clip
-        self._segments, self._subpaths, self._reopen = [], [], None
-        self._clip = self._spoiled = False
-        if not subpaths:
-            return
-        if spoiled:
-            self._find(common.COORDINATE)
-            return
-        rule: FillRule = "evenodd" if operator.endswith("*") else "nonzero"
-        self._add_path(subpaths, kind, rule, clip=clip and kind == "n")
-
-    def _add_path(self, subpaths: list[Subpath], kind: str, rule: FillRule, *, clip: bool) -> None:
-        """Put a path into the drawing with the marks that are in force."""
-        graphics, layer = self._graphics, self._layer
-        strokes = kind in "SsBb"
-        self.paths.append(
-            DrawnPath(
-                subpaths,
-                layer=layer.name if layer else "",
-                visible=not self._hidden,
-                locked=layer.locked if layer else False,
-                clip=clip,
-                fill=graphics.fill if kind in "fFBb" else None,
-                stroke=graphics.stroke if strokes else None,
-                stroke_width=graphics.width_on_page() if strokes else None,
-                fill_rule=rule,
-            )
-        )
-        self._count += 1 + sum(len(subpath.segments) + 1 for subpath in subpaths)
-
-    # --- state ------------------------------------------------------------------------------------------
-
-    def _keep(self, _operands: Operands) -> None:
-        if len(self._kept) >= MAX_DEPTH:
-            raise limit_error("graphics states in each other (q)", str(MAX_DEPTH), file=self.document.file)
-        self._kept.append(self._graphics)
-
-    def _restore(self, _operands: Operands) -> None:
-        if len(self._kept) > self._frames[-1].graphics_depth:
-            self._graphics = self._kept.pop()
-        else:
-            self._find(common.UNBALANCED, "Q")
-
-    def _transform(self, operands: Operands) -> None:
-        a, b, c, d, e, f = map(float, operands)
-        self._graphics = replace(self._graphics, matrix=multiply((a, b, c, d, e, f), self._graphics.matrix))
-
-    def _set_width(self, operands: Operands) -> None:
-        (width,) = map(float, operands)
-        if not 0.0 <= width <= MAX_COORDINATE:
-            raise ValueError(width)
-        self._graphics = replace(self._graphics, width=width)
-
-    def _set_device_colour(self, attribute: str, operands: Operands) -> None:
-        colour = colours.from_components([*map(float, operands)])
-        if colour is None:
-            raise ValueError(operands)
-        self._graphics = _repaint(self._graphics, attribute, colour, "")
-
-    def _set_space(self, attribute: str, operands: Operands) -> None:
-        (name,) = operands
-        if not isinstance(name, Name):
-            raise TypeError(name)
-        frame = self._frames[-1]
-        if name.text not in frame.spaces:
-            found = get(get(frame.resources, "/ColorSpace"), name.text)
-            kind = word(found) or word(next(items(found), None))
-            frame.spaces[name.text] = kind or name.text
-        space = frame.spaces[name.text]
-        colour = "pattern" if space == "/Pattern" else "#000000"
-        self._graphics = _repaint(self._graphics, attribute, colour, space)
-
-    def _set_colour(self, attribute: str, operands: Operands) -> None:
-        """``sc`` and ``scn``: as many numbers as the colour space has, or a pattern's name."""
-        graphics = self._graphics
-        space = graphics.fill_space if attribute == "fill" else graphics.stroke_space
-        if operands and isinstance(operands[-1], Name):
-            colour: str | None = "pattern"
-        elif space in ("/Separation", "/DeviceN", "/Indexed"):
-            # An ink whose own colour a program would compute: how much of it there is must do.
-            colour = colours.gray(1.0 - min(max(map(float, operands), default=0.0), 1.0))
-        else:
-            colour = colours.from_components([*map(float, operands)])
-        if colour is None:
-            raise ValueError(operands)
-        self._graphics = _repaint(graphics, attribute, colour, space)
-
     # --- optional content, forms, what is no path -------------------------------------------------------
 
     def _begin_marked(self, operands: Operands) -> None:
@@ -442,7 +245,7 @@ class PageReader:
 
     def _push_marked(self, layer: Layer | None) -> None:
         if len(self._marked) >= MAX_DEPTH:
-            raise limit_error("marked contents in each other", str(MAX_DEPTH), file=self.document.file)
+            raise limit_error("marked contents in each other", str(MAX_DEPTH), file=self.file)
         self._marked.append(layer)
         self._update_layer()
 
@@ -464,9 +267,7 @@ class PageReader:
         (name,) = operands[-1:]
         if not isinstance(name, Name):
             raise TypeError(name)
-        self._references += 1
-        if self._references > MAX_REFERENCES:
-            raise limit_error("forms drawn on a page", f"{MAX_REFERENCES:,}", file=self.document.file)
+        self.document.follow("forms drawn on a page", MAX_REFERENCES)
         here = self._frames[-1]
         known = (here.key, name.text)
         if known not in self._drawn:
@@ -500,6 +301,7 @@ class PageReader:
                 (matrix[0], matrix[1], matrix[2], matrix[3], matrix[4], matrix[5]) if len(matrix) == 6 else IDENTITY,
                 content is not None,
                 layer,
+                word(get(get(stream, "/Group"), "/S")) == "/Transparency",
             )
         return self._forms[key]
 
@@ -509,14 +311,18 @@ class PageReader:
             self._find(findings.RECURSIVE)
             return
         if len(self._frames) >= MAX_DEPTH:
-            raise limit_error("forms in each other", str(MAX_DEPTH), file=self.document.file)
+            raise limit_error("forms in each other", str(MAX_DEPTH), file=self.file)
         self._keep([])
         if form.marked:
             self._push_marked(form.layer)
         if form.matrix != IDENTITY:
             self._transform([*form.matrix])
+        if form.grouped:
+            graphics = self._graphics
+            unseen = graphics.unseen or graphics.fill_alpha <= 0.0
+            self._graphics = replace(graphics, unseen=unseen, fill_alpha=1.0, stroke_alpha=1.0)
         self._active.add(form.key)
-        self._frames.append(
+        self._go_into(
             Frame(
                 form.data,
                 form.resources,
@@ -526,6 +332,20 @@ class PageReader:
                 marked=form.marked,
             )
         )
+
+    def _go_into(self, frame: Frame) -> None:
+        """Go on reading in a frame; its bytes count each time."""
+        self._bytes += len(frame.data)
+        if self._bytes > MAX_DECODED_BYTES:
+            limit = "content of a page, forms as often as they are drawn"
+            raise limit_error(limit, f"{MAX_DECODED_BYTES // 1_000_000} MB", file=self.file)
+        self._frames.append(frame)
+        self._look_at(frame)
+
+    def _look_at(self, frame: Frame) -> None:
+        """Let the painter look things up in a frame's resources."""
+        self.resources, self.spaces, self.states = frame.resources, frame.spaces, frame.states
+        self.graphics_depth = frame.graphics_depth
 
     def _leave_form(self) -> None:
         """Go back to where the form was drawn."""
@@ -538,6 +358,7 @@ class PageReader:
             del self._kept[frame.graphics_depth - 1 :]
             del self._marked[frame.marked_depth - frame.marked :]
             self._update_layer()
+            self._look_at(self._frames[-1])
 
     def _shade(self, _operands: Operands) -> None:
         self._find(findings.SHADING)
@@ -552,10 +373,3 @@ class PageReader:
         if self._text_shown:
             self._find(common.TEXT)
         self._text_shown = False
-
-
-def _repaint(graphics: Graphics, attribute: str, colour: str, space: str) -> Graphics:
-    """Give the state with another colour."""
-    if attribute == "fill":
-        return replace(graphics, fill=colour, fill_space=space)
-    return replace(graphics, stroke=colour, stroke_space=space)

@@ -6,31 +6,18 @@ pikepdf reads the structure. It is never asked to decode a stream: qpdf hands ou
 from __future__ import annotations
 
 import io
-import itertools
 import re
 from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 from importers import filters
 from importers.errors import DrawingError
 from importers.limits import MAX_DEPTH, Unpacker, limit_error
+from importers.pdf.structure import Gate
 
 _HEADER = re.compile(rb"%PDF-\d")
-# Streams that qpdf itself decodes while it opens a file. A name may be written with #xx for any letter.
-_STRUCTURE = re.compile(
-    rb"/(?:O|#4[fF])(?:b|#62)(?:j|#6[aA])(?:S|#53)(?:t|#74)(?:m|#6[dD])|/(?:X|#58)(?:R|#52)(?:e|#65)(?:f|#66)"
-)
-_STREAM = re.compile(rb"stream[\r\n]+")
-_FILTER = re.compile(rb"/F(?:ilter)?\b|/[^\s/<>\[\]()]*#")
-_ONE_FLATE = re.compile(rb"/Filter\s*(?:\[\s*)?/(?:FlateDecode|Fl)\s*(?:\]|/(?!F)|>>|\s)")
-_DICTIONARY = 65_536  # bytes before a name in which the dictionary around it is looked for to begin
-_MAX_STRUCTURE = 100_000
-_MAX_CANDIDATES = 8
 _MAX_MENDED = 8 * 1024 * 1024  # bytes of a file whose table of objects is made anew
-# Pages in one node of the tree of pages: qpdf lists all pages while it opens a file, at 2 kB each.
-_MAX_KIDS = 50_000
-_KIDS = re.compile(rb"/Kids\s*\[([^\]]*)")
+_MAX_PAGES = 50_000  # and nodes of their tree
 _MAX_SLOW_BYTES = 4_000_000  # of LZW and RunLength data, which are decoded code by code
 _FILTER_NAMES = {"/Fl": "/FlateDecode", "/LZW": "/LZWDecode", "/A85": "/ASCII85Decode", "/AHx": "/ASCIIHexDecode"}
 _FILTER_NAMES["/RL"] = "/RunLengthDecode"
@@ -57,7 +44,8 @@ class Document:
         self.file = file
         self.unpacker = Unpacker(file)
         self._slow_bytes = 0
-        self._check_structure(data)
+        self._followed: dict[str, int] = {}
+        Gate(data, self.unpacker, file).check()
         try:
             self._pdf = self._open(data)
         except pikepdf.PasswordError as error:
@@ -77,13 +65,14 @@ class Document:
         import pikepdf
 
         try:
-            return pikepdf.open(io.BytesIO(data), attempt_recovery=False)
+            # Pages inherit when they are asked: to push everything down, qpdf would list all pages at 2 kB each.
+            return pikepdf.open(io.BytesIO(data), attempt_recovery=False, inherit_page_attributes=False)
         except pikepdf.PasswordError:
             raise
         except (pikepdf.PdfError, pikepdf.PikepdfError, RuntimeError, ValueError):
             if len(data) > _MAX_MENDED:
                 raise
-        return pikepdf.open(io.BytesIO(data))
+        return pikepdf.open(io.BytesIO(data), inherit_page_attributes=False)
 
     def close(self) -> None:
         """Give the file back."""
@@ -99,32 +88,40 @@ class Document:
         """The dictionary that names author and program, or None."""
         return get(self._pdf.trailer, "/Info")
 
-    def first_page(self) -> tuple[Page, int]:
-        """Find the first page, with the entries it inherits, and count the pages.
+    def pages(self) -> Iterator[Page]:
+        """Go through the pages in order, each with the entries it inherits.
 
         Raises:
-            DrawingError: there is none.
+            LimitError: the tree of pages is too deep, or has too many nodes.
         """
-        inherited: dict[str, Any] = {}
-        seen: set[tuple[int, int]] = set()
-        node = get(self.root, "/Pages")
-        count = number(get(node, "/Count"))
-        for _ in range(MAX_DEPTH):
-            if node is None or not is_dictionary(node) or node.objgen in seen:
-                break
-            if node.objgen != (0, 0):
-                seen.add(node.objgen)
-            for key in ("/Resources", "/MediaBox", "/Rotate"):
-                value = get(node, key)
-                if value is not None:
-                    inherited[key] = value
-            kids = get(node, "/Kids")
-            if kids is None:
-                return Page(node, inherited), int(min(max(count or 1, 1), 1e9))
-            node = next((kid for kid in items(kids) if is_dictionary(kid)), None)
-        raise DrawingError(
-            "the PDF has no pages", code="no-pages", fix="save or export the drawing again", file=self.file
-        )
+        above: list[tuple[Iterator[Any], dict[str, Any], tuple[int, int]]] = []
+        kids, inherited = iter((get(self.root, "/Pages"),)), dict[str, Any]()
+        key = (0, 0)
+        while True:
+            node = next(kids, None)
+            if node is None:
+                if not above:
+                    return
+                kids, inherited, key = above.pop()
+                continue
+            self.follow("pages of a PDF", _MAX_PAGES)
+            if not is_dictionary(node) or _is_above(node.objgen, key, above):
+                continue
+            found = {name: get(node, name) for name in ("/Resources", "/MediaBox", "/Rotate")}
+            here = {**inherited, **{name: value for name, value in found.items() if value is not None}}
+            children = get(node, "/Kids")
+            if children is None:
+                yield Page(node, here)
+                continue
+            if len(above) >= MAX_DEPTH:
+                raise limit_error("nodes of the tree of pages in each other", str(MAX_DEPTH), file=self.file)
+            above.append((kids, inherited, key))
+            kids, inherited, key = items(children), here, node.objgen
+
+    def page_count(self) -> int:
+        """Give how many pages there are by the file's own count, at least 1."""
+        count = number(get(get(self.root, "/Pages"), "/Count"))
+        return int(min(max(count or 1, 1), 1e9))
 
     def decode(self, stream: Any) -> tuple[bytes, str]:
         """Decode a stream within the limits.
@@ -142,7 +139,10 @@ class Document:
         except (pikepdf.PdfError, pikepdf.PikepdfError, AttributeError, TypeError, ValueError, RuntimeError) as error:
             return b"", _reason(error)
         damage = ""
-        for name, parameters in _filters_of(stream):
+        filters_used = _filters_of(stream)
+        if not filters_used:
+            self.unpacker.charge(len(data))
+        for name, parameters in filters_used:
             if name == "/FlateDecode":
                 data, damage = self.unpacker.unpack(data, "zlib")
             elif name == "/LZWDecode":
@@ -164,44 +164,26 @@ class Document:
                 return b"", "a predictor is not for drawings"
         return data, damage
 
+    def follow(self, what: str, limit: int) -> None:
+        """Count a reference that is followed, by what it is for.
+
+        Raises:
+            LimitError: there were more than `limit`.
+        """
+        self._followed[what] = count = self._followed.get(what, 0) + 1
+        if count > limit:
+            raise limit_error(what, f"{limit:,}", file=self.file)
+
     def _charge_slow(self, size: int) -> None:
         """Count bytes that are decoded code by code."""
         self._slow_bytes += size
         if self._slow_bytes > _MAX_SLOW_BYTES:
             raise limit_error("LZW and RunLength data of a PDF", f"{_MAX_SLOW_BYTES // 1_000_000} MB", file=self.file)
 
-    def _check_structure(self, data: bytes) -> None:
-        """Make sure that what qpdf decodes on its own while opening the file stays within the limits."""
-        for kids in _KIDS.finditer(data):
-            if kids.group(1).count(b"R") > _MAX_KIDS:
-                raise limit_error("pages of a PDF", f"{_MAX_KIDS:,}", file=self.file)
-        checked = 0
-        for count, match in enumerate(_STRUCTURE.finditer(data)):
-            if count > _MAX_STRUCTURE:
-                raise limit_error("object streams of a PDF", f"{_MAX_STRUCTURE:,}", file=self.file)
-            if match.start() < checked:
-                continue
-            checked = self._check_stream(data, match.start())
 
-    def _check_stream(self, data: bytes, start: int) -> int:
-        """Measure the stream whose dictionary has a name at `start`; give the position after it."""
-        end = data.find(b"endstream", start)
-        end = end if end >= 0 else len(data)
-        head_start = max(data.rfind(b"obj", max(start - _DICTIONARY, 0), start), 0)
-        # The word may also stand in a comment of the dictionary, so each place is tried.
-        for candidate in itertools.islice(_STREAM.finditer(data, start, end), _MAX_CANDIDATES):
-            head = data[head_start : candidate.start()]
-            filters_found = _FILTER.search(head)
-            if filters_found and _ONE_FLATE.match(head, filters_found.start()) is None:
-                raise DrawingError(
-                    "the structure of the PDF is packed in a way that drawing programs do not use",
-                    code="broken-pdf",
-                    fix="save or export the drawing again",
-                    file=self.file,
-                )
-            if filters_found:
-                self.unpacker.unpack(data[candidate.end() : end], "zlib")
-        return end
+def _is_above(key: tuple[int, int], own: tuple[int, int], above: list[tuple[Any, Any, tuple[int, int]]]) -> bool:
+    """Tell whether a node of the tree of pages is its own ancestor (one without a number cannot be)."""
+    return key != (0, 0) and (key == own or any(key == other for _, _, other in above))
 
 
 class Page:
@@ -219,10 +201,10 @@ class Page:
 
 def get(container: Any, key: str) -> Any:
     """Give a dictionary's entry, or None when it has none, is none, or cannot be read."""
-    with _carefully():
-        if is_dictionary(container):
-            return container.get(key)
-    return None
+    try:
+        return container.get(key) if is_dictionary(container) else None
+    except _library_errors():
+        return None
 
 
 def items(array: Any) -> Iterator[Any]:
@@ -231,10 +213,12 @@ def items(array: Any) -> Iterator[Any]:
 
     if not isinstance(array, pikepdf.Array):
         return
+    broken = _library_errors()
     for index in range(len(array)):
-        element = None
-        with _carefully():
+        try:
             element = array[index]
+        except broken:
+            continue
         if element is not None:
             yield element
 
@@ -276,10 +260,10 @@ def word(value: Any) -> str:
     """Give a name or a text as text; ``""`` for anything else."""
     import pikepdf
 
-    with _carefully():
-        if isinstance(value, pikepdf.Name | pikepdf.String):
-            return str(value)
-    return ""
+    try:
+        return str(value) if isinstance(value, pikepdf.Name | pikepdf.String) else ""
+    except _library_errors():
+        return ""
 
 
 def _filters_of(stream: Any) -> list[tuple[str, Any]]:
@@ -304,14 +288,9 @@ def _reason(error: Exception) -> str:
     return re.sub(r"^.*<[^>]*>[^:]*: *", "", text.splitlines()[0])[:200]
 
 
-@contextmanager
-def _carefully() -> Iterator[None]:
-    """Swallow what the PDF library raises for an object that is not what it should be: it counts as absent."""
+def _library_errors() -> tuple[type[Exception], ...]:
+    """Give what the PDF library raises for an object that is not what it should be: it counts as absent."""
     import pikepdf
 
-    try:
-        yield
-    except (pikepdf.PdfError, pikepdf.PikepdfError, KeyError, IndexError, AttributeError, TypeError, ValueError):
-        pass
-    except RuntimeError:
-        pass
+    wrong = (KeyError, IndexError, AttributeError, TypeError, ValueError, RuntimeError)
+    return (pikepdf.PdfError, pikepdf.PikepdfError, *wrong)

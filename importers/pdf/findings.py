@@ -53,3 +53,17 @@ MISSING = Kind(
     "the page draws {count} objects that the file does not hold (first {what})",
     "save or export the drawing again",
 )
+NUMBER = Kind(
+    "bad-number",
+    "error",
+    "the transform that {what} sets has numbers too large to compute with; what is drawn with it is left out",
+    "{count} transforms (first by {what}) have numbers too large to compute with; what is drawn with them is left out",
+    "correct the numbers, or save or export the drawing again",
+)
+ANNOTATION = Kind(
+    "annotation-left-out",
+    "warning",
+    "an annotation ({what}) that the page shows is left out",
+    "{count} annotations (first a {what}) that the page shows are left out",
+    "flatten annotations into the page (print the file into a PDF), or read it with: --via ghostscript",
+)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from importers.limits import MAX_STREAM_BYTES, Packing, limit_error
@@ -31,17 +32,18 @@ class PrivateData(NamedTuple):
 def read_private(document: Document, page: Any) -> PrivateData | None:
     """Put the private stream of a page together and decode it; None when the page has none.
 
+    Where there is a place for such data, but nothing known in it, they are empty and damaged.
+
     Raises:
         LimitError: it stands for more than the limits allow.
     """
     private = get(get(get(page, "/PieceInfo"), "/Illustrator"), "/Private")
+    if private is None:
+        return None
     blocks: list[bytes] = []
     size = 0
     damage = ""
-    for index in range(1, _MAX_BLOCKS):
-        block = get(private, f"/AIPrivateData{index}")
-        if not is_stream(block):
-            break
+    for block in _blocks(private):
         data, wrong = document.decode(block)
         blocks.append(data)
         size += len(data)
@@ -50,7 +52,7 @@ def read_private(document: Document, page: Any) -> PrivateData | None:
             raise limit_error("Illustrator's own data in a PDF", limit, file=document.file)
         damage = damage or wrong
     if not blocks:
-        return None
+        return PrivateData(b"", "they are kept in a way that is not known")
     data = b"".join(blocks)
     marks = [(data.find(mark), mark, packing) for mark, packing in _MARKS]
     found = [entry for entry in marks if entry[0] >= 0]
@@ -60,3 +62,20 @@ def read_private(document: Document, page: Any) -> PrivateData | None:
         data, wrong = document.unpacker.unpack(packed, packing)
         damage = damage or wrong
     return PrivateData(data, damage)
+
+
+def _blocks(private: Any) -> Iterator[Any]:
+    """Go through the streams that hold the data, in order.
+
+    An .ai has them under AIPrivateData1, 2 ..., a .pdf under AIPDFPrivateData1, 2 ...; or there is one stream alone.
+    """
+    for name in ("/AIPrivateData", "/AIPDFPrivateData"):
+        if is_stream(get(private, f"{name}1")):
+            for index in range(1, _MAX_BLOCKS):
+                block = get(private, f"{name}{index}")
+                if not is_stream(block):
+                    return
+                yield block
+            return
+    if is_stream(private):
+        yield private

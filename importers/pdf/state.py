@@ -36,6 +36,9 @@ class Graphics:
         width: line width in the units of the content.
         fill_space: kind of the fill's colour space when it is none of the plain ones.
         stroke_space: the same for the stroke.
+        fill_alpha: opacity of fills; 0 paints nothing.
+        stroke_alpha: the same for strokes.
+        unseen: a group around it is drawn with opacity 0.
     """
 
     matrix: Matrix = IDENTITY
@@ -44,6 +47,19 @@ class Graphics:
     width: float = 1.0
     fill_space: str = ""
     stroke_space: str = ""
+    fill_alpha: float = 1.0
+    stroke_alpha: float = 1.0
+    unseen: bool = False
+
+    @property
+    def fill_seen(self) -> bool:
+        """Tell whether a fill leaves anything on the page."""
+        return self.fill_alpha > 0.0 and not self.unseen
+
+    @property
+    def stroke_seen(self) -> bool:
+        """Tell whether a stroke leaves anything on the page."""
+        return self.stroke_alpha > 0.0 and not self.unseen
 
     def width_on_page(self) -> float:
         """Give the line width in the page's units: times the geometric mean of the matrix's two scales, in bounds."""

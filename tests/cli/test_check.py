@@ -125,3 +125,32 @@ def test_a_drawing_without_walls_is_a_finding():
     result = wallkit("check", "-", stdin='<svg xmlns="http://www.w3.org/2000/svg"/>')
     assert result.returncode == 1
     assert "warning[no-walls]" in result.stdout
+
+
+OPEN_FRAME = """<svg xmlns="http://www.w3.org/2000/svg"><g fill="#555">
+<path d="M0 0H300V85H280V20H20V180H280V115H300V200H0Z"/><rect id="block" x="150" y="60" width="80" height="80"/></g>
+<g id="balls">{}</g></svg>"""
+IN_BLOCK, BESIDE = '<circle cx="190" cy="100" r="6"/>', '<circle cx="70" cy="100" r="6"/>'
+
+
+@pytest.mark.parametrize("balls", [IN_BLOCK + BESIDE, BESIDE + IN_BLOCK])
+def test_a_leak_and_a_ball_in_material_are_findings_whichever_is_drawn_first(balls):
+    result = wallkit("check", "-", "--json", stdin=OPEN_FRAME.format(balls))
+    report = json.loads(result.stdout)
+    assert result.returncode == 1
+    assert [gap["width"] for gap in report["leaks"]] == [30]
+    (ball,) = (problem for problem in report["problems"] if problem["code"] == "ball-in-material")
+    assert (ball["x"], ball["y"], ball["name"]) == (190, 100, "block")
+
+
+DIVIDED = """<svg xmlns="http://www.w3.org/2000/svg">
+<rect id="frame" width="300" height="200" fill="none" stroke="#000"/>
+<rect x="145" width="10" height="90" fill="#555"/><rect x="145" y="102" width="10" height="98" fill="#555"/></svg>"""
+
+
+@pytest.mark.parametrize(("radius", "codes"), [(5.9, []), (6.1, ["unreachable"])])
+def test_a_door_that_is_too_narrow_shuts_a_room(radius, codes):
+    result = wallkit("check", "-", "--json", "--arena", "--radius", radius, stdin=DIVIDED)
+    report = json.loads(result.stdout)
+    assert [problem["code"] for problem in report["problems"] if problem["severity"] == "warning"] == codes
+    assert result.returncode == len(codes)

@@ -57,7 +57,8 @@ def test_data_to_a_file_and_summary_to_stderr(room, tmp_path):
     assert result.stdout == ""
     whole = json.loads(out.read_text())
     assert [wall["name"] for wall in whole["walls"]] == ["room", "pin", "gap"]
-    assert [wall["depth"] for wall in whole["walls"]] == [0, 1, 1]
+    assert whole["solid"] == {"room": True, "how": "paint", "why": "the shape 'pin' is filled and in it"}
+    assert [wall["depth"] for wall in whole["walls"]] == [1, 2, 2]
     assert [problem["code"] for problem in whole["problems"]] == ["open-path"]
     assert "open-path" in result.stderr
     assert "3 walls (2 closed, 1 open)" in result.stderr

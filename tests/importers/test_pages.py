@@ -3,7 +3,7 @@
 import pytest
 
 from importers.drawing import Artboard, Drawing, DrawnPath, Subpath
-from importers.pages import note_background, page_background
+from importers.page_background import note_background, page_background
 from importers.read import read_drawing_text
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100">'

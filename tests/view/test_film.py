@@ -1,6 +1,7 @@
 import io
 import shutil
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -32,6 +33,20 @@ def test_each_frame_of_a_gif_shows_the_ball_where_the_run_says(run):
         middle = (columns.min() + columns.max() + 1) / 2, (rows.min() + rows.max() + 1) / 2
         # The trail has the ball's colour too, fainter: the disc's own box decides, to about a pixel.
         assert np.hypot(middle[0] - x, middle[1] - y) < 1.5
+
+
+def test_a_film_shows_the_sensors_where_they_are(run):
+    sensors = wallkit.Walls.from_polylines([[(60.0, 10.0), (60.0, 60.0)]], False)
+    seeing = replace(run, scene=replace(run.scene, sensors=sensors))
+    frames, blind = (films._Frames(each, 25, 1.0, "light", None) for each in (seeing, run))
+    shown, plain = (
+        np.asarray(each.background.copied().reduced().convert("RGB")).astype(int) for each in (frames, blind)
+    )
+    rows, columns = np.nonzero(np.abs(shown - plain).max(axis=2))
+    (x, top), (_, bottom) = frames.frame.points(np.array([(60.0, 60.0), (60.0, 10.0)]))
+    assert len(rows) > 0.4 * (bottom - top)  # dashed: a little more than half of it is there
+    assert np.abs(columns + 0.5 - x).max() <= 1.5  # a line as wide as a pixel, smoothed
+    assert top - 1 <= rows.min() <= rows.max() <= bottom + 1
 
 
 def test_the_caption_says_how_fast_and_how_much(run):

@@ -57,3 +57,58 @@ def test_npz_needs_no_pickle_and_is_the_same_each_time(run):
             assert arrays[name].tobytes() == np.ascontiguousarray(run.contacts[name]).tobytes()
     assert data == run_files.to_npz(run)
     assert {info.date_time for info in zipfile.ZipFile(io.BytesIO(data)).infolist()} == {(1980, 1, 1, 0, 0, 0)}
+
+
+def test_a_run_is_saved_and_loaded_with_every_bit(run, tmp_path):
+    full = wallkit.Scene(
+        run.scene.walls, run.scene.balls, gravity=(0.1, -9.81), sensors=wallkit.Walls.from_polylines([[(0, 4), (9, 4)]])
+    )
+    for each in (run, wallkit.simulate(full, until=3.0), wallkit.simulate(wallkit.Scene(full.walls), until=1.0)):
+        each.save(tmp_path / "run.json")
+        with (tmp_path / "run.json").open("rb") as binary, (tmp_path / "run.json").open(encoding="utf-8") as text:
+            loaded = [wallkit.Run.load(source) for source in (tmp_path / "run.json", binary, text)]
+        for again in loaded:
+            assert again.contacts.tobytes() == each.contacts.tobytes()
+            assert again.contacts.dtype == each.contacts.dtype
+            assert again.final.tobytes() == each.final.tobytes()
+            assert again.ending == each.ending
+            assert again.scene.walls == each.scene.walls
+            assert again.scene.gravity == each.scene.gravity
+            assert again.position(0.7).tobytes() == each.position(0.7).tobytes()
+
+
+def test_a_scene_is_saved_and_loaded_with_every_bit(run, tmp_path):
+    scene = wallkit.Scene(run.scene.walls, run.scene.balls, drag=0.1, sensors=run.scene.walls)
+    scene.save(tmp_path / "scene.json")
+    again = wallkit.Scene.load(tmp_path / "scene.json")
+    assert (again.walls, again.sensors, again.drag) == (scene.walls, scene.sensors, scene.drag)
+    for name in ("position", "velocity", "radius"):
+        assert getattr(again.balls, name).tobytes() == getattr(scene.balls, name).tobytes()
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda whole: whole.update(format="wallkit-walls"),
+        lambda whole: whole.pop("contacts"),
+        lambda whole: whole["contacts"].pop("vx"),
+        lambda whole: whole["contacts"].update(kind=["bounce"] * 50),
+        lambda whole: whole["contacts"].update(ball=[2] * 50),
+        lambda whole: whole["contacts"].update(x=[1.0]),
+        lambda whole: whole["contacts"].update(x=["a"] * 50),
+        lambda whole: whole.update(ending=["bounce limit"]),
+        lambda whole: whole.update(final=5),
+        lambda whole: whole["scene"].update(gravity="down"),
+    ],
+)
+def test_what_is_no_run_is_an_error(run, spoil):
+    whole = json.loads(run_files.to_json(run))
+    spoil(whole)
+    with pytest.raises(wallkit.WallkitError):
+        wallkit.Run.load(io.BytesIO(json.dumps(whole).encode()))
+
+
+@pytest.mark.parametrize("data", [b"", b"[]", b"5", b"{", b"\xff\xfe", b"[" * 100_000])
+def test_what_is_not_even_json_is_an_error(data):
+    with pytest.raises(wallkit.WallkitError, match="no run"):
+        wallkit.Run.load(io.BytesIO(data))

@@ -157,13 +157,54 @@ def test_a_room_of_a_single_outline_is_its_inside():
     assert found.closed_rooms == pytest.approx(np.array([[5, 5, 5]]))
 
 
-def test_inside_material_is_no_room_unless_a_ball_is_there():
-    walls = import_walls(drawing(path(square(0, 0, 100)), path(square(30, 30, 40))))
-    (hole,) = free_space(walls).closed_rooms
+def test_inside_material_is_no_room_unless_the_outline_is_one():
+    squares = drawing(path(square(0, 0, 100)), path(square(30, 30, 40)))
+    (hole,) = free_space(import_walls(squares)).closed_rooms
     assert hole == pytest.approx([50, 50, 20])
-    (ring,) = free_space(walls, free=np.array([[10.0, 10.0]])).closed_rooms
+    (ring,) = free_space(import_walls(squares, arena=True)).closed_rooms
     # a square ring 30 wide: a disc in its corner touches two sides and the inner corner, r (1 + sqrt 2) = 30 sqrt 2
-    assert ring[2] == pytest.approx(30 * math.sqrt(2) / (1 + math.sqrt(2)), rel=1e-4)
+    assert ring[2] == pytest.approx(30 * math.sqrt(2) / (1 + math.sqrt(2)), rel=1e-6)
+
+
+def test_free_space_of_given_polylines_follows_their_winding():
+    """A clockwise room with a counter-clockwise island: free is what is between."""
+    room, island = [(0, 0), (0, 20), (30, 20), (30, 0)], [(12, 8), (18, 8), (18, 12), (12, 12)]
+    (around,) = free_space(as_walls(room, island, closed=True)).closed_rooms
+    # in a corner a disc touches two sides and the island's corner: (12 - r)^2 + (8 - r)^2 = r^2
+    assert around[2] == pytest.approx(20 - math.sqrt(192), rel=1e-6)
+    (inner,) = free_space(as_walls(room[::-1], island[::-1], closed=True)).closed_rooms
+    assert inner == pytest.approx([15, 10, 2], rel=1e-6)
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 10_000))
+def test_the_largest_circle_of_a_closed_room_is_shapelys(seed):
+    """Random pillars in a room; both searches end within 1e-6 of the room's size."""
+    rng = np.random.default_rng(seed)
+    pillars = [shapely.Point(*rng.uniform(10, 90, 2)).buffer(rng.uniform(2, 9), quad_segs=3) for _ in range(6)]
+    area = shapely.box(0, 0, 100, 100).difference(shapely.union_all(pillars))
+    if area.geom_type != "Polygon":
+        return
+    rings = [area.exterior, *area.interiors]
+    outlines = [np.array(ring.coords)[:-1] for ring in rings]
+    ways = [ring.is_ccw for ring in rings]
+    outlines = [o[::-1] if ccw == (i == 0) else o for i, (o, ccw) in enumerate(zip(outlines, ways, strict=True))]
+    space = free_space(as_walls(*outlines, closed=True))
+    largest = max([*space.closed_rooms[:, 2], *(gap.room_radius for gap in space.gaps)])
+    assert largest == pytest.approx(shapely.maximum_inscribed_circle(area, tolerance=1e-5).length, abs=2e-4)
+
+
+def test_the_largest_circle_may_bulge_through_the_door():
+    """Beside a door of 10 between posts: x - 10 = r, (195 - x)^2 + 5^2 = r^2."""
+    room = [(0, 0), (0, 300), (400, 300), (400, 0)]
+    posts = [[(195, -1), (205, -1), (205, 140), (195, 140)], [(195, 150), (205, 150), (205, 301), (195, 301)]]
+    space = free_space(
+        import_walls(drawing(path(polygon(*room)), *(path(polygon(*post)) for post in posts)), arena=True)
+    )
+    (gap,) = space.gaps
+    assert gap.width == 10
+    assert gap.room_radius == pytest.approx((195**2 + 25) / (2 * 195), rel=1e-6)
+    assert len(space.unreachable(20)) == 1
 
 
 def test_an_eroded_square_is_the_smaller_square():
@@ -185,7 +226,7 @@ def test_a_polygon_of_many_edges_in_another_is_one_room():
     t = np.linspace(0, 2 * math.pi, 2000, endpoint=False)
     r = 100 + 5 * np.sin(9 * t)
     outline = np.stack([r * np.cos(t), r * np.sin(t)], axis=1)
-    found = free_space(as_walls(outline, outline / 2, closed=True), free=np.array([[75.0, 0.0]]))
+    found = free_space(as_walls(outline[::-1], outline / 2, closed=True))
     assert len(found.closed_rooms) == 1
     assert found.complete
     assert not found.gaps
@@ -219,3 +260,15 @@ def test_a_ball_in_the_smaller_room_is_shut_in_and_one_in_the_larger_is_shut_out
         for radius, start in ((2.1, (20, 20)), (2.1, (60, 20)), (1.9, (20, 20)))
     ]
     assert codes == [["unreachable"], ["shut-in"], []]
+
+
+def test_a_room_whose_outline_closes_with_an_edge_as_short_as_rounding_is_a_room():
+    """Relative coordinates with few digits miss the first point by a little, and `z` closes that with a short edge."""
+    corners = [(300 * math.cos(k * math.tau / 40), 200 * math.sin(k * math.tau / 40)) for k in range(40)]
+    corners.append((300.0 - 1.6e-4, 0.0))
+    space = free_space(import_walls(drawing(path(polygon(*corners)), path(square(-100, -20, 60))), arena=True))
+    free = shapely.difference(shapely.Polygon(corners), shapely.box(-100, -20, -40, 40))
+    largest = shapely.length(shapely.maximum_inscribed_circle(free, tolerance=0.01))
+    assert space.gaps == []
+    # Without the room the block's own inside would be all that there is, of radius 30.
+    assert max(r for _, _, r in space.closed_rooms.tolist()) == pytest.approx(largest, rel=2e-3)

@@ -169,14 +169,16 @@ def test_every_violation_is_reported_with_its_place(rings, code):
 
 
 def test_the_figure_that_closes_a_gap_is_named():
-    ring = [("M", 0, 0), ("L", 50, 0), ("L", 50, 50), ("L", 0, 50), ("L", 0.3, 0.4)], False
+    """Lines that cross at (0, 0): the last edge is drawn on by 0.5 of its length, 5."""
+    ring = [("M", 0, 0), ("L", 50, 0), ("L", 50, 50), ("L", 3, 4), ("L", 0.3, 0.4)], False
     gap = next(p for p in import_walls(drawing(path(ring))).problems if p.code == "gap")
-    assert "--snap 0.5" in gap.fix
+    assert float(gap.fix.split()[-1]) == pytest.approx(0.5, rel=2e-3)
+    assert float(gap.fix.split()[-1]) >= 0.5
 
 
 def test_a_thousand_places_are_listed_and_the_rest_is_counted():
-    across = [path(([("M", 0, y), ("L", 50, y)], False)) for y in range(1, 40)]
-    down = [path(([("M", x + 0.5, 0), ("L", x + 0.5, 50)], False)) for x in range(40)]
+    across = [path(([("M", 0, y), ("L", 50, y)], False)) for y in range(6, 45)]
+    down = [path(([("M", x + 5.5, 0), ("L", x + 5.5, 50)], False)) for x in range(40)]
     crossings = [p for p in import_walls(drawing(*across, *down)).problems if p.code == "crossing"]
     assert len(crossings) == 1001
     assert crossings[-1].message.startswith("560 more")  # 39 * 40 - 1000

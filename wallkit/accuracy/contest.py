@@ -15,7 +15,6 @@ from wallkit.accuracy import engines
 from wallkit.accuracy.reference import Event, PrecisionError, Reference, sure_events
 from wallkit.accuracy.scenes import BuiltIn
 from wallkit.scene import Scene
-from wallkit.walls import Walls
 
 FloatArray = NDArray[np.float64]
 BOUNCES = 3  # the error is taken after so many: few enough that chaos has not yet mixed everything up
@@ -178,7 +177,7 @@ def contest(subject: Subject, effort: Effort, progress: Callable[[str], None] | 
         progress("reference")
     events = _reference(truth, effort)
     times, places = _between(events, truth)
-    area = _room(truth.walls)
+    area = _room(truth)
     radius = float(np.atleast_1d(np.asarray(truth.balls.radius, dtype=np.float64))[0])
     result = Contest(subject.name, subject.story, len(times), size, radius)
     for contestant in contestants(subject, effort, size):
@@ -237,18 +236,27 @@ def _judged(
     )
 
 
-def _room(walls: Walls) -> Any:
-    """The outermost closed wall as an area, a little wider than drawn; None without one."""
-    from shapely import Polygon
+def _room(scene: Scene) -> Any:
+    """The area within the walls that the ball starts in, pillars and all, a little wider; None where it is open.
 
-    if not len(walls) or not walls.closed[0]:
+    It is the outline of the face around the ball of all that the walls part the plane into: one wall around it, or
+    several that touch.
+    """
+    import shapely
+
+    walls, (x, y) = scene.walls, np.asarray(scene.balls.position, dtype=np.float64)[0]
+    pieces = []
+    for wall in walls:
+        ends = np.roll(wall.vertices, -1, axis=0) if wall.closed else wall.vertices[1:]
+        points = [along(a, b, float(k)) for a, b, k in zip(wall.vertices, ends, wall.bulges, strict=False)]
+        pieces.append(shapely.linestrings(np.concatenate([*points, ends[-1:]])))
+    noded = shapely.node(shapely.multilinestrings(pieces))
+    faces = [face for face in shapely.get_parts(shapely.polygonize([*shapely.get_parts(noded)]))
+             if shapely.contains_xy(face, x, y)]  # fmt: skip
+    if not faces:
         return None
-    room = walls[0]
-    points: list[FloatArray] = []
-    for k, (a, b) in enumerate(zip(room.vertices, np.roll(room.vertices, -1, axis=0), strict=True)):
-        points.extend(along(a, b, float(room.bulges[k])))
     low_x, low_y, high_x, high_y = walls.box()
-    return Polygon(points).buffer(1e-3 * max(high_x - low_x, high_y - low_y))
+    return shapely.Polygon(faces[0].exterior).buffer(1e-3 * max(high_x - low_x, high_y - low_y))
 
 
 def along(a: FloatArray, b: FloatArray, bulge: float, pieces: int = 128) -> FloatArray:

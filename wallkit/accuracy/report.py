@@ -11,10 +11,10 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from wallkit import __version__
 from wallkit.accuracy.contest import BOUNCES, Contest, Effort, Subject, contest
 from wallkit.accuracy.costs import Cost, costs
 from wallkit.accuracy.departure import Departure, departures
+from wallkit.version import __version__
 
 _PACKAGES = ("numpy", "numba", "pymunk", "box2d", "billiards", "mpmath")
 Told = Callable[[str], None]

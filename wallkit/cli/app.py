@@ -22,7 +22,7 @@ app = typer.Typer(
 
 def _show_version(wanted: bool) -> None:
     if wanted:
-        from wallkit import __version__
+        from wallkit.version import __version__
 
         typer.echo(f"wallkit {__version__}")
         raise typer.Exit
@@ -40,12 +40,13 @@ def _root(
 
 def _register_commands() -> None:
     """Attach one module a command. The modules import what is heavy only when their command runs."""
-    from wallkit.cli import check, import_, inspect, play, report, simulate
+    from wallkit.cli import check, export, import_, inspect, play, report, simulate
 
     inspect.register(app)
     import_.register(app)
     check.register(app)
     simulate.register(app)
+    export.register(app)
     play.register(app)
     report.register(app)
 

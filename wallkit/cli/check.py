@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import io
 import json
 import math
 import sys
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -21,6 +19,7 @@ if TYPE_CHECKING:
     from importers.problems import Problem
     from wallkit.walls import Walls
     from wallkit.walls.free_space import FreeSpace
+    from wallkit.walls.import_options import ImportOptions
     from wallkit.walls.leaks import Reach
 
 FORMAT, VERSION = "wallkit-check", 1
@@ -31,6 +30,7 @@ def register(app: typer.Typer) -> None:
     app.command("check")(check)
 
 
+@options.with_import_options()
 def check(
     file: options.File,
     radius: Annotated[
@@ -39,40 +39,25 @@ def check(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Write the findings as JSON to standard output.")] = False,
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls, findings and leaks (.svg).")] = "",
-    tolerance: options.Tolerance = None,
-    curves: options.Curves = "arcs",
-    layer: options.Layer = None,
-    hidden: options.Hidden = False,
-    arena: options.Arena = False,
-    scale: options.Scale = 1.0,
-    flip_y: options.FlipY = False,
-    snap: options.Snap = 0.0,
+    importing: dict[str, Any] | None = None,
 ) -> None:
     """Find problems and leaks, with places and fixes; exit with 1 when there are findings."""
+    from wallkit.walls.ball_places import ball_problems, goal_problems
     from wallkit.walls.free_space import free_space
     from wallkit.walls.leaks import leak_problems, reach_of
-    from wallkit.walls.repair import Repairs
 
     _check_radius(radius)
-    importing = {
-        "tolerance": tolerance,
-        "curves": curves,
-        "layers": layer or None,
-        "hidden": hidden,
-        "arena": arena,
-        "scale": scale,
-        "flip_y": flip_y,
-        "repairs": Repairs(snap=snap) if snap else None,
-    }
-    given = _read(file, importing)
+    given = _given(file, options.options_of(importing or {}))
     walls = given.walls
     if radius is None and len(given.radii):
         radius = float(given.radii.min())
         given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
-    space = free_space(walls, free=given.places if len(given.places) else None)
+    space = free_space(walls)
     reach = reach_of(space, walls, radius, given.places)
-    found = [*leak_problems(space, reach), *walls.problems, *given.problems, *_without_walls(walls)]
-    problems = sorted(found, key=_rank)
+    found = ball_problems(space, walls, given.places, given.radii)
+    found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)
+    found += [*leak_problems(space, reach), *given.problems, *_without_walls(walls)]
+    problems = sorted(_once(found), key=_rank)
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
         _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
@@ -92,6 +77,15 @@ def _without_walls(walls: Walls) -> list[Problem]:
     return [Problem("no-walls", "warning", "there is nothing in it that makes a wall", fix)]
 
 
+def _once(problems: list[Problem]) -> list[Problem]:
+    """Leave out what was told before of the same place: the opening tells some of what is looked at closer here."""
+    told: dict[Any, Problem] = {}
+    for index, problem in enumerate(problems):
+        placed = problem.code in ("ball-in-material", "shut-in")
+        told.setdefault((problem.code, problem.x, problem.y) if placed else index, problem)
+    return list(told.values())
+
+
 def _rank(problem: Problem) -> int:
     """The severe first, and among those in the order of coming: a picture has no room for all."""
     return ("error", "warning", "info").index(problem.severity)
@@ -106,65 +100,30 @@ def _check_radius(radius: float | None) -> None:
 
 @dataclass(slots=True)
 class _Given:
-    """What FILE holds: walls, places and radii of its balls, findings about those, and what was assumed."""
+    """What FILE holds: walls, places and radii of its balls, all that was found in it, and what was assumed."""
 
     walls: Walls
     places: NDArray[np.float64]
     radii: NDArray[np.float64]
     problems: list[Problem] = field(default_factory=list)
     assumed: list[str] = field(default_factory=list)
+    sensors: Walls | None = None
 
 
-def _read(file: str, importing: dict[str, Any]) -> _Given:
-    """Read FILE, whatever it is."""
+def _given(file: str, importing: ImportOptions) -> _Given:
+    """Open FILE, whatever it is, as `simulate` does; a ball that would only be put somewhere does not count."""
     import numpy as np
 
-    from wallkit.cli.scene_input import read_input
-    from wallkit.scene_files import kind_of, read_scene
-    from wallkit.walls.files import loads
+    from wallkit.cli.scene_input import opened
+    from wallkit.opening import Wishes
 
-    data = read_input(file)
-    kind = kind_of(data)
-    if kind == "drawing":
-        return _of_drawing(data, file, importing)
-    if kind == "walls":
-        return _Given(_checked_again(loads(data, file)), np.empty((0, 2)), np.empty(0))
-    scene = read_scene(data, file=file, folder=Path() if file == "-" else Path(file).parent).scene
-    balls = scene.balls
-    return _Given(_checked_again(scene.walls), np.asarray(balls.position), np.asarray(balls.radius))
-
-
-def _checked_again(walls: Walls) -> Walls:
-    """Walls from a file may have been edited: look at them anew, and keep what the reader of the drawing said."""
-    from dataclasses import replace
-
-    from wallkit.walls.validate import validate
-
-    found = validate(walls)
-    codes = {problem.code for problem in found}
-    return replace(walls, problems=[p for p in walls.problems if p.code not in codes] + found)
-
-
-def _of_drawing(data: bytes, file: str, importing: dict[str, Any]) -> _Given:
-    """Import a drawing; when all its balls start in what would be material, its outermost walls are rooms."""
-    import numpy as np
-
-    from importers.read import read_drawing
-    from wallkit.curves import in_material
-    from wallkit.starts import drawn_balls
-    from wallkit.walls.build import import_walls
-
-    stream = io.BytesIO(data)
-    stream.name = file
-    drawing = read_drawing(stream)
-    walls = import_walls(drawing, **importing)
-    balls, problems = drawn_balls(drawing, importing["scale"], importing["flip_y"])
-    places = np.array([(ball.x, ball.y) for ball in balls]).reshape(-1, 2)
-    given = _Given(walls, places, np.array([ball.radius for ball in balls]), problems)
-    if len(balls) and not importing["arena"] and in_material(walls, places).all():
-        given.walls = import_walls(drawing, **(importing | {"arena": True}))
-        given.assumed.append("the outermost walls are a room, since all balls are in it (--arena)")
-    return given
+    found = opened(file, Wishes(importing=importing, may_be_empty=True))
+    walls, balls = found.scene.walls, found.scene.balls
+    assumed = [] if walls.solid is None or walls.solid.how == "asked" else [walls.solid.sentence()]
+    if found.found_place:
+        return _Given(walls, np.empty((0, 2)), np.empty(0), found.problems, assumed, found.scene.sensors)
+    places, radii = np.asarray(balls.position), np.asarray(balls.radius)
+    return _Given(walls, places, radii, found.problems, assumed, found.scene.sensors)
 
 
 def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, findings: int) -> dict[str, Any]:
@@ -174,6 +133,7 @@ def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reac
         "format": FORMAT,
         "version": VERSION,
         "source": {"file": walls.source_file, "sha256": walls.source_sha256},
+        **({"solid": walls.solid.to_json()} if walls.solid is not None else {}),
         "walls": len(walls),
         "edges": len(walls.edge_starts),
         "radius": reach.radius,

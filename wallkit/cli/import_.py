@@ -20,54 +20,40 @@ def register(app: typer.Typer) -> None:
     app.command("import")(import_drawing)
 
 
+@options.with_import_options("lines")
 def import_drawing(
     file: options.File,
     out: Annotated[
-        str, typer.Option("-o", "--out", metavar="OUT", help="Where to write (.json); - is standard output.")
+        str,
+        typer.Option(
+            "-o", "--out", metavar="OUT", help="Where to write: .json, or as export does; - is standard output."
+        ),
     ] = "-",
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls and all findings (.svg, .png).")] = "",
-    tolerance: options.Tolerance = None,
-    curves: options.Curves = "lines",
-    layer: options.Layer = None,
-    hidden: options.Hidden = False,
-    arena: options.Arena = False,
-    sides: options.Sides = "both",
-    scale: options.Scale = 1.0,
-    flip_y: options.FlipY = False,
-    snap: options.Snap = 0.0,
-    join: options.Join = False,
-    drop_duplicates: options.DropDuplicates = False,
-    resolve: options.Resolve = False,
-    union: options.Union = False,
-    min_width: options.MinWidth = 0.0,
-    simplify: options.Simplify = 0.0,
-    outline_strokes: options.OutlineStrokes = False,
+    importing: dict[str, Any] | None = None,
 ) -> None:
     """Turn a drawing into walls: closed and open polylines with outward normals."""
+    from importers.read import read_drawing
+    from wallkit.cli.export import page_of, write_level
     from wallkit.cli.messages import show_problems
+    from wallkit.export.formats import known_ending
     from wallkit.walls.build import import_walls
-    from wallkit.walls.repair import Repairs
 
     _check_ending(out)
-    repairs = Repairs(snap, join, drop_duplicates, resolve, union, min_width, simplify)
-    walls = import_walls(
-        source(file),
-        tolerance=tolerance,
-        curves=curves,
-        layers=layer or None,
-        hidden=hidden,
-        arena=arena,
-        sides=sides,
-        scale=scale,
-        flip_y=flip_y,
-        repairs=None if repairs == Repairs() else repairs,
-        outline_strokes=outline_strokes,
-    )
+    asked = options.options_of(importing or {})
+    drawing = read_drawing(source(file))
+    walls = import_walls(drawing, asked)
     if preview:
         draw(walls, preview)
-    walls.save(out)
-    show_problems(walls.problems, walls.source_file)
+    problems = walls.problems
+    if out == "-" or not known_ending(out):
+        walls.save(out)
+    else:
+        problems = problems + write_level(walls, out, None, page=page_of(drawing, asked.scale, asked.flip_y))
+    show_problems(problems, walls.source_file)
     summarise(walls)
+    if walls.solid is not None and walls.solid.how != "asked":
+        print(f"assumed: {walls.solid.sentence()}", file=sys.stderr)
 
 
 def source(file: str) -> Any:
@@ -82,13 +68,15 @@ def source(file: str) -> Any:
 
 
 def _check_ending(out: str) -> None:
+    from wallkit.export.formats import formats, known_ending
     from wallkit.walls.walls import WallsError
 
-    if out != "-" and Path(out).suffix.lower() != ".json":
+    if out != "-" and Path(out).suffix.lower() != ".json" and not known_ending(out):
+        endings = ", ".join(each.endings[0] for each in formats().values())
         raise WallsError(
             f"walls cannot be written as {Path(out).suffix or 'a file without an ending'}",
             code="unknown-ending",
-            fix="use an ending of these: .json",
+            fix=f"use .json, or for a level an ending of these: {endings}",
             file=out,
         )
 

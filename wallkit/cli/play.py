@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from importers.errors import WallkitError
+from wallkit.cli import import_options as options
 
 if TYPE_CHECKING:
-    from importers.drawing import Drawing
-    from wallkit.cli.scene_input import Prepared
     from wallkit.view.page.answers import Answers
-    from wallkit.view.page.documents import Opened, Reader
+    from wallkit.view.page.documents import Reader
+    from wallkit.walls.import_options import ImportOptions
 
 
 def register(app: typer.Typer) -> None:
@@ -24,19 +24,21 @@ def register(app: typer.Typer) -> None:
     app.command("play")(play)
 
 
+@options.with_import_options()
 def play(
     file: Annotated[
         str, typer.Argument(metavar="FILE", help="Drawing, walls or scene to open; without one, the samples.")
     ] = "",
     port: Annotated[int, typer.Option(help="Port on this machine; 0 is any free one.", min=0, max=65535)] = 0,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open it in the browser.")] = True,
+    importing: dict[str, Any] | None = None,
 ) -> None:
     """Open the local page: see walls, aim, shoot, step from bounce to bounce."""
     from wallkit.view.page.answers import Answers
     from wallkit.view.page.server import PageServer
 
     answers = Answers(reader())
-    document = _first(answers, file) if file else None
+    document = _first(answers, file, options.options_of(importing or {})) if file else None
     try:
         server = PageServer(answers, port, document)
     except OSError as error:
@@ -51,52 +53,19 @@ def play(
         server.serve_forever(poll_interval=0.2)
 
 
-def _first(answers: Answers, file: str) -> dict[str, Any]:
+def _first(answers: Answers, file: str, importing: ImportOptions) -> dict[str, Any]:
     from wallkit.cli.scene_input import read_input
 
-    if file == "-":
-        return answers.open(read_input(file), "standard input", Path())
-    return answers.open(read_input(file), Path(file).name, Path(file).parent)
+    name = "standard input" if file == "-" else Path(file).name
+    return answers.open(read_input(file), name, Path() if file == "-" else Path(file).parent, importing)
 
 
 def reader() -> Reader:
-    """Give the page the command line's own ways of reading and of saying what is wrong."""
+    """Give the page the command line's own ways of saying what is wrong."""
     from wallkit.cli.messages import format_problem
     from wallkit.view.page.documents import Reader
 
-    return Reader(open=_open, again=_again, describe=_described, describe_problem=format_problem)
-
-
-def _open(data: bytes, name: str, folder: Path | None) -> Opened:
-    from importers.read import read_drawing
-    from wallkit.cli.scene_input import Wishes, prepare_data
-    from wallkit.scene_files import kind_of
-
-    if kind_of(data) == "drawing":
-        stream = io.BytesIO(data)
-        stream.name = name
-        return _again(read_drawing(stream), {})
-    return _opened(prepare_data(data, name, Wishes(), folder), None)
-
-
-def _again(drawing: Drawing, options: dict[str, Any]) -> Opened:
-    from wallkit.cli.scene_input import UsageError, Wishes, prepare_drawing
-
-    try:
-        return _opened(prepare_drawing(drawing, Wishes(importing=options)), drawing)
-    except UsageError as error:
-        if error.code != "no-room":
-            raise
-    x0, y0, x1, y1 = drawing.control_box() or (0.0, 0.0, 0.0, 0.0)  # shown all the same; the person places the ball
-    return _opened(
-        prepare_drawing(drawing, Wishes(ball=[f"{(x0 + x1) / 2!r},{(y0 + y1) / 2!r}"], importing=options)), drawing
-    )
-
-
-def _opened(prepared: Prepared, drawing: Drawing | None) -> Opened:
-    from wallkit.view.page.documents import Opened
-
-    return Opened(prepared.scene, prepared.kind, prepared.problems, drawing)
+    return Reader(describe=_described, describe_problem=format_problem)
 
 
 def _described(error: WallkitError) -> str:

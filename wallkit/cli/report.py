@@ -6,14 +6,19 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
+
+from wallkit.cli import import_options as options
 
 if TYPE_CHECKING:
     from wallkit.accuracy.contest import Effort, Subject
     from wallkit.accuracy.report import Report
+    from wallkit.scene import Scene
+    from wallkit.walls.import_options import ImportOptions
 
 ENDINGS = (".svg", ".html", ".json")
 
@@ -23,6 +28,7 @@ def register(app: typer.Typer) -> None:
     app.command("report")(report)
 
 
+@options.with_import_options()
 def report(
     file: Annotated[
         str | None, typer.Argument(metavar="[FILE]", help="Drawing, walls or scene; without one the built-in scenes.")
@@ -46,6 +52,7 @@ def report(
             help="Bits of the reference, such as 106 (default: as many as it takes).",
         ),
     ] = None,
+    importing: dict[str, Any] | None = None,
 ) -> None:
     """Measure speed against error, here: the exact simulator, frame stepping, other engines if installed."""
     _check(file, out or [], hard, scene)
@@ -55,7 +62,7 @@ def report(
     from wallkit.accuracy.report import measure
 
     effort = _effort(quick, precision)
-    subjects = [_of_file(file)] if file else _built_in(scene, quick)
+    subjects = [_of_file(file, options.options_of(importing or {}))] if file else _built_in(scene, quick)
     with progress() as told:
         measured = measure(subjects, effort, tables=file is None and not scene, told=told)
     for target in out or []:
@@ -69,7 +76,7 @@ def report(
 
 
 def _check(file: str | None, out: list[str], hard: bool, scene: list[str] | None) -> None:
-    from wallkit.cli.scene_input import UsageError
+    from wallkit.opening import UsageError
 
     for target in out:
         if Path(target).suffix.lower() not in ENDINGS:
@@ -86,8 +93,6 @@ def _check(file: str | None, out: list[str], hard: bool, scene: list[str] | None
 
 
 def _effort(quick: bool, precision: int | None) -> Effort:
-    from dataclasses import replace
-
     from wallkit.accuracy.contest import QUICK, Effort
 
     effort = QUICK if quick else Effort()
@@ -99,7 +104,7 @@ def _effort(quick: bool, precision: int | None) -> Effort:
 def _built_in(names: list[str] | None, quick: bool) -> list[Subject]:
     from wallkit.accuracy.contest import Subject
     from wallkit.accuracy.scenes import built_in
-    from wallkit.cli.scene_input import UsageError
+    from wallkit.opening import UsageError
 
     scenes = {scene.name: scene for scene in built_in()}
     unknown = [name for name in names or [] if name not in scenes]
@@ -111,34 +116,32 @@ def _built_in(names: list[str] | None, quick: bool) -> list[Subject]:
     return [Subject.of(scenes[name]) for name in chosen]
 
 
-def _of_file(file: str) -> Subject:
+def _of_file(file: str, importing: ImportOptions) -> Subject:
     from wallkit.accuracy.contest import Subject
     from wallkit.accuracy.own import first_ball, of_scene
-    from wallkit.cli.scene_input import UsageError, Wishes, prepare, prepare_drawing, read_input
-    from wallkit.scene_files import kind_of
+    from wallkit.cli.scene_input import opened
+    from wallkit.opening import UsageError, Wishes
 
     name = "standard input" if file == "-" else Path(file).name
-    data = read_input(file)
-    if kind_of(data) != "drawing":
-        return of_scene(name, prepare(file, Wishes()).scene)
-    import io
-
-    from importers.read import read_drawing
-
-    stream = io.BytesIO(data)
-    stream.name = file
-    drawing = read_drawing(stream)
     try:
-        balls = first_ball(prepare_drawing(drawing, Wishes()).scene.balls)
-    except UsageError as error:  # it speaks of options that simulate has
-        error.fix = "draw a ball: a circle on a layer named balls; or give a scene file that has one"
+        found = opened(file, Wishes(importing=importing))
+    except UsageError as error:
+        if error.code == "no-room":  # it speaks of options that simulate has
+            error.fix = "draw a ball: a circle on a layer named balls; or give a scene file that has one"
         raise
+    drawing = found.drawing
+    if drawing is None or found.kind == "scene":
+        return of_scene(name, found.scene)
+    decided = found.scene.walls.solid
+    room = decided is not None and decided.room
+    importing = replace(importing, arena=room, solid=not room, room="")
+    balls = first_ball(found.scene.balls)
 
-    def walls(curves: str, tolerance: float) -> Any:
-        from wallkit.scene import Scene
+    def walls(curves: Literal["lines", "arcs"], tolerance: float) -> Scene:
+        from wallkit.walls.build import build_walls
 
-        prepared = prepare_drawing(drawing, Wishes(importing={"curves": curves, "tolerance": tolerance}))
-        return Scene(prepared.scene.walls, balls, gravity=prepared.scene.gravity)
+        imported = build_walls(drawing, replace(importing, curves=curves, tolerance=tolerance))
+        return replace(found.scene, walls=imported, balls=balls)
 
     curved = walls("arcs", 1e-3).walls.has_arcs
     arcs = (lambda tolerance: walls("arcs", tolerance)) if curved else None

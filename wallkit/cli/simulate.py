@@ -14,7 +14,7 @@ import typer
 from wallkit.cli import import_options as drawing_options
 
 if TYPE_CHECKING:
-    from wallkit.cli.scene_input import Prepared
+    from wallkit.opening import OpenedScene
     from wallkit.run import Run
 
 Format = Literal["csv", "json", "npz", "svg", "png", "gif", "mp4", "html"]
@@ -56,7 +56,6 @@ Out = Annotated[
     list[str] | None,
     typer.Option("-o", "--out", metavar="OUT", help=f"Where to; the ending decides: {' '.join(FORMATS)}. Repeatable."),
 ]
-Curves = Annotated[Literal["lines", "arcs"] | None, typer.Option(help="What curves become (default: arcs).")]
 
 
 def register(app: typer.Typer) -> None:
@@ -64,6 +63,7 @@ def register(app: typer.Typer) -> None:
     app.command("simulate")(simulate_file)
 
 
+@drawing_options.with_import_options()
 def simulate_file(
     file: File,
     out: Out = None,
@@ -85,52 +85,38 @@ def simulate_file(
     tangential_restitution: Tangential = None,
     friction: Friction = None,
     drag: Drag = None,
-    curves: Curves = None,
-    tolerance: drawing_options.Tolerance = None,
-    layer: drawing_options.Layer = None,
-    hidden: drawing_options.Hidden = False,
-    snap: drawing_options.Snap = 0.0,
-    outline_strokes: drawing_options.OutlineStrokes = False,
-    arena: drawing_options.Arena = False,
-    sides: Annotated[
-        Literal["both", "outward"] | None, typer.Option(help="From where closed walls are solid (default: both).")
-    ] = None,
-    scale: drawing_options.Scale = 1.0,
-    flip_y: drawing_options.FlipY = False,
     colour: Annotated[Literal["time", "speed"], typer.Option(help="What the path's colour tells.")] = "time",
     heat: Annotated[bool, typer.Option("--heat", help="Pictures show where balls spend their time.")] = False,
     theme: Annotated[
         Literal["light", "dark"], typer.Option(help="Of PNG, GIF and MP4; SVG and HTML follow the reader.")
     ] = "light",
     seconds: Annotated[float, typer.Option(metavar="T", help="Length of a film at most.", min=0.1, max=600)] = 12.0,
+    importing: dict[str, Any] | None = None,
 ) -> None:
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
-    from wallkit.cli.scene_input import Wishes, prepare
+    from wallkit.cli.scene_input import opened, pair, pairs
+    from wallkit.opening import Wishes
 
-    importing = {
-        "curves": curves, "tolerance": tolerance, "layers": layer or None, "hidden": hidden or None,
-        "snap": snap or None, "outline_strokes": outline_strokes or None, "arena": arena or None, "sides": sides,
-        "scale": scale if scale != 1 else None, "flip_y": flip_y or None,
-    }  # fmt: skip
     wishes = Wishes(
-        ball or [], velocity, speed, angle, radius, balls, seed, gravity, restitution, tangential_restitution,
-        friction, drag, until, bounces, {key: value for key, value in importing.items() if value is not None},
+        pairs(ball, "--ball"), None if velocity is None else pair(velocity, "--velocity"), speed, angle, radius,
+        balls, seed, None if gravity is None else pair(gravity, "--gravity"), restitution, tangential_restitution,
+        friction, drag, until, bounces, drawing_options.options_of(importing or {}),
     )  # fmt: skip
     targets = _targets(out or [], form)
-    prepared = prepare(file, wishes)
-    run = _flown(prepared, settle)
+    scene = opened(file, wishes)
+    run = _flown(scene, settle)
     look = {"colour": colour, "heat": heat, "theme": theme, "seconds": seconds}
     trust = _trust(run)
     for target, kind in targets:
-        _write(target, kind, run, prepared, trust, {**look, "title": "" if file == "-" else Path(file).name})
+        _write(target, kind, run, scene, trust, {**look, "title": "" if file == "-" else Path(file).name})
     stream = sys.stderr if any(target == "-" for target, _ in targets) else sys.stdout
-    for line in _summary(file, prepared, run, trust, targets):
+    for line in _summary(file, scene, run, trust, targets):
         print(line, file=stream)
 
 
 def _targets(out: list[str], form: Format | None) -> list[tuple[str, Format]]:
     """Pair each OUT with its format; a format alone goes to standard output."""
-    from wallkit.cli.scene_input import UsageError
+    from wallkit.opening import UsageError
 
     targets: list[tuple[str, Format]] = []
     for name in out or (["-"] if form else []):
@@ -147,11 +133,11 @@ def _targets(out: list[str], form: Format | None) -> list[tuple[str, Format]]:
     return targets
 
 
-def _flown(prepared: Prepared, settle: bool) -> Run:
+def _flown(scene: OpenedScene, settle: bool) -> Run:
     from wallkit.simulation import simulate
 
     with progress_bar("simulating") as report:
-        return simulate(prepared.scene, prepared.until, prepared.bounces, settle=settle, progress=report)
+        return simulate(scene.scene, scene.until, scene.bounces, settle=settle, progress=report)
 
 
 @contextmanager
@@ -188,7 +174,7 @@ def _trust(run: Run) -> list[Any]:
     return list(run.trusted_until())
 
 
-def _write(target: str, kind: Format, run: Run, prepared: Prepared, trust: list[Any], look: dict[str, Any]) -> None:
+def _write(target: str, kind: Format, run: Run, scene: OpenedScene, trust: list[Any], look: dict[str, Any]) -> None:
     from wallkit import run_files
     from wallkit.files import write_whole
 
@@ -196,7 +182,7 @@ def _write(target: str, kind: Format, run: Run, prepared: Prepared, trust: list[
         write_whole(target, run_files.to_csv(run))
     elif kind == "json":
         good = [{"time": h.time, "bounces": h.bounces, "tolerance": h.tolerance} for h in trust] if trust else None
-        write_whole(target, run_files.to_json(run, good, prepared.until, prepared.bounces))
+        write_whole(target, run_files.to_json(run, good, scene.until, scene.bounces))
     elif kind == "npz":
         write_whole(target, run_files.to_npz(run))
     else:
@@ -221,7 +207,7 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
     return picture_data(f".{kind}", canvas, look["theme"])
 
 
-def _summary(file: str, prepared: Prepared, run: Run, trust: list[Any], targets: list[tuple[str, Format]]) -> list[str]:
+def _summary(file: str, scene: OpenedScene, run: Run, trust: list[Any], targets: list[tuple[str, Format]]) -> list[str]:
     from wallkit.cli.messages import count_by_severity, plain
     from wallkit.cli.summary import ball_words, bounce_words, drawing_words, ending_words, energy_words, wall_words
 
@@ -231,11 +217,12 @@ def _summary(file: str, prepared: Prepared, run: Run, trust: list[Any], targets:
         worst = min(trust, key=lambda horizon: (horizon.whole, horizon.time))
         rows.append(("trust", worst.sentence() + (" (the worst ball)" if len(trust) > 1 else "")))
         rows += [("drawing", words) for words in drawing_words(run)]
-    rows += [("assumed", words) for words in prepared.assumed]
-    if prepared.problems:
-        counted = count_by_severity(prepared.problems)
-        listed = "" if prepared.kind in ("walls", "scene") else f": wallkit check {plain(file)} lists them"
-        rows.append(("problems", counted + listed))
+    rows += [("assumed", words) for words in scene.assumed]
+    balls = [problem for problem in scene.problems if problem.code in ("ball-in-material", "shut-in")]
+    rows += [("doubtful", f"{ball.message}, at ({ball.x:.6g}, {ball.y:.6g})") for ball in balls[:3]]
+    if scene.problems:
+        counted = count_by_severity(scene.problems)
+        rows.append(("problems", f"{counted}: wallkit check {plain(file)} lists them"))
     rows += [("wrote", plain(target)) for target, _ in targets if target != "-"]
     name = "standard input" if file == "-" else plain(file)
-    return [f"{name} ({prepared.kind})", *(f"  {word:<9}{words}" for word, words in rows)]
+    return [f"{name} ({scene.kind})", *(f"  {word:<9}{words}" for word, words in rows)]

@@ -65,19 +65,13 @@ def ending_words(run: Run) -> str:
 def energy_words(run: Run) -> str:
     """Say what became of the energy of all balls together, per mass.
 
-    Under gravity it is kinetic and potential energy, the potential one above the lowest point of the walls' box, so
-    that a ball at rest there has none left.
+    Under gravity it is kinetic and potential energy, the potential one above the lowest place that each ball can reach,
+    see :func:`wallkit.energy.energies`.
     """
-    position = np.asarray(run.scene.balls.position, dtype=np.float64).reshape(-1, 2)
-    velocity = np.asarray(run.scene.balls.velocity, dtype=np.float64).reshape(-1, 2)
+    from wallkit.energy import energies
+
+    before, change = (float(each.sum()) for each in energies(run))
     gravity = np.array(run.scene.gravity or (0.0, 0.0))
-    final = run.final
-    at, moving = np.stack([final["x"], final["y"]], 1), np.stack([final["vx"], final["vy"]], 1)
-    x0, y0, x1, y1 = run.scene.walls.box()
-    lowest = max(float(gravity @ (x, y)) for x in (x0, x1) for y in (y0, y1))
-    before = float(((velocity**2).sum(axis=1) / 2 + lowest - position @ gravity).sum())
-    # The difference is summed ball by ball, so that what cancels does so before it is rounded.
-    change = float(((moving**2).sum(axis=1) / 2 - (velocity**2).sum(axis=1) / 2 - (at - position) @ gravity).sum())
     if before <= 0:
         return "none, the balls do not move" if change == 0 else f"{change:+.6g} per mass"
     part = change / before

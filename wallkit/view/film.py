@@ -22,7 +22,7 @@ from wallkit.view.canvas import Command, Disc, Item, Label, Shape
 from wallkit.view.frame import Frame
 from wallkit.view.picture import draw_walls, finish, round_length, started
 from wallkit.view.raster import Raster
-from wallkit.view.run_picture import scene_box
+from wallkit.view.run_picture import draw_sensors, scene_box
 from wallkit.view.theme import RAMP_STEPS, Theme
 from wallkit.view.tracks import arrays_of, tracks
 
@@ -79,6 +79,7 @@ class _Frames:
         canvas, self.frame = started(box, up, title="", width=_WIDTH)
         start, _, radius = arrays_of(run.scene.balls)
         draw_walls(canvas, run.scene.walls, self.frame, normals=False, free=start)
+        draw_sensors(canvas, run.scene, self.frame)
         finish(canvas, self.frame, run.scene.walls.units)
         self.width, self.height = canvas.width, 2.0 * math.ceil(canvas.height / 2)  # H.264 wants even numbers
         self.background = Raster(self.width, self.height, theme, 1.0).drawn(canvas.items)

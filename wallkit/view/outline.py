@@ -11,6 +11,7 @@ from wallkit.curves import contains, flattened, in_material
 from wallkit.view.canvas import Command
 from wallkit.view.frame import Frame
 from wallkit.walls import Material, Walls
+from wallkit.walls.orient import is_arena
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -60,13 +61,13 @@ def depths(walls: Walls) -> NDArray[np.int64]:
 def solid_areas(walls: Walls, free: FloatArray) -> list[tuple[Material, list[int], bool]]:
     """Tell what is filled: groups of closed walls, each filled even-odd with one material.
 
-    Material is where the number of closed walls around is odd; but balls start where they can fly, so that with
-    ``free`` places of odd number (a room drawn as a plain outline) it is where that number is even. Without a ball
-    the winding of the largest wall says which.
+    Material is where the number of closed walls around is odd; or even, where the outermost walls are rooms. The
+    import has decided that (``walls.solid``). For walls given as numbers the balls say it: they start where they can
+    fly; where they do not agree, or there is none, the winding of the largest wall does.
 
     Args:
         walls: the walls.
-        free: (n, 2) places that are not material; the first decides.
+        free: (n, 2) places that should not be material; most of them decide.
 
     Returns:
         (material, wall indices, whether the frame's edge belongs to it as the outermost ring).
@@ -81,12 +82,11 @@ def solid_areas(walls: Walls, free: FloatArray) -> list[tuple[Material, list[int
 
 
 def _is_room(walls: Walls, free: FloatArray) -> bool:
-    """Tell whether the outermost walls are rooms: a ball in them says so, else the largest one's clockwise winding."""
-    if len(free):
-        return bool(in_material(walls, free[:1])[0])
-    rings = [flattened(walls, int(index)) for index in np.flatnonzero(walls.closed)]
-    areas = [float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) for x, y in ((ring - ring[0]).T for ring in rings)]
-    return max(areas, key=abs, default=0.0) < 0
+    """Tell whether the outermost walls are rooms."""
+    if walls.solid is not None:
+        return walls.solid.room
+    inside = int(in_material(walls, free).sum())
+    return is_arena(walls) if 2 * inside == len(free) else 2 * inside > len(free)
 
 
 def _areas_by_material(walls: Walls, turned: bool) -> list[tuple[Material, list[int], bool]]:

@@ -78,6 +78,10 @@ def walls_canvas(
     row = finish(canvas, frame, walls.units)
     legend = material_legend(walls)
     row = draw_legend(canvas, legend, row)
+    if walls.solid is not None and walls.solid.how != "asked":
+        canvas.add(Label("note", MARGIN, row, f"assumed: {walls.solid.sentence()}"))
+        row += _LINE
+        canvas.height = max(canvas.height, row)
     problem_legend(canvas, problems, row)
     return canvas
 

@@ -10,7 +10,6 @@ from html import escape
 import numpy as np
 
 from wallkit.run import Run
-from wallkit.scene import Balls
 from wallkit.view.frame import Box
 from wallkit.view.page import look
 from wallkit.view.page.payload import inlined, run_table, starts, walls_table
@@ -57,33 +56,22 @@ def thinned(run: Run, most: int) -> tuple[Run, str]:
     Returns:
         The run that is left, and a sentence on what is not in it; ``""`` where all is.
     """
-    total = len(run.contacts)
-    if total <= most:
+    if len(run.contacts) <= most:
         return run, ""
+    total = int(run.bounces.sum())
     balls = len(run.final)
     stride = 2
-    while stride < balls and run.bounces[::stride].sum() > most:
+    contacts = np.bincount(run.contacts["ball"], minlength=balls)
+    while stride < balls and contacts[::stride].sum() > most:
         stride += 1
     kept = np.arange(0, balls, min(stride, balls))
-    small = _only(run, kept)
+    small = run.take(kept)
     words = f"{len(kept):,} of {balls:,} balls" if len(kept) < balls else ""
     if len(small.contacts) > most:
         small = _ended(small, most)
-        until = f"the first {most:,} bounces, up to {small.final['time'].max():.6g} s"
+        until = f"the first {int(small.bounces.sum()):,} bounces, up to {small.final['time'].max():.6g} s"
         words = f"{words}; {until}" if words else until
-    return small, f"Shown: {words}. The run has {total:,} bounces; a replay carries {most:,} at most."
-
-
-def _only(run: Run, kept: np.ndarray) -> Run:
-    number = np.full(len(run.final), -1, dtype=np.int32)
-    number[kept] = np.arange(len(kept), dtype=np.int32)
-    contacts = run.contacts[number[run.contacts["ball"]] >= 0]
-    contacts["ball"] = number[contacts["ball"]]
-    balls = run.scene.balls
-    position, velocity, radius = (np.asarray(values)[kept] for values in (balls.position, balls.velocity, balls.radius))
-    scene = replace(run.scene, balls=Balls(position, velocity, radius))
-    ending = tuple(run.ending[index] for index in kept)
-    return replace(run, scene=scene, contacts=contacts, final=run.final[kept], ending=ending, start=run.start[kept])
+    return small, f"Shown: {words}. The run has {total:,} bounces; a replay carries {most:,} contacts at most."
 
 
 def _ended(run: Run, most: int) -> Run:

@@ -76,7 +76,7 @@ def run_canvas(
 ) -> Canvas:
     """Draw a run as :func:`run_svg` does, on a canvas that can become SVG or pixels."""
     canvas, frame = _scene_base(run.scene, title, width)
-    canvas.title = title or f"{len(run.ending)} balls, {len(run.contacts)} bounces"
+    canvas.title = title or f"{len(run.ending)} balls, {int(run.bounces.sum())} bounces"
     flight = tracks(run, MAX_MEASURED if heat else MAX_STRETCHES)
     if heat:
         size, rows = heat_rows(flight, frame)
@@ -114,17 +114,22 @@ def _scene_base(scene: Scene, title: str, width: float) -> tuple[Canvas, Frame]:
     position, _, _ = arrays_of(scene.balls)
     canvas, frame = started(scene_box(scene), scene.walls.y_axis == "up", title=title, width=width)
     draw_walls(canvas, scene.walls, frame, free=position)
-    for index in range(len(scene.sensors) if scene.sensors is not None else 0):
-        assert scene.sensors is not None
-        told = "sensor " + (scene.sensors.names[index] or str(index))
-        canvas.add(Shape("hidden", wall_path(scene.sensors, index, frame), title=told))
+    draw_sensors(canvas, scene, frame)
     return canvas, frame
 
 
+def draw_sensors(canvas: Canvas, scene: Scene, frame: Frame) -> None:
+    """Draw the sensors of a scene, dashed."""
+    sensors = scene.sensors
+    for index, name in enumerate(sensors.names if sensors is not None else ()):
+        assert sensors is not None
+        canvas.add(Shape("hidden", wall_path(sensors, index, frame), title=f"sensor {name or index}"))
+
+
 def scene_box(scene: Scene) -> Box:
-    """Give the box around a scene's walls and balls."""
+    """Give the box around a scene's walls, sensors and balls."""
     position, _, radius = arrays_of(scene.balls)
-    boxes: list[Box] = [walls_box(scene.walls)] if len(scene.walls) else []
+    boxes: list[Box] = [walls_box(walls) for walls in (scene.walls, scene.sensors) if walls is not None and len(walls)]
     if len(position):
         low, high = (position - radius[:, None]).min(axis=0), (position + radius[:, None]).max(axis=0)
         boxes.append((float(low[0]), float(low[1]), float(high[0]), float(high[1])))

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import IO, Literal
+from typing import IO, Literal, Unpack
 
 import numpy as np
 
@@ -15,74 +13,68 @@ from importers.problems import Problem
 from wallkit.walls.arcs import fit_arcs
 from wallkit.walls.clean import clean
 from wallkit.walls.contacts import find_contacts
+from wallkit.walls.drawn_balls import drawn_balls
 from wallkit.walls.filling import material_rings
-from wallkit.walls.flatten import Pieces, flatten
-from wallkit.walls.orient import oriented
+from wallkit.walls.flatten import flatten
+from wallkit.walls.import_options import ImportOptions, ImportWishes
+from wallkit.walls.nesting import depths
+from wallkit.walls.orient import turned_to
 from wallkit.walls.outlines import Outlines, assemble
-from wallkit.walls.repair import Repairs, repair
+from wallkit.walls.repair import repair
 from wallkit.walls.select import choose
-from wallkit.walls.strokes import Strokes, gather
+from wallkit.walls.solid import Nested, decide
+from wallkit.walls.strokes import FloatArray, Strokes, gather
 from wallkit.walls.validate import straight_edges, validate
-from wallkit.walls.walls import Sides, Walls, WallsError
+from wallkit.walls.walls import Walls, WallsError
 
-Curves = Literal["lines", "arcs"]
 Source = str | Path | IO[bytes] | IO[str] | Drawing
 
 
-def import_walls(
-    source: Source,
-    *,
-    tolerance: float | None = None,
-    curves: Curves = "lines",
-    layers: Sequence[str] | None = None,
-    hidden: bool = False,
-    snap: float = 0.0,
-    arena: bool = False,
-    sides: Sides = "both",
-    scale: float = 1.0,
-    flip_y: bool = False,
-    repairs: Repairs | None = None,
-    outline_strokes: bool = False,
-) -> Walls:
+def import_walls(source: Source, options: ImportOptions | None = None, /, **wishes: Unpack[ImportWishes]) -> Walls:
     """Turn a drawing into walls.
 
     Args:
         source: a path, a file object, or a Drawing.
-        tolerance: the largest distance between a curve and its edges, in the drawing's units; by default
-            0.1 % of the diagonal of what is taken, at most 0.1.
-        curves: ``"lines"`` or ``"arcs"``.
-        layers: globs on layer and group names; only these are taken.
-        hidden: take hidden paths too.
-        snap: open ends within this distance of each other or of a wall are moved together, and joined; the
-            same as ``repairs`` with that ``snap``.
-        arena: the outermost closed walls are rooms: what is inside is free, material is outside.
-        sides: ``"both"`` or ``"outward"``, for closed walls; open ones are always two-sided.
-        scale: factor on all coordinates; the places of problems are scaled too.
-        flip_y: mirror the y axis (SVG's points down).
-        repairs: passes of :func:`wallkit.walls.repair.repair`, their lengths in the drawing's units; what they
-            changed is in ``problems``.
-        outline_strokes: a stroke with a width becomes the solid that it paints.
+        options: all options in one value; or else
+        **wishes: the same as keywords, such as ``tolerance=0.05, curves="arcs", snap=0.5``; see
+            :class:`wallkit.walls.import_options.ImportOptions` for all of them. ``repairs`` takes a ``Repairs``.
 
     Returns:
-        Walls with everything noticed in ``problems``; nothing is left out without one.
+        Walls with everything noticed in ``problems``; nothing is left out without one. ``solid`` says which side of
+        the outermost walls is material, and why: paint and the balls that are drawn decide, unless an option does.
 
     Raises:
         DrawingError: the source is not a drawing.
-        WallsError: an option is out of range, or a layer glob fits nothing.
+        WallsError: an option is out of range, or a glob fits nothing.
         LimitError: more than 2,000,000 vertices.
     """
-    _check(tolerance, curves, sides, scale)
-    drawing = source if isinstance(source, Drawing) else _read(source)
-    chosen, problems = choose(drawing, layers, hidden)
+    if options is not None and wishes:
+        raise WallsError("options come in one value or as keywords", code="bad-option", fix="give one of the two")
+    chosen = ImportOptions.of(**wishes) if options is None else options
+    return build_walls(source if isinstance(source, Drawing) else _read(source), chosen)
+
+
+def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | None = None) -> Walls:
+    """Turn a drawing into walls, with balls that are not drawn.
+
+    Args:
+        drawing: as read.
+        options: how.
+        balls: (n, 2) centres in the units of the result; where none are drawn they help to decide what is solid.
+    """
+    scale, flip_y = options.scale, options.flip_y
+    drawn, _ = drawn_balls(drawing)
+    if drawn or balls is None:
+        balls = np.array([(ball.x, ball.y) for ball in drawn]).reshape(-1, 2) * (scale, -scale if flip_y else scale)
+    chosen, problems = choose(drawing, options, drawn)
     chosen, pointless = _with_segments(chosen)
-    if outline_strokes:
-        chosen, outlined = _outlined(chosen, tolerance)
+    if options.outline_strokes:
+        chosen, outlined = _outlined(chosen, options.tolerance)
         pointless += outlined
     strokes = gather((sub for path in chosen for sub in path.subpaths), scale, flip_y)
-    within = default_tolerance(strokes) if tolerance is None else tolerance * scale
-    pieces = _edges(strokes, within, curves)
-    outlines = clean(assemble(strokes, pieces, chosen))
-    walls = nested(outlines, sides, arena, within, _scaled(repairs, snap, scale))
+    within = default_tolerance(strokes) if options.tolerance is None else options.tolerance * scale
+    pieces = fit_arcs(strokes, within) if options.curves == "arcs" else flatten(strokes, within)
+    walls = nested(clean(assemble(strokes, pieces, chosen)), options, within, balls)
     found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *problems, *pointless)]
     return replace(
         walls,
@@ -104,17 +96,6 @@ def _read(source: str | Path | IO[bytes] | IO[str]) -> Drawing:
     return drawing
 
 
-def _scaled(repairs: Repairs | None, snap: float, scale: float) -> Repairs | None:
-    """The passes to run, lengths in the units of the result; None for none."""
-    if snap:
-        repairs = replace(repairs or Repairs(), snap=snap)
-    if repairs is None:
-        return None
-    return replace(
-        repairs, snap=repairs.snap * scale, min_width=repairs.min_width * scale, simplify=repairs.simplify * scale
-    )
-
-
 def _outlined(paths: list[DrawnPath], tolerance: float | None) -> tuple[list[DrawnPath], list[Problem]]:
     from wallkit.walls.stroking import outline_strokes
 
@@ -122,17 +103,6 @@ def _outlined(paths: list[DrawnPath], tolerance: float | None) -> tuple[list[Dra
         default_tolerance(gather(sub for path in paths for sub in path.subpaths)) if tolerance is None else tolerance
     )
     return outline_strokes(paths, within)
-
-
-def _check(tolerance: float | None, curves: str, sides: str, scale: float) -> None:
-    if tolerance is not None and not (math.isfinite(tolerance) and tolerance > 0):
-        raise WallsError(f"tolerance is {tolerance!r}", code="bad-option", fix="give a number above 0")
-    if curves not in ("lines", "arcs"):
-        raise WallsError(f"curves is {curves!r}", code="bad-option", fix='give "lines" or "arcs"')
-    if sides not in ("both", "outward"):
-        raise WallsError(f"sides is {sides!r}", code="bad-option", fix='give "both" or "outward"')
-    if not (math.isfinite(scale) and scale > 0):
-        raise WallsError(f"scale is {scale!r}", code="bad-option", fix="give a number above 0")
 
 
 def default_tolerance(strokes: Strokes) -> float:
@@ -171,31 +141,31 @@ def _one_point(path: DrawnPath, x: float, y: float) -> Problem:
     )
 
 
-def _edges(strokes: Strokes, tolerance: float, curves: Curves) -> Pieces:
-    return fit_arcs(strokes, tolerance) if curves == "arcs" else flatten(strokes, tolerance)
-
-
-def nested(outlines: Outlines, sides: Sides, arena: bool, tolerance: float, repairs: Repairs | None) -> Walls:
-    """Find out what is material, repair if asked to, nest, turn, and check."""
-    plain = replace(outlines.to_walls(sides), tolerance=tolerance)
+def nested(outlines: Outlines, options: ImportOptions, tolerance: float, balls: FloatArray) -> Walls:
+    """Find out which rings are edges of paint, nest them, decide what is solid, repair if asked to, turn, and check."""
+    plain = replace(outlines.to_walls(options.sides), tolerance=tolerance)
     edges = straight_edges(plain)
     contacts = find_contacts(edges)
     keep, dropped = material_rings(outlines, edges, contacts.crossing_walls)
     problems = outlines.problems + dropped
     if not keep.all():
         outlines = outlines.keep(keep)
-        plain = replace(outlines.to_walls(sides), tolerance=tolerance)
+        plain = replace(outlines.to_walls(options.sides), tolerance=tolerance)
         edges = straight_edges(plain)
         contacts = find_contacts(edges)
     owners = [outlines.paths[owner] for owner in outlines.owner.tolist()]
     lines = [path.line for path in owners]
+    depth, parent = depths(edges, contacts.crossing_walls)
+    solid = decide(Nested(edges, depth, parent, owners), options, balls)
+    repairs = options.repairs
     if repairs is not None:
         even_odd = [path.fill is not None and path.fill_rule == "evenodd" for path in owners]
-        done = repair(plain, repairs, arena=arena, even_odd=even_odd, file_lines=lines)
+        done = repair(plain, repairs, arena=solid.room, even_odd=even_odd, file_lines=lines)
         problems = problems + [change.to_problem() for change in done.changes] + done.violations
-        return replace(done.walls, problems=_still_true(problems, done.walls))
-    walls = oriented(plain, arena, edges, contacts)
-    return replace(walls, problems=problems + validate(plain, lines=lines, edges=edges, contacts=contacts))
+        return replace(done.walls, solid=solid, problems=_still_true(problems, done.walls))
+    walls = turned_to(plain, depth, solid.room)
+    found = validate(plain, lines=lines, edges=edges, contacts=contacts)
+    return replace(walls, solid=solid, problems=problems + found)
 
 
 def _still_true(problems: list[Problem], walls: Walls) -> list[Problem]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.walls.copies import copies
 from wallkit.walls.edges import Edges
 from wallkit.walls.orientation import side
 from wallkit.walls.strokes import FloatArray, IntArray
@@ -24,7 +25,9 @@ class Contacts:
         overlap_length: (m,) its length.
         touch_walls: (k, 2) walls that touch at a point without crossing there.
         touch_at: (k, 2) where.
-        complete: false when there were more pairs of near edges than are looked at.
+        copy_of: (W,) the first wall with the same edges. Only that one is told to cross or touch others; its copies
+            lie on it, told as one overlap each.
+        complete: false when there were more contacts, or more pairs of near edges, than are looked at.
     """
 
     crossing_walls: IntArray
@@ -34,35 +37,52 @@ class Contacts:
     overlap_length: FloatArray
     touch_walls: IntArray
     touch_at: FloatArray
+    copy_of: IntArray
     complete: bool
 
 
-# Of near edges that are looked at, and of those that cross; a tangle beyond that is reported as one.
-MOST_PAIRS = 20_000_000
-MOST_CROSSINGS = 2_000_000
+# Of near edges that are looked at, and of those that meet; a tangle beyond that is reported as one.
+MOST_PAIRS = 10_000_000
+MOST_CONTACTS = 500_000
 
 
 def find_contacts(edges: Edges) -> Contacts:
     """Find all contacts of edges that are not neighbours, and neighbours that fold back onto each other."""
     kinds: list[list[IntArray]] = [[], [], []]
-    looked_at = crossings = 0
+    copy_of = copies(edges, np.diff(edges.offsets) >= np.where(edges.closed, 3, 2))
+    again = copy_of != np.arange(len(copy_of))
+    looked_at = met_so_far = 0
     complete = True
-    for first, second in edges.near_pairs():
+    for first, second in edges.near_pairs(np.flatnonzero(~again[edges.wall]) if again.any() else None):
         looked_at += len(first)
-        if looked_at > MOST_PAIRS or crossings > MOST_CROSSINGS:
+        if looked_at > MOST_PAIRS or met_so_far > MOST_CONTACTS:
             complete = False
             break
         for kind, rows in zip(kinds, _classify(edges, first, second), strict=True):
             kind.append(np.stack([first[rows], second[rows]], axis=1))
-        crossings += len(kinds[0][-1])
+            met_so_far += len(kind[-1])
     none = np.empty((0, 2), dtype=np.int64)
     proper, flat, touch = (np.concatenate([none, *kind]) for kind in kinds)
     at = _meeting(edges.a[proper[:, 0]], edges.b[proper[:, 0]], edges.a[proper[:, 1]], edges.b[proper[:, 1]])
     met = np.concatenate([touch, flat])
     more_walls, more_at, touch_walls, touch_at = _through_vertices(edges, *_passages(edges, met[:, 0], met[:, 1]))
     walls = np.sort(np.concatenate([edges.wall[proper], more_walls]), axis=1)
-    overlaps = _overlaps(edges, flat[:, 0], flat[:, 1])
-    return Contacts(walls, np.concatenate([at, more_at]), *overlaps, touch_walls, touch_at, complete)
+    overlaps = _with_copies(edges, copy_of, *_overlaps(edges, flat[:, 0], flat[:, 1]))
+    return Contacts(walls, np.concatenate([at, more_at]), *overlaps, touch_walls, touch_at, copy_of, complete)
+
+
+def _with_copies(
+    edges: Edges, copy_of: IntArray, pairs: IntArray, at: FloatArray, length: FloatArray
+) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Add the copies of walls to the overlaps: the first edges of both, and the length of the whole wall."""
+    copy = np.flatnonzero(copy_of != np.arange(len(copy_of)))
+    if not len(copy):
+        return pairs, at, length
+    own = np.hypot(*(edges.b - edges.a).T)
+    first_edge = np.searchsorted(edges.wall, np.stack([copy_of[copy], copy], axis=1))
+    whole = np.bincount(edges.wall, own, len(copy_of))[copy]
+    middle = (edges.a[first_edge[:, 1]] + edges.b[first_edge[:, 1]]) / 2
+    return np.concatenate([pairs, first_edge]), np.concatenate([at, middle]), np.concatenate([length, whole])
 
 
 def _classify(edges: Edges, first: IntArray, second: IntArray) -> tuple[NDArray[np.bool_], ...]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from wallkit.walls.strokes import FloatArray, IntArray
 
 _FIRST_PORTION = 16  # edges; the next portions are as large as the pairs found let expect
-_PAIRS_AT_ONCE = 400_000  # about so many a portion: bounds the memory
+_PAIRS_AT_ONCE = 200_000  # about so many a portion: bounds the memory
 
 
 @dataclass(eq=False)
@@ -92,16 +92,22 @@ class Edges:
         """The tree of the boxes."""
         return shapely.STRtree(self.boxes)
 
-    def near_pairs(self) -> Iterator[tuple[IntArray, IntArray]]:
-        """All pairs of edges (first < second) whose boxes meet, neighbours along a polyline left out; in portions."""
+    def near_pairs(self, rows: IntArray | None = None) -> Iterator[tuple[IntArray, IntArray]]:
+        """All pairs of edges (first < second) whose boxes meet, neighbours along a polyline left out; in portions.
+
+        Args:
+            rows: (n,) the edges among which pairs are looked for, in rising order; all by default.
+        """
+        tree = self.tree if rows is None else shapely.STRtree(self.boxes[rows])
+        chosen = np.arange(len(self)) if rows is None else rows
         begin, portion = 0, _FIRST_PORTION
-        while begin < len(self):
-            first, second = self.tree.query(self.boxes[begin : begin + portion])
+        while begin < len(chosen):
+            first, second = tree.query(self.boxes[chosen[begin : begin + portion]])
             found = len(first)
             first += begin
             begin += portion
             portion = int(min(8 * portion, max(portion * _PAIRS_AT_ONCE // max(found, 1), 1)))
             keep = first < second
-            first, second = first[keep], second[keep]
+            first, second = chosen[first[keep]], chosen[second[keep]]
             joined = (self.stop[first] == self.start[second]) | (self.stop[second] == self.start[first])
             yield first[~joined], second[~joined]

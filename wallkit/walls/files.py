@@ -10,6 +10,7 @@ import numpy as np
 
 from importers.problems import Problem
 from wallkit.files import write_whole
+from wallkit.walls.solid import Solid
 from wallkit.walls.walls import Material, Wall, Walls, WallsError
 
 FORMAT, VERSION = "wallkit-walls", 1
@@ -28,6 +29,8 @@ def to_json(walls: Walls) -> dict[str, Any]:
     if walls.measured_normal_error is not None:
         result["measured_normal_error"] = walls.measured_normal_error
     result["source"] = {"file": walls.source_file, "sha256": walls.source_sha256}
+    if walls.solid is not None:
+        result["solid"] = walls.solid.to_json()
     result["walls"] = [_wall_json(wall) for wall in walls]
     result["problems"] = [problem_json(problem) for problem in walls.problems]
     return result
@@ -143,6 +146,8 @@ def _from_json(value: Any) -> Walls:
     source = value.get("source", {})
     walls.source_file, walls.source_sha256 = str(source.get("file", "")), str(source.get("sha256", ""))
     walls.problems = [Problem(**problem) for problem in value.get("problems", [])]
+    solid = value.get("solid")
+    walls.solid = None if solid is None else Solid(bool(solid["room"]), solid["how"], str(solid["why"]))
     return walls
 
 

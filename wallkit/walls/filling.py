@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from importers.problems import Problem
+from wallkit.walls.copies import copies
 from wallkit.walls.edges import Edges
-from wallkit.walls.nesting import copies, depths
+from wallkit.walls.nesting import depths
 from wallkit.walls.outlines import Outlines
 from wallkit.walls.rings import signed_areas
 from wallkit.walls.strokes import IntArray
@@ -29,7 +30,8 @@ def material_rings(outlines: Outlines, edges: Edges, crossing: IntArray) -> tupl
     rings = _in_question(outlines)
     if not rings.any():
         return keep, []
-    rings[crossing.ravel()] = False
+    whole = copies(edges, outlines.closed & (np.diff(outlines.offsets) >= 3))
+    rings &= ~np.isin(whole, whole[crossing])  # a copy crosses what the first one does
     depth, parent = depths(edges, crossing, outlines.owner)
     area = signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets)
     first = copies(edges, rings, outlines.owner)

@@ -20,9 +20,11 @@ import shapely
 from numpy.typing import NDArray
 
 from wallkit.walls.edges import Edges
+from wallkit.walls.material import Solids
 from wallkit.walls.narrows import with_feet
 from wallkit.walls.nearest import ExactEdges, nearest_pair
-from wallkit.walls.orient import is_arena
+from wallkit.walls.parts import Parts
+from wallkit.walls.room_circles import larger_circles
 from wallkit.walls.shapes import straightened
 from wallkit.walls.strokes import FloatArray, IntArray
 from wallkit.walls.triangulation import SHORTEST, Triangulation, triangulate
@@ -30,10 +32,7 @@ from wallkit.walls.validate import diagonal
 from wallkit.walls.walls import Walls
 
 MOST_EDGES = 200_000
-MOST_ROOMS = 100  # of more the circles are left as found, good to a third
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
-_STEPS, _DIRECTIONS, _FINE = 60, 12, 1e-5
-_POINTS = 2_000
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
 
@@ -70,11 +69,17 @@ class FreeSpace:
         gaps: narrowest first.
         closed_rooms: (n, 3) x, y, radius of the roomiest circle of each part that no way leads out of.
         complete: false when the drawing was too large or too tangled to be sure.
+        parts: what walls part from one another; None where there are no walls, or too many.
+        solids: where material is, for balls that stand in it; None likewise.
+        inside: no room is outside material, so that the rooms are those that the walls enclose.
     """
 
     gaps: list[Gap]
     closed_rooms: FloatArray
     complete: bool = True
+    parts: Parts | None = None
+    solids: Solids | None = None
+    inside: bool = False
 
     def leaks(self, radius: float = 0.0) -> list[Gap]:
         """Gaps through which a disc of this radius gets out of a room that it fits into; narrowest first."""
@@ -86,19 +91,17 @@ class FreeSpace:
         return [gap for gap in shut if not gap.outside]  # a room shut to the outside is as it should be
 
 
-def free_space(walls: Walls, narrow: float = _NARROW, free: FloatArray | None = None) -> FreeSpace:
+def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     """Find the rooms and the gaps between them, for discs of any radius at once.
 
-    Where a disc may be. Inside material (see ``Walls``) is no room. But a drawing can mean its outlines as rooms:
-    with ``free`` places the parity of the first (how many closed walls are around it) is that of free space; and
-    where all that is left is the outside, as with a single outline, the inside of the outline is the room.
+    Where a disc may be: not inside material, which the winding of the walls tells (see ``Walls``). But where all
+    that is left is the outside, as with a single outline, the inside of the outline is the room.
 
     Args:
         walls: any walls; arcs are looked at as lines within a tenth of the tolerance, and the gaps that are found
             are then made exact.
         narrow: an opening is a gap up to this part of the width of the room behind it. Rooms narrower than the
             tolerance are none, nor are gaps below 4e-7 of the drawing's diagonal.
-        free: (n, 2) places that are not material, such as the balls'.
     """
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
     edges = Edges(vertices, offsets, walls.closed)
@@ -110,63 +113,41 @@ def free_space(walls: Walls, narrow: float = _NARROW, free: FloatArray | None = 
     least = walls.tolerance or 1e-6 * diagonal(vertices)
     found = _rooms(mesh, narrow, least)
     seam = 4 * SHORTEST * diagonal(vertices)
-    found = replace(found, gaps=[gap for gap in found.gaps if gap.width > seam])
-    arena = is_arena(walls)
-    if free is not None and len(free):
-        arena ^= bool(in_material(edges, arena, free[:1])[0])
-    chosen = _outside_material(found, edges, arena)
-    if free is None and not len(chosen.gaps) and not len(chosen.closed_rooms):
-        chosen = _outside_material(found, edges, not arena)
-    chosen = _roomier(chosen, edges, narrow)
+    solids = Solids.of(walls, edges)
+    sealed = [(*gap.room, gap.room_radius) for gap in found.gaps if gap.width <= seam]  # closed, but for rounding
+    found = replace(
+        found,
+        gaps=[gap for gap in found.gaps if gap.width > seam],
+        closed_rooms=np.concatenate([found.closed_rooms, np.array(sealed).reshape(-1, 3)]),
+        parts=Parts.of(mesh, seam),
+        solids=solids,
+    )
+    chosen = _where_free(found, solids, True)
+    if not len(chosen.gaps) and not len(chosen.closed_rooms):
+        chosen = replace(_where_free(found, solids, False), inside=True)
+    chosen = _roomier(chosen, mesh)
     return _sharpened(chosen, walls, vertices) if walls.has_arcs else chosen
 
 
-def _roomier(found: FreeSpace, edges: Edges, narrow: float) -> FreeSpace:
-    """Move the circles of rooms to where they are larger.
+def _where_free(found: FreeSpace, solids: Solids, free: bool) -> FreeSpace:
+    """Only the rooms and gaps outside material; or, where free is false, those inside."""
+    gaps = [gap.room for gap in found.gaps]
+    rooms = np.concatenate([np.array(gaps).reshape(-1, 2), found.closed_rooms[:, :2]])
+    wanted = solids.contain(rooms) != free
+    kept = [gap for gap, chosen in zip(found.gaps, wanted, strict=False) if chosen]
+    return replace(found, gaps=kept, closed_rooms=found.closed_rooms[wanted[len(gaps) :]])
 
-    No step leaves a room: clearance changes by at most the way, so that from one circle of radius R to another
-    across a gap of clearance ``narrow`` R it is at least 2 (1 - narrow) R.
-    """
-    places = np.array([gap.room for gap in found.gaps]).reshape(-1, 2)
-    places = np.concatenate([places, found.closed_rooms[:, :2]])
-    if not 0 < len(places) <= MOST_ROOMS or narrow >= 1:
-        return found
-    tree = shapely.STRtree(shapely.linestrings(np.stack([edges.a, edges.b], axis=1)))
-    radius = _clearance(tree, places)
-    step = radius * min(0.5, 1 - narrow)
-    for round_ in range(_STEPS):
-        on = np.flatnonzero(step > _FINE * radius)
-        if not len(on):
-            break
-        angle = 2.4 * round_ + np.arange(_DIRECTIONS) * (2 * np.pi / _DIRECTIONS)  # turned on every time
-        around = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        trial = places[on, None] + step[on, None, None] * around
-        size = _clearance(tree, trial.reshape(-1, 2)).reshape(-1, _DIRECTIONS)
-        best, rows = size.argmax(axis=1), np.arange(len(on))
-        up = size[rows, best] > radius[on]
-        places[on] = np.where(up[:, None], trial[rows, best], places[on])
-        radius[on] = np.maximum(radius[on], size[rows, best])
-        step[on] = np.where(up, step[on], step[on] * 0.6)
+
+def _roomier(found: FreeSpace, mesh: Triangulation) -> FreeSpace:
+    """Give each room its largest circle."""
+    rooms = np.array([(*gap.room, gap.room_radius, gap.width) for gap in found.gaps]).reshape(-1, 4)
+    rooms = np.concatenate([rooms, np.column_stack([found.closed_rooms, np.zeros(len(found.closed_rooms))])])
+    circles = larger_circles(mesh, rooms[:, :2], rooms[:, 2], rooms[:, 3])
     gaps = [
-        replace(gap, room=(float(x), float(y)), room_radius=float(r))
-        for gap, (x, y), r in zip(found.gaps, places, radius, strict=False)
+        replace(gap, room=(x, y), room_radius=radius)
+        for gap, (x, y, radius) in zip(found.gaps, circles.tolist(), strict=False)
     ]
-    return FreeSpace(gaps, np.column_stack([places, radius])[len(gaps) :], found.complete)
-
-
-def _clearance(tree: shapely.STRtree, points: FloatArray) -> FloatArray:
-    """Distance of each point from the nearest wall."""
-    _, distance = tree.query_nearest(shapely.points(points), return_distance=True, all_matches=False)
-    clearance: FloatArray = distance
-    return clearance
-
-
-def _outside_material(found: FreeSpace, edges: Edges, arena: bool) -> FreeSpace:
-    rooms = np.array([gap.room for gap in found.gaps]).reshape(-1, 2)
-    free = ~in_material(edges, arena, rooms)
-    gaps = [gap for gap, wanted in zip(found.gaps, free, strict=True) if wanted]
-    closed = found.closed_rooms[~in_material(edges, arena, found.closed_rooms[:, :2])]
-    return FreeSpace(gaps, closed, found.complete)
+    return replace(found, gaps=gaps, closed_rooms=circles[len(gaps) :])
 
 
 def _sharpened(found: FreeSpace, walls: Walls, vertices: FloatArray) -> FreeSpace:
@@ -215,24 +196,6 @@ def _noded(edges: Edges) -> tuple[FloatArray, FloatArray]:
     coordinates, index = shapely.get_coordinates(parts, return_index=True)
     joined = index[1:] == index[:-1]
     return coordinates[:-1][joined], coordinates[1:][joined]
-
-
-def in_material(edges: Edges, arena: bool, points: FloatArray) -> NDArray[np.bool_]:
-    """Whether points lie in material: crossings of closed walls straight above, even or odd."""
-    result = np.empty(len(points), dtype=np.bool_)
-    for begin in range(0, len(points), _POINTS):  # in portions, which bounds the memory for pairs
-        some = points[begin : begin + _POINTS]
-        top = float(edges.vertices[:, 1].max()) + 1
-        x, y = some.T
-        source, edge = edges.tree.query(shapely.box(x, y, x, np.maximum(y, top)))
-        p, a, b = some[source], edges.a[edge], edges.b[edge]
-        spans = (np.minimum(a[:, 0], b[:, 0]) <= p[:, 0]) & (p[:, 0] < np.maximum(a[:, 0], b[:, 0]))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            height = a[:, 1] + (p[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1]) / (b[:, 0] - a[:, 0])
-        above = spans & (height > p[:, 1]) & edges.closed[edges.wall[edge]]
-        count = np.bincount(source[above], minlength=len(some)) + (1 if arena else 0)
-        result[begin : begin + _POINTS] = count % 2 == 1
-    return result
 
 
 @dataclass(slots=True)

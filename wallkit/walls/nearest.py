@@ -53,7 +53,9 @@ class ExactEdges:
         d = self.b - self.a
         square = np.abs(d) ** 2
         part = np.divide(((point - self.a) * d.conj()).real, square, out=np.zeros(len(d)), where=square > 0)
-        on_line = self.a + d * np.clip(part, 0.0, 1.0)
+        on_line: ComplexArray = self.a + d * np.clip(part, 0.0, 1.0)
+        if not self.radius.any():
+            return on_line
         off = point - self.centre
         with np.errstate(divide="ignore", invalid="ignore"):
             on_circle = self.centre + off / np.abs(off) * self.radius

@@ -19,10 +19,12 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from wallkit.walls.copies import copies
 from wallkit.walls.edges import Edges
-from wallkit.walls.rings import rings_of, signed_areas
+from wallkit.walls.rings import signed_areas
 from wallkit.walls.strokes import FloatArray, IntArray
 
+_PAIRS_AT_ONCE = 4_000_000  # of a point and an edge: bounds the memory
 _FRACTION = 0.41421  # of the chord below the top; no simple fraction, so that rays miss the vertices of tidy drawings
 
 
@@ -42,10 +44,12 @@ def depths(edges: Edges, crossing: IntArray | None = None, group: IntArray | Non
     areas = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
     ring = edges.closed & (np.diff(edges.offsets) >= 3) & (areas > 0)
     copy_of = copies(edges, ring, group)
-    pairs = np.empty((0, 2), dtype=np.int64) if crossing is None else crossing
-    pairs = pairs[pairs[:, 0] != pairs[:, 1]]
+    whole = copy_of if group is None else copies(edges, ring)  # a copy crosses what the first one does
+    pairs = np.empty((0, 2), dtype=np.int64) if crossing is None else whole[crossing]
+    pairs = _distinct(pairs[(pairs[:, 0] != pairs[:, 1]) & ring[pairs].any(axis=1)], count)
     tangled = np.zeros(count, dtype=np.bool_)
     tangled[pairs.ravel()] = True
+    tangled = tangled[whole]
     points = _inner_points(edges, ring)
     # a strict order by size; open walls come last, so that every ring is larger than they are
     size = np.empty(count, dtype=np.int64)
@@ -54,47 +58,9 @@ def depths(edges: Edges, crossing: IntArray | None = None, group: IntArray | Non
     parent = _parents(edges, points, size, surrounds, copy_of, group)
     depth = _levels(parent)
     if tangled.any():
-        depth += _tangled_around(
-            edges, points, size, np.flatnonzero(tangled & (copy_of == np.arange(count))), pairs, group
-        )
+        outer = tangled & ring & (copy_of == np.arange(count))
+        depth += _tangled_around(edges, points, size, outer, whole[pairs], whole, group)
     return depth[copy_of], parent[copy_of]
-
-
-def copies(edges: Edges, ring: NDArray[np.bool_], group: IntArray | None = None) -> IntArray:
-    """For each wall the first wall with the very same edges (itself, if there is none before): (W,).
-
-    Only closed walls marked in ``ring`` are compared, wherever they start and whichever way they run.
-    """
-    result = np.arange(len(ring))
-    rows = np.flatnonzero(ring)
-    if len(rows) < 2:
-        return result
-    first = edges.offsets[:-1][rows]
-    keep = np.repeat(ring, np.diff(edges.offsets))
-    starts = np.concatenate([[0], np.cumsum(np.diff(edges.offsets)[rows])[:-1]])
-    points = edges.vertices[keep]
-    low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
-    table = np.column_stack(
-        [low, high, edges.offsets[rows + 1] - first, group[rows] if group is not None else 0 * first]
-    )
-    _, key, repeats = np.unique(table, axis=0, return_inverse=True, return_counts=True)
-    key = key.reshape(-1)
-    same: dict[bytes, int] = {}
-    for row in np.flatnonzero(repeats[key] > 1).tolist():
-        wall = int(rows[row])
-        form = _canonical(edges.vertices[edges.offsets[wall] : edges.offsets[wall + 1]]) + int(key[row]).to_bytes(
-            8, "big"
-        )
-        result[wall] = same.setdefault(form, wall)
-    return result
-
-
-def _canonical(ring: FloatArray) -> bytes:
-    """The ring from its smallest vertex, in the direction that comes first: the same bytes for the same edges."""
-    start = np.lexsort((ring[:, 1], ring[:, 0]))[0]
-    there = np.roll(ring, -start, axis=0) + 0.0  # -0 is 0
-    back = np.roll(there[::-1], 1, axis=0)
-    return min(there.tobytes(), back.tobytes())
 
 
 def _inner_points(edges: Edges, ring: NDArray[np.bool_]) -> FloatArray:
@@ -243,21 +209,46 @@ def _levels(parent: IntArray) -> IntArray:
     return depth
 
 
+def _distinct(pairs: IntArray, count: int) -> IntArray:
+    """Each pair once, the smaller first."""
+    keys = np.unique(pairs.min(axis=1) * count + pairs.max(axis=1))
+    return np.stack([keys // count, keys % count], axis=1)
+
+
 def _tangled_around(
-    edges: Edges, points: FloatArray, size: IntArray, tangled: IntArray, crossing: IntArray, group: IntArray | None
+    edges: Edges,
+    points: FloatArray,
+    size: IntArray,
+    tangled: NDArray[np.bool_],
+    crossing: IntArray,
+    whole: IntArray,
+    group: IntArray | None,
 ) -> IntArray:
-    """Count, for each wall, the rings among ``tangled`` that are around it."""
+    """Count, for each wall, the rings among ``tangled`` that are around its point, are larger and do not cross it.
+
+    A ring is around a point when it is met an odd number of times straight above it.
+    """
     count = len(points)
-    polygons = rings_of(edges.vertices, edges.offsets)[tangled]
-    there = np.array([polygon is not None for polygon in polygons], dtype=np.bool_)
-    tangled, polygons = tangled[there], polygons[there]
-    broken = ~shapely.is_valid(polygons)
-    polygons[broken] = shapely.make_valid(polygons[broken])
-    outer, inner = shapely.STRtree(shapely.points(points)).query(polygons, predicate="contains")
-    outer = tangled[outer]
-    apart = np.concatenate([crossing, crossing[:, ::-1]])
-    crosses = np.isin(outer * count + inner, apart[:, 0] * count + apart[:, 1])
-    fits = (size[outer] > size[inner]) & ~crosses
-    if group is not None:
-        fits &= group[outer] == group[inner]
-    return np.bincount(inner[fits], minlength=count)
+    result = np.zeros(count, dtype=np.int64)
+    keys = crossing.min(axis=1) * count + crossing.max(axis=1)
+    rows = np.flatnonzero(tangled[edges.wall])
+    tree = shapely.STRtree(edges.boxes[rows])
+    top = float(edges.vertices[:, 1].max()) + 1
+    portion = max(_PAIRS_AT_ONCE // len(rows), 1)
+    for begin in range(0, count, portion):
+        x, y = points[begin : begin + portion].T
+        source, edge = tree.query(shapely.box(x, y, x, np.maximum(y, top)))
+        source, edge = source + begin, rows[edge]
+        p, a, b = points[source], edges.a[edge], edges.b[edge]
+        spans = (np.minimum(a[:, 0], b[:, 0]) <= p[:, 0]) & (p[:, 0] < np.maximum(a[:, 0], b[:, 0]))
+        source, edge, p, a, b = source[spans], edge[spans], p[spans], a[spans], b[spans]
+        height = a[:, 1] + (p[:, 0] - a[:, 0]) / (b[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
+        above = height > p[:, 1]
+        met, times = np.unique(source[above] * count + edges.wall[edge[above]], return_counts=True)
+        inner, outer = np.divmod(met[times % 2 == 1], count)
+        one, two = whole[inner], whole[outer]
+        fits = (size[outer] > size[inner]) & ~np.isin(np.minimum(one, two) * count + np.maximum(one, two), keys)
+        if group is not None:
+            fits &= group[outer] == group[inner]
+        result += np.bincount(inner[fits], minlength=count)
+    return result

@@ -17,7 +17,8 @@ from wallkit.walls.contacts import find_contacts
 from wallkit.walls.lines import Line, from_lines, to_lines
 from wallkit.walls.orient import is_arena, oriented
 from wallkit.walls.repair_areas import remove_slivers, resolve_crossings, unite
-from wallkit.walls.repair_lines import drop_duplicates, drop_zero_length, join_ends, simplify, snap_ends
+from wallkit.walls.repair_lines import drop_duplicates, drop_zero_length, join_ends, simplify
+from wallkit.walls.snapping import snap_ends
 from wallkit.walls.validate import straight_edges, validate
 from wallkit.walls.walls import Walls, WallsError
 
@@ -27,7 +28,8 @@ class Repairs:
     """Which passes run; by default only edges without length are dropped.
 
     Attributes:
-        snap: open ends move up to this far onto one another or onto a wall; 0 leaves them. Snapped ends are joined.
+        snap: open ends within this of another end or a wall are led there: moved along their own line, or by an
+            edge that is added; what sticks out by less is trimmed; 0 leaves them. Snapped ends are joined.
         join: open walls whose ends meet become one.
         drop_duplicates: walls drawn twice, and edges of open walls that lie on another edge, go.
         resolve: closed walls that cross themselves become the outline of what they enclose.

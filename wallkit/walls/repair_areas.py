@@ -14,6 +14,7 @@ from wallkit.walls.nesting import depths
 from wallkit.walls.repair_lines import Outcome
 from wallkit.walls.rings import rings_of, signed_areas
 from wallkit.walls.strokes import FloatArray, IntArray
+from wallkit.walls.widths import is_thin, winding
 
 
 def resolve_crossings(lines: list[Line], tolerance: float) -> Outcome:
@@ -26,7 +27,8 @@ def resolve_crossings(lines: list[Line], tolerance: float) -> Outcome:
     touching = contacts.touch_walls[:, 0] == contacts.touch_walls[:, 1]
     bad = {int(w) for w in contacts.crossing_walls[own, 0]} | {int(w) for w in pairs[folded, 0]}
     bad |= {int(w) for w in contacts.touch_walls[touching, 0]}
-    bad = {wall for wall in bad if lines[wall].closed}
+    copy_of = contacts.copy_of.tolist()
+    bad = {wall for wall, line in enumerate(lines) if line.closed and copy_of[wall] in bad}
     result: list[Line] = []
     at = None
     for index, line in enumerate(lines):
@@ -46,18 +48,9 @@ def _enclosed(ring: FloatArray, even_odd: bool) -> list[FloatArray]:
     faces = shapely.get_parts(shapely.polygonize([shapely.node(shapely.linestrings(closed))]))
     if not len(faces):
         return []
-    winding = np.array([_winding(point, closed) for point in shapely.get_coordinates(shapely.point_on_surface(faces))])
-    inside = faces[winding % 2 != 0] if even_odd else faces[winding != 0]
+    turns = winding(closed, shapely.get_coordinates(shapely.point_on_surface(faces)))
+    inside = faces[turns % 2 != 0] if even_odd else faces[turns != 0]
     return rings_around(shapely.union_all(inside)) if len(inside) else []
-
-
-def _winding(point: FloatArray, closed: FloatArray) -> int:
-    """How often a closed line goes around a point: crossings of the ray to the right, up minus down."""
-    a, b = closed[:-1], closed[1:]
-    up = (a[:, 1] <= point[1]) & (b[:, 1] > point[1])
-    down = (b[:, 1] <= point[1]) & (a[:, 1] > point[1])
-    left = (b[:, 0] - a[:, 0]) * (point[1] - a[:, 1]) - (point[0] - a[:, 0]) * (b[:, 1] - a[:, 1])
-    return int((up & (left > 0)).sum() - (down & (left < 0)).sum())
 
 
 def rings_around(area: shapely.Geometry) -> list[FloatArray]:
@@ -145,13 +138,8 @@ def remove_slivers(lines: list[Line], width: float, tolerance: float) -> Outcome
     area = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
     perimeter = np.bincount(edges.wall, np.hypot(*(edges.b - edges.a).T), len(lines))
     closed = np.array([line.closed for line in lines], dtype=np.bool_)
-    thin = np.flatnonzero(closed & (area <= perimeter * width / 2))
-    polygons = rings_of(edges.vertices, edges.offsets)[thin]
-    gone = {
-        int(index)
-        for index, polygon in zip(thin, polygons, strict=True)
-        if polygon is None or shapely.buffer(shapely.make_valid(polygon), -width / 2).is_empty
-    }
+    thin = np.flatnonzero(closed & (area <= perimeter * width / 2)).tolist()
+    gone = {w for w in thin if is_thin(edges.vertices[edges.offsets[w] : edges.offsets[w + 1]], width)}
     at = lines[min(gone)].vertices[0] if gone else None
     kept = [replace(line) for index, line in enumerate(lines) if index not in gone]
     return kept, len(gone), 0.0, f"{len(gone)} slivers thinner than {width:g} removed", at

@@ -1,4 +1,4 @@
-"""Repair passes on single lines and their ends: zero length, snap, join, duplicates, simplify.
+"""Repair passes on single lines: zero length, join, duplicates, simplify.
 
 Each takes lines and gives lines, how many things changed, how far at most anything moved, words, and a place.
 """
@@ -10,11 +10,9 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
-from wallkit.walls.flatten import segment_distance
+from wallkit.walls.copies import copies
 from wallkit.walls.lines import Line, edges_of
-from wallkit.walls.nesting import copies
 from wallkit.walls.strokes import FloatArray
-from wallkit.walls.validate import ROUNDING
 
 Outcome = tuple[list[Line], int, float, str, "FloatArray | None"]
 _ROUNDS = 30
@@ -36,105 +34,6 @@ def drop_zero_length(lines: list[Line]) -> Outcome:
         if len(line.vertices) > 1:
             kept.append(line)
     return kept, count, 0.0, f"{count} edges without length dropped", at
-
-
-def snap_ends(lines: list[Line], reach: float) -> Outcome:
-    """Move open ends that are within ``reach`` of each other to their middle, others onto the nearest wall.
-
-    Repeated until nothing is left within reach, so that a second run finds nothing.
-    """
-    lines = [replace(line, vertices=line.vertices.copy()) for line in lines]
-    moved, count, at = 0.0, 0, None
-    before = {id(line): line.vertices.copy() for line in lines}
-    for _ in range(_ROUNDS):
-        changed = _snap_together(lines, reach) + _snap_onto_walls(lines, reach)
-        if not changed:
-            break
-    for line in lines:
-        off = np.hypot(*(line.vertices - before[id(line)]).T)
-        if off.max(initial=0.0) > 0:
-            count += int((off > 0).sum())
-            moved = max(moved, float(off.max()))
-            at = line.vertices[int(off.argmax())] if at is None else at
-    return lines, count, moved, f"{count} open ends snapped", at
-
-
-def _ends(lines: list[Line]) -> tuple[list[tuple[int, int]], FloatArray]:
-    """Open ends as (line, 0 or -1), and their places."""
-    ends = [(index, end) for index, line in enumerate(lines) if not line.closed for end in (0, -1)]
-    places = np.array([lines[index].vertices[end] for index, end in ends]).reshape(-1, 2)
-    return ends, places
-
-
-def _snap_together(lines: list[Line], reach: float) -> int:
-    """Move ends that are each other's nearest within reach to their middle; the closest pairs first."""
-    ends, places = _ends(lines)
-    if len(ends) < 2:
-        return 0
-    spots, spot = np.unique(places, axis=0, return_inverse=True)
-    spot = spot.reshape(-1)
-    points = shapely.points(spots)
-    pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=reach)
-    pairs = pairs[:, pairs[0] < pairs[1]]
-    distance = np.hypot(*(spots[pairs[0]] - spots[pairs[1]]).T)
-    taken: set[int] = set()
-    changed = 0
-    for row in np.argsort(distance, kind="stable").tolist():
-        one, two = int(pairs[0, row]), int(pairs[1, row])
-        if one in taken or two in taken:
-            continue
-        members = np.flatnonzero((spot == one) | (spot == two)).tolist()
-        if _would_vanish(lines, [ends[member] for member in members]):
-            continue
-        taken |= {one, two}
-        middle = (spots[one] + spots[two]) / 2
-        for member in members:
-            index, end = ends[member]
-            lines[index].vertices[end] = middle
-        changed += 1
-    return changed
-
-
-def _would_vanish(lines: list[Line], members: list[tuple[int, int]]) -> bool:
-    """Snapping both ends of a line of one edge onto each other would leave nothing of it."""
-    both = [index for index, _ in members if len(lines[index].vertices) == 2]
-    return len(both) != len(set(both))
-
-
-def _snap_onto_walls(lines: list[Line], reach: float) -> int:
-    """Move ends that meet no other end onto the nearest edge that is not their own."""
-    ends, places = _ends(lines)
-    if not len(ends):
-        return 0
-    edges = edges_of(lines)
-    _, spot, shared = np.unique(places, axis=0, return_inverse=True, return_counts=True)
-    alone = np.flatnonzero(shared[spot.reshape(-1)] == 1)
-    there = float(np.abs(edges.vertices).max(initial=0.0)) * ROUNDING
-    p = places[alone]
-    boxes = shapely.box(p[:, 0] - reach, p[:, 1] - reach, p[:, 0] + reach, p[:, 1] + reach)
-    source, edge = edges.tree.query(boxes)
-    vertex = np.array([edges.offsets[index] if end == 0 else edges.offsets[index + 1] - 1 for index, end in ends])
-    own = (edges.start[edge] == vertex[alone[source]]) | (edges.stop[edge] == vertex[alone[source]])
-    source, edge = source[~own], edge[~own]
-    distance = segment_distance(p[source], edges.a[edge], edges.b[edge])
-    order = np.lexsort((distance, source))
-    first = order[np.unique(source[order], return_index=True)[1]] if len(order) else order
-    changed = 0
-    for row in first.tolist():
-        if there < distance[row] <= reach:
-            index, end = ends[alone[source[row]]]
-            lines[index].vertices[end] = _nearest(p[source[row]], edges.a[edge[row]], edges.b[edge[row]])
-            changed += 1
-    return changed
-
-
-def _nearest(point: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
-    d = b - a
-    part = float(np.clip(((point - a) @ d) / (d @ d), 0.0, 1.0))
-    if part in (0.0, 1.0):
-        return b if part else a
-    foot: FloatArray = a + part * d
-    return foot
 
 
 def join_ends(lines: list[Line]) -> Outcome:

@@ -8,26 +8,32 @@ from fnmatch import fnmatchcase
 
 from importers.drawing import Drawing, DrawnPath
 from importers.problems import Problem
+from wallkit.walls.drawn_balls import DrawnBall, marks_a_ball
+from wallkit.walls.import_options import ImportOptions
+from wallkit.walls.roles import role_of
 from wallkit.walls.walls import WallsError
-
-BALLS_LAYER = "balls"
 
 _REASONS = {
     "guide": ("{} left out: a guide is not art", "turn guides into paths if they are meant as walls"),
     "clip": ("{} left out: it only clips other art", "release the clipping mask if it is meant as a wall"),
     "hidden": ("{} left out: hidden in the drawing", "show it in the drawing, or include hidden paths (--hidden)"),
-    "balls": ("{} left out: layer 'balls' is read as balls", "rename the layer if they are walls"),
+    "balls": ("{} left out: read as balls", "rename the layer or group 'balls' if they are walls"),
+    "marker": ("{} left out: a ring around a ball marks its place", "make it wider than two balls if it is a wall"),
+    "unpainted": ("{} left out: neither filled nor stroked", "give it a fill or a stroke, or take it (--unpainted)"),
     "other-layer": ("{} left out: on none of the layers asked for", "add the layer (--layer)"),
 }
 
 
-def choose(drawing: Drawing, layers: Sequence[str] | None, hidden: bool) -> tuple[list[DrawnPath], list[Problem]]:
+def choose(drawing: Drawing, options: ImportOptions, balls: list[DrawnBall]) -> tuple[list[DrawnPath], list[Problem]]:
     """Take the paths that are walls.
+
+    A path that paints nothing is none, unless no path that could be a wall is painted (pasted text, exported
+    clipping paths). A ring that marks a ball is none, unless it is all that there is.
 
     Args:
         drawing: as read.
-        layers: globs (case counts) on the names of a path's layer and of the groups around it; None for all.
-        hidden: take hidden paths too.
+        options: ``layers``, ``hidden`` and ``unpainted`` are asked.
+        balls: that are drawn, unscaled.
 
     Returns:
         The paths in the file's order, and one info problem for each reason why others were left out.
@@ -35,30 +41,36 @@ def choose(drawing: Drawing, layers: Sequence[str] | None, hidden: bool) -> tupl
     Raises:
         WallsError: a glob fits no layer of the drawing.
     """
-    _check_globs(drawing, layers)
-    taken: list[DrawnPath] = []
-    left: Counter[str] = Counter()
+    _check_globs(drawing, options.layers)
+    sorted_out = [(path, _reason(path, options)) for path in drawing.paths]
+    candidates = [path for path, reason in sorted_out if reason in ("", "other-layer")]
+    if not options.unpainted and any(_painted(path) for path in candidates):
+        sorted_out = [(p, reason or ("" if _painted(p) else "unpainted")) for p, reason in sorted_out]
+    marked = [(p, reason or ("marker" if marks_a_ball(p, balls) else "")) for p, reason in sorted_out]
+    if any(not reason for _, reason in marked):
+        sorted_out = marked
+    left: Counter[str] = Counter(reason for _, reason in sorted_out if reason)
     first: dict[str, DrawnPath] = {}
-    for path in drawing.paths:
-        reason = _reason(path, layers, hidden)
-        if reason:
-            left[reason] += 1
-            first.setdefault(reason, path)
-        else:
-            taken.append(path)
+    for path, reason in sorted_out:
+        first.setdefault(reason, path)
+    taken = [path for path, reason in sorted_out if not reason]
     return taken, [_problem(reason, count, first[reason]) for reason, count in left.items()]
 
 
-def _reason(path: DrawnPath, layers: Sequence[str] | None, hidden: bool) -> str:
+def _painted(path: DrawnPath) -> bool:
+    return path.fill is not None or path.stroke is not None
+
+
+def _reason(path: DrawnPath, options: ImportOptions) -> str:
     if path.guide:
         return "guide"
     if path.clip:
         return "clip"
-    if layers is None and path.layer == BALLS_LAYER:
+    if role_of(path) == "ball":
         return "balls"
-    if layers is not None and not _on_layer(path, layers):
+    if options.layers is not None and not _on_layer(path, options.layers):
         return "other-layer"
-    return "hidden" if not path.visible and not hidden else ""
+    return "hidden" if not path.visible and not options.hidden else ""
 
 
 def _on_layer(path: DrawnPath, globs: Sequence[str]) -> bool:

@@ -49,15 +49,18 @@ def straightened(walls: Walls, tolerance: float | None = None) -> tuple[FloatArr
     """Put lines in the place of arcs: vertices and offsets as in Walls. Line edges stay as they are."""
     if not walls.has_arcs:
         return walls.vertices, walls.offsets
-    if tolerance is None:
-        low_x, low_y, high_x, high_y = walls.box()
-        tolerance = walls.tolerance or 1e-4 * math.hypot(high_x - low_x, high_y - low_y) or 1.0
-    counts, inner, ranks = arc_points(walls, tolerance)
+    counts, inner, ranks = arc_points(walls, largest_distance(walls) if tolerance is None else tolerance)
     first = np.cumsum(counts) - counts
     vertices = np.empty((int(counts.sum()), 2))
     vertices[first] = walls.vertices
     vertices[np.repeat(first, counts - 1) + ranks] = inner
     return vertices, np.concatenate([[0], np.cumsum(counts)])[walls.offsets]
+
+
+def largest_distance(walls: Walls) -> float:
+    """Choose how far lines may be from the arcs in whose place they are put, where nobody says it."""
+    low_x, low_y, high_x, high_y = walls.box()
+    return walls.tolerance or 1e-4 * math.hypot(high_x - low_x, high_y - low_y) or 1.0
 
 
 def arc_points(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, IntArray]:

@@ -8,19 +8,20 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from importers.problems import Problem, Severity
 from wallkit.walls.contacts import Contacts, find_contacts
+from wallkit.walls.copies import copies
 from wallkit.walls.edges import Edges
-from wallkit.walls.flatten import segment_distance
-from wallkit.walls.nesting import copies
+from wallkit.walls.loose_ends import LooseEnd, loose_ends, settled_places
 from wallkit.walls.rings import signed_areas
 from wallkit.walls.shapes import straightened
 from wallkit.walls.strokes import FloatArray, IntArray
 from wallkit.walls.walls import Walls
+from wallkit.walls.widths import is_thin
 
 MOST_PLACES = 1000  # of one code; further ones are counted
-ROUNDING = 1e-14  # of the largest coordinate: an end so near a wall was put onto it
 _NEAR = 0.02  # ends farther apart than this part of the drawing's diagonal are no gap but two ends
 
 
@@ -81,15 +82,17 @@ def validate(
         contacts: the contacts of those edges, if they are at hand.
 
     Returns:
-        Problems in the order crossings, duplicates, slivers, gaps; empty means valid.
+        Problems in the order crossings, duplicates, slivers, gaps; empty means valid. A crossing that an open end
+        only sticks out of is told as that end, not as a crossing too.
     """
     edges = straight_edges(walls) if edges is None else edges
     contacts = find_contacts(edges) if contacts is None else contacts
     findings = Findings(walls, lines)
-    _crossings(findings, contacts)
+    loose = loose_ends(walls, _NEAR * diagonal(edges.vertices)) if contacts.complete else []
+    _crossings(findings, contacts, _at_ends(walls, contacts, loose))
     _duplicates(findings, edges, contacts)
     _slivers(findings, edges)
-    _gaps(findings, edges)
+    _gaps(findings, edges, loose)
     return findings.closed()
 
 
@@ -104,20 +107,36 @@ def diagonal(vertices: FloatArray) -> float:
     return float(np.hypot(*(vertices.max(axis=0) - vertices.min(axis=0)))) if len(vertices) else 0.0
 
 
-def _crossings(findings: Findings, contacts: Contacts) -> None:
+def _at_ends(walls: Walls, contacts: Contacts, loose: Sequence[LooseEnd]) -> NDArray[np.bool_]:
+    """Which crossings are where an end sticks out, or where an end lies on an arc that lines stand for here."""
+    places = np.array([end.at for end in loose if end.kind == "trim"], dtype=np.complex128)
+    if walls.has_arcs and not walls.closed.all():
+        places = np.concatenate([places, settled_places(walls)])
+    result = np.zeros(len(contacts.crossing_at), dtype=np.bool_)
+    if len(places) and len(result):
+        size = float(np.abs(walls.vertices).max())
+        within = 1e-9 * size + (walls.tolerance / 5 if walls.has_arcs else 0.0)
+        tree = shapely.STRtree(shapely.points(places.real, places.imag))
+        found, _ = tree.query(shapely.points(contacts.crossing_at), predicate="dwithin", distance=within)
+        result[found] = True
+    return result
+
+
+def _crossings(findings: Findings, contacts: Contacts, known: NDArray[np.bool_]) -> None:
+    """Crossings but those that are ``known`` otherwise."""
     own = contacts.crossing_walls[:, 0] == contacts.crossing_walls[:, 1]
     for row in findings.first(np.flatnonzero(own), "self-crossing"):
         wall, at = int(contacts.crossing_walls[row, 0]), contacts.crossing_at[row]
         fix = "redraw the path, or resolve its crossings (--resolve)"
         findings.add(wall, "self-crossing", "warning", f"{findings.called(wall)} crosses itself", fix, at)
-    for row in findings.first(np.flatnonzero(~own), "crossing"):
+    for row in findings.first(np.flatnonzero(~own & ~known), "crossing"):
         one, two = contacts.crossing_walls[row].tolist()
         message = f"{findings.called(one)} and {findings.called(two)} cross"
         solids = findings.walls.closed[one] and findings.walls.closed[two]
         fix = "draw them apart, or unite the solids (--union)" if solids else "draw them apart, or end one at the other"
         findings.add(one, "crossing", "warning", message, fix, contacts.crossing_at[row])
     if not contacts.complete:
-        message = "more edges lie close together than are looked at: not all crossings are known"
+        message = "more edges meet or lie close together than are looked at: not all crossings and gaps are known"
         findings.problems.append(Problem("tangled", "warning", message, "take fewer layers, or a larger tolerance"))
 
 
@@ -156,7 +175,11 @@ def _shared(findings: Findings, pairs: IntArray, at: FloatArray, length: FloatAr
 
 
 def _slivers(findings: Findings, edges: Edges) -> None:
-    """Closed walls thinner than the tolerance: twice the area over the perimeter is the width of a thin strip."""
+    """Closed walls that no disc as wide as the tolerance fits into.
+
+    The largest disc in a ring has at least the radius area / perimeter, so only rings below that are looked at. Of a
+    ring that crosses itself the signed area is no area, but not more than that.
+    """
     if not len(edges.closed) or not len(edges):
         return
     area = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
@@ -164,70 +187,45 @@ def _slivers(findings: Findings, edges: Edges) -> None:
     width = 2 * area / np.where(perimeter > 0, perimeter, 1.0)
     limit = findings.walls.tolerance or 1e-6 * diagonal(edges.vertices)
     for wall in np.flatnonzero(edges.closed & (width < limit)).tolist():
+        if not is_thin(edges.vertices[edges.offsets[wall] : edges.offsets[wall + 1]], limit):
+            continue
         message = f"{findings.called(wall)} is a sliver about {width[wall]:.3g} wide"
-        fix = f"delete it, or remove slivers (--min-width {at_least(float(width[wall]) * 1.01)})"
+        fix = f"delete it, or remove slivers (--min-width {at_least(limit)})"
         findings.add(wall, "sliver", "warning", message, fix, edges.vertices[edges.offsets[wall]])
 
 
-def _gaps(findings: Findings, edges: Edges) -> None:
-    """Open ends that meet or nearly meet another end, and ends that stop just short of another wall."""
+def _gaps(findings: Findings, edges: Edges, loose: Sequence[LooseEnd]) -> None:
+    """Open ends that meet, nearly meet another end or a wall, or stick out of one."""
     walls = np.flatnonzero(~edges.closed)
     if not len(walls):
         return
     ends = np.concatenate([edges.offsets[walls], edges.offsets[walls + 1] - 1])
     spots, spot = np.unique(edges.vertices[ends], axis=0, return_inverse=True)
-    spot = spot.reshape(-1)
-    several = np.bincount(spot) > 1
-    reach = _NEAR * diagonal(edges.vertices)
-    ends_at = np.bincount(spot)
+    ends_at = np.bincount(spot.reshape(-1))
     some_end = np.zeros(len(spots), dtype=np.int64)
-    some_end[spot] = ends
-    for index in findings.first(np.flatnonzero(several), "ends-meet"):
+    some_end[spot.reshape(-1)] = ends
+    for index in findings.first(np.flatnonzero(ends_at > 1), "ends-meet"):
         message = f"{ends_at[index]} ends of open walls meet"
         wall = int(edges.wall_of[some_end[index]])
         findings.add(wall, "ends-meet", "info", message, "join them to one wall (--join)", spots[index])
-    lonely = np.flatnonzero(~several[spot])
-    mate, distance = _nearest_end(spots, spot[lonely], reach)
-    short = _nearest_wall(edges, ends[lonely], reach)
-    touching = ROUNDING * float(np.abs(edges.vertices).max())
-    told: set[tuple[int, int]] = set()
-    for row, end in enumerate(ends[lonely].tolist()):
-        key = (min(int(spot[lonely[row]]), int(mate[row])), max(int(spot[lonely[row]]), int(mate[row])))
-        wall = int(edges.wall_of[end])
-        if distance[row] <= reach and distance[row] <= short[row]:
-            if key not in told:
-                told.add(key)
-                message = f"a gap of {distance[row]:.6g} to the nearest open end"
-                fix = f"close it in the drawing, or with --snap {at_least(float(distance[row]))}"
-                findings.add(wall, "gap", "warning", message, fix, edges.vertices[end])
-        elif touching < short[row] <= reach:
-            message = f"an open end stops {short[row]:.6g} short of another wall"
-            fix = f"draw it on, or snap it with --snap {at_least(float(short[row]))}"
-            findings.add(wall, "gap", "warning", message, fix, edges.vertices[end])
+    offsets = findings.walls.offsets
+    for end in loose:
+        wall = int(np.searchsorted(offsets, end.ends[0], side="right")) - 1
+        code, message, fix = _told(end)
+        findings.add(wall, code, "warning", message, fix, findings.walls.vertices[end.ends[0]])
 
 
-def _nearest_end(spots: FloatArray, rows: IntArray, reach: float) -> tuple[IntArray, FloatArray]:
-    """The nearest other spot of each spot in ``rows`` within reach, and how far; -1 and infinity without one."""
-    points = shapely.points(spots)
-    mate, distance = np.full(len(rows), -1), np.full(len(rows), np.inf)
-    if len(spots) > 1 and len(rows):
-        (source, found), far = shapely.STRtree(points).query_nearest(
-            points[rows], max_distance=reach or None, exclusive=True, return_distance=True, all_matches=False
-        )
-        mate[source], distance[source] = found, far
-    return mate, distance
-
-
-def _nearest_wall(edges: Edges, ends: IntArray, reach: float) -> FloatArray:
-    """Distance from each end (a vertex) to the nearest edge of another wall within reach; else infinity."""
-    points = edges.vertices[ends]
-    result = np.full(len(ends), np.inf)
-    boxes = shapely.box(points[:, 0] - reach, points[:, 1] - reach, points[:, 0] + reach, points[:, 1] + reach)
-    source, edge = edges.tree.query(boxes)
-    other = edges.wall[edge] != edges.wall_of[ends[source]]
-    source, edge = source[other], edge[other]
-    np.minimum.at(result, source, segment_distance(points[source], edges.a[edge], edges.b[edge]))
-    return result
+def _told(end: LooseEnd) -> tuple[str, str, str]:
+    """Code, message and fix of a loose end."""
+    snap = f"--snap {at_least(end.need)}" if np.isfinite(end.need) else ""
+    if end.kind == "trim":
+        fix = f"trim it at the wall, in the drawing or with {snap}"
+        return "overshoot", f"an open end sticks out {end.distance:.6g} beyond another wall", fix
+    if end.kind in ("corner", "middle", "bridge"):
+        fix = f"close it in the drawing, or with {snap}" if snap else "close it in the drawing: a wall is in the way"
+        return "gap", f"a gap of {end.distance:.6g} to the nearest open end", fix
+    fix = f"draw it on, or snap it with {snap}" if snap else "draw it on; a third wall is in the way"
+    return "gap", f"an open end stops {end.distance:.6g} short of another wall", fix
 
 
 def at_least(length: float) -> str:

@@ -3,46 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import IO, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from importers.errors import WallkitError
 from importers.pictured import Pictured
 from importers.problems import Problem
+from wallkit import arguments
+from wallkit.walls.fields import CHECKS, bulges_of, check_count, each, flags, points_of, several, wrong
+from wallkit.walls.fields import Material as Material
+from wallkit.walls.fields import Sides as Sides
+from wallkit.walls.fields import WallsError as WallsError
+from wallkit.walls.solid import Solid
 
-Sides = Literal["both", "outward"]
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 
-class WallsError(WallkitError):
-    """Arrays given as walls do not describe walls."""
-
-
-@dataclass(frozen=True, slots=True)
-class Material:
-    """How a wall gives a ball back.
-
-    Attributes:
-        restitution: 0 to 1, the part of the normal speed that a bounce leaves.
-        tangential_restitution: 0 to 1, the same along the wall. 0.9 for both slows a ball down by 10 %.
-    """
-
-    restitution: float = 1.0
-    tangential_restitution: float = 1.0
-
-    def __post_init__(self) -> None:
-        for name in ("restitution", "tangential_restitution"):
-            value = getattr(self, name)
-            if not 0.0 <= value <= 1.0:
-                raise WallsError(f"{name} is {value!r}", code="bad-material", fix="give a number from 0 to 1")
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Wall:
     """One wall, as a view into Walls; see there for what the arrays mean."""
 
@@ -56,8 +37,13 @@ class Wall:
     bulges: FloatArray
     normals: FloatArray
 
+    def __repr__(self) -> str:
+        words = "closed" if self.closed else "open"
+        name = f" {self.name!r}" if self.name else ""
+        return f"<Wall{name}: {words}, {_counted(len(self.normals), 'edge')}, depth {self.depth}, sides {self.sides!r}>"
 
-@dataclass(slots=True, eq=False)
+
+@dataclass(slots=True, eq=False, repr=False)
 class Walls(Pictured):
     """Polylines whose edges are lines or circular arcs, in the units and axes of the drawing.
 
@@ -98,6 +84,10 @@ class Walls(Pictured):
         source_file: the drawing's name, or ``""``.
         source_sha256: hex digest of the drawing's bytes, or ``""``.
         problems: what was found on the way from the drawing.
+        solid: whether the outermost walls are rooms, how that was decided and why; None for walls given as numbers.
+
+    Raises:
+        WallsError: an array has a wrong shape or a number that is not finite, or a word or a material is none.
     """
 
     vertices: FloatArray
@@ -117,6 +107,19 @@ class Walls(Pictured):
     source_file: str = ""
     source_sha256: str = ""
     problems: list[Problem] = field(default_factory=list)
+    solid: Solid | None = None
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        object.__setattr__(self, name, CHECKS[name](value) if name in CHECKS else value)
+
+    def __post_init__(self) -> None:
+        ends = self.offsets[:1].tolist() + self.offsets[-1:].tolist()
+        if ends != [0, len(self.vertices)] or (np.diff(self.offsets) < 1).any():
+            raise wrong("offsets", self.offsets, f"whole numbers that rise from 0 to the {len(self.vertices)} vertices")
+        for name in ("depth", "sides", "materials", "names", "layers"):
+            check_count(name, len(getattr(self, name)), len(self.closed), "walls")
+        check_count("closed", len(self.closed), len(self.offsets) - 1, "walls between offsets")
+        check_count("bulges", len(self.bulges), len(self.vertices), "vertices")
 
     @classmethod
     def from_polylines(
@@ -142,24 +145,26 @@ class Walls(Pictured):
             layers: one layer name a polyline.
 
         Raises:
-            WallsError: a shape is wrong or a number is not finite.
+            WallsError: a shape is wrong, a number is not finite, or a word or a material is none.
         """
-        arrays = [_points(points, index) for index, points in enumerate(polylines)]
+        arrays = [points_of(points, index) for index, points in enumerate(several(polylines, "polylines"))]
         count = len(arrays)
         lengths = [len(points) for points in arrays]
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
         vertices = np.concatenate(arrays) if arrays else np.empty((0, 2))
-        bulge_arrays = [_bulges(bulges[i] if bulges else None, lengths[i], i) for i in range(count)]
+        given = [None] * count if bulges is None else several(bulges, "bulges")
+        check_count("bulges", len(given), count, "polylines")
+        bulge_arrays = [bulges_of(one, lengths[i], i) for i, one in enumerate(given)]
         return cls(
             vertices=np.ascontiguousarray(vertices, dtype=np.float64),
             offsets=offsets,
-            closed=np.array(_each(closed, count, "closed"), dtype=np.bool_),
+            closed=flags(each(closed, count, "closed")),
             bulges=np.concatenate(bulge_arrays) if bulge_arrays else np.empty(0),
             depth=np.zeros(count, dtype=np.int64),
-            sides=tuple(_each(sides, count, "sides")),
-            materials=tuple(_each(material or Material(), count, "material")),
-            names=tuple(_each(names if names is not None else "", count, "names")),
-            layers=tuple(_each(layers if layers is not None else "", count, "layers")),
+            sides=tuple(each(sides, count, "sides")),
+            materials=tuple(each(Material() if material is None else material, count, "material")),
+            names=tuple(each(names if names is not None else "", count, "names")),
+            layers=tuple(each(layers if layers is not None else "", count, "layers")),
         )
 
     def __len__(self) -> int:
@@ -168,7 +173,23 @@ class Walls(Pictured):
     def __iter__(self) -> Iterator[Wall]:
         return (self[index] for index in range(len(self)))
 
+    def __repr__(self) -> str:
+        x0, y0, x1, y1 = self.box()
+        open_ones, arcs = int(np.count_nonzero(~self.closed)), int(np.count_nonzero(self.bulges))
+        parts = [
+            _counted(len(self), "wall") + (f" ({open_ones:,} open)" if open_ones else ""),
+            _counted(len(self.edge_starts), "edge") + (f" ({_counted(arcs, 'arc')})" if arcs else ""),
+            f"{x1 - x0:.6g} x {y1 - y0:.6g} {self.units}".rstrip(),
+            f"y {self.y_axis}",
+            *([f"from {self.source_file!r}"] if self.source_file else []),
+            *([_counted(len(self.problems), "problem")] if self.problems else []),
+        ]
+        return f"<Walls: {', '.join(parts)}>"
+
     def __getitem__(self, index: int) -> Wall:
+        """Give one wall by its number, from the end where it is negative; an IndexError where there is none."""
+        if not isinstance(index, int | np.integer):
+            raise wrong("a wall's number", index, f"a whole number from 0 to {len(self) - 1}; several with take()")
         if not -len(self) <= index < len(self):
             raise IndexError(f"wall {index} of {len(self)}")
         index %= len(self)
@@ -186,6 +207,24 @@ class Walls(Pictured):
             bulges=self.bulges[span],
             normals=_normals(vertices[: len(following)], following),
         )
+
+    def take(self, walls: ArrayLike | slice) -> Walls:
+        """Choose walls: their numbers in the order wanted, a mask of W truth values, or a slice.
+
+        Everything else about them stays as it was, depth and problems included.
+
+        Raises:
+            WallsError: there is no such wall, or the mask has another length.
+        """
+        which = arguments.chosen(walls, len(self), "walls", error=WallsError, code="bad-wall")
+        lengths = np.diff(self.offsets)[which]
+        offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
+        vertex = np.arange(offsets[-1]) + np.repeat(self.offsets[which] - offsets[:-1], lengths)
+        words = ("sides", "materials", "names", "layers")
+        taken: dict[str, Any] = {name: tuple(getattr(self, name)[index] for index in which.tolist()) for name in words}
+        arrays: dict[str, Any] = {name: getattr(self, name)[which] for name in ("closed", "depth")}
+        arrays |= {name: getattr(self, name)[vertex] for name in ("vertices", "bulges")}
+        return replace(self, offsets=offsets, problems=list(self.problems), **arrays, **taken)
 
     @property
     def edge_starts(self) -> IntArray:
@@ -233,6 +272,7 @@ class Walls(Pictured):
         """Write the walls as JSON, see :func:`wallkit.walls.files.save`."""
         from wallkit.walls.files import save
 
+        arguments.of_type(path, "path", (str, Path), "a path", error=WallsError, code="bad-path")
         save(self, path)
 
     @staticmethod
@@ -240,13 +280,51 @@ class Walls(Pictured):
         """Read walls that :meth:`save` wrote, the same bits; see :func:`wallkit.walls.files.load`."""
         from wallkit.walls.files import load
 
+        if not isinstance(source, str | Path) and not hasattr(source, "read"):
+            raise arguments.refused("source", source, "a path or an open file", WallsError, "bad-path")
         return load(source)
+
+    def export(self, path: str | Path, format: str | None = None, **options: Any) -> list[Problem]:
+        """Write the walls as a level for an engine or editor, see :func:`wallkit.export.export`."""
+        from wallkit.export import export
+
+        return export(self, path, format, **options)
 
     def to_shapely(self, tolerance: float | None = None) -> Any:
         """Give the material and the open walls as shapely geometry, see :func:`wallkit.walls.shapes.to_shapely`."""
         from wallkit.walls.shapes import to_shapely
 
-        return to_shapely(self, tolerance)
+        return to_shapely(self, _distance(tolerance))
+
+    def straightened(self, tolerance: float | None = None) -> Walls:
+        """Put lines in the place of arcs, within a distance of them.
+
+        Args:
+            tolerance: the largest distance between an arc and its lines, in the walls' units; by default the walls'
+                own tolerance, or 1e-4 of their size where that is 0.
+
+        Returns:
+            Walls of lines only, the same walls in the same order; the distance is added to ``measured_error``.
+
+        Raises:
+            WallsError: the tolerance is no number above 0.
+        """
+        from wallkit.walls.shapes import largest_distance, straightened
+
+        within = _distance(tolerance) or largest_distance(self)
+        if not self.has_arcs:
+            return self
+        vertices, offsets = straightened(self, within)
+        return replace(
+            self,
+            vertices=vertices,
+            offsets=offsets,
+            bulges=np.zeros(len(vertices)),
+            tolerance=self.tolerance + within,
+            measured_error=self.measured_error + within,
+            measured_normal_error=None,
+            problems=list(self.problems),
+        )
 
     def box(self) -> tuple[float, float, float, float]:
         """Give (x_min, y_min, x_max, y_max) of the vertices (arcs may bow beyond); zeros without any."""
@@ -256,6 +334,15 @@ class Walls(Pictured):
         return float(x.min()), float(y.min()), float(x.max()), float(y.max())
 
 
+def _distance(tolerance: float | None) -> float | None:
+    if tolerance is None:
+        return None
+    may_be = "a finite number above 0, or None"
+    return arguments.number(
+        tolerance, "tolerance", may_be, error=WallsError, code="bad-tolerance", least=arguments.ABOVE_0
+    )
+
+
 def _normals(a: FloatArray, b: FloatArray) -> FloatArray:
     d = b - a
     length = np.hypot(d[:, 0], d[:, 1])
@@ -263,36 +350,5 @@ def _normals(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.divide(outward, length[:, None], out=np.zeros_like(outward), where=length[:, None] > 0)
 
 
-def _points(points: ArrayLike, index: int) -> FloatArray:
-    array = np.asarray(points, dtype=np.float64)
-    if array.ndim != 2 or array.shape[1] != 2 or len(array) < 2:
-        raise WallsError(
-            f"polyline {index} has the shape {array.shape}",
-            code="bad-polyline",
-            fix="give an (n, 2) array, n >= 2",
-        )
-    if not np.isfinite(array).all():
-        raise WallsError(f"polyline {index} has a coordinate that is not finite", code="bad-polyline")
-    return array
-
-
-def _bulges(bulges: ArrayLike | None, length: int, index: int) -> FloatArray:
-    if bulges is None:
-        return np.zeros(length)
-    array = np.asarray(bulges, dtype=np.float64)
-    if array.shape != (length,) or not np.isfinite(array).all():
-        raise WallsError(
-            f"bulges of polyline {index} have the shape {array.shape}",
-            code="bad-bulges",
-            fix=f"give {length} finite numbers, one a vertex",
-        )
-    return array
-
-
-def _each(value: Any, count: int, name: str) -> list[Any]:  # one value, or one a wall
-    if isinstance(value, str | bool | Material):
-        return [value] * count
-    values = list(value)
-    if len(values) != count:
-        raise WallsError(f"{name} has {len(values)} entries for {count} polylines", code="bad-count")
-    return values
+def _counted(number: int, word: str) -> str:
+    return f"{number:,} {word}{'' if number == 1 else 's'}"

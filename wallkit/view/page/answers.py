@@ -13,6 +13,7 @@ import numpy as np
 
 from importers.errors import WallkitError
 from importers.limits import MAX_COORDINATE
+from wallkit.opening import USUAL, OpenedScene, Wishes, open_scene
 from wallkit.run import Ending, Run
 from wallkit.samples import samples
 from wallkit.scene import Balls, Scene
@@ -20,6 +21,7 @@ from wallkit.view.page.documents import Document, Reader, Shelf
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
 from wallkit.view.page.warmth import Warmth
 from wallkit.walls import Walls
+from wallkit.walls.import_options import ImportOptions
 
 MOST_BALLS = 1_000
 MOST_CONTACTS = 100_000
@@ -57,10 +59,11 @@ class Answers:
             "save": self.save,
         }
 
-    def open(self, data: bytes, name: str, folder: Path | None = None) -> Table:
+    def open(self, data: bytes, name: str, folder: Path | None = None, importing: ImportOptions = USUAL) -> Table:
         """Open a file's bytes; only a file of this machine's own owner may name others, in its folder."""
-        opened = self.reader.open(data, name, folder)
-        document = Document(name, opened, {"curves": "arcs" if opened.scene.walls.has_arcs else "lines"})
+        wishes = Wishes(importing=importing, may_be_empty=True)
+        opened = with_a_ball(open_scene(data, wishes, name=name, folder=folder))
+        document = Document(name, opened, importing)
         self.shelf.put(document)
         return self.document_table(document)
 
@@ -74,17 +77,16 @@ class Answers:
     def walls(self, body: Table) -> Table:
         """Import a document's drawing again, with another tolerance or other curves."""
         document = self.shelf.get(body.get("document"))
-        if document.opened.drawing is None:
+        if document.opened.drawing is None or document.opened.kind == "scene":
             raise QuestionError("these walls do not come from a drawing", code="no-drawing", fix="open the drawing")
         curves = body.get("curves", "arcs")
         if curves not in ("lines", "arcs"):
             raise QuestionError(f"curves is {curves!r}", code="bad-request", fix='give "lines" or "arcs"')
         tolerance = body.get("tolerance")
-        options = {"curves": curves}
-        if tolerance is not None:
-            options["tolerance"] = number(tolerance, "tolerance", 0.0, MAX_COORDINATE)
-        document.opened = self.reader.again(document.opened.drawing, options)
-        document.options = options
+        within = None if tolerance is None else number(tolerance, "tolerance", 0.0, MAX_COORDINATE)
+        document.importing = replace(document.importing, curves=curves, tolerance=within)
+        wishes = Wishes(importing=document.importing, may_be_empty=True)
+        document.opened = with_a_ball(open_scene(document.opened.drawing, wishes))
         return self.document_table(document)
 
     def simulate(self, body: Table) -> Table:
@@ -156,8 +158,9 @@ class Answers:
             "name": document.name,
             "facts": facts(walls, opened.kind),
             "exactness": exactness(walls),
-            "drawn": opened.drawing is not None,
-            "curves": document.options.get("curves", "arcs"),
+            "assumed": opened.assumed,
+            "drawn": opened.drawing is not None and opened.kind != "scene",
+            "curves": document.importing.curves if opened.drawing is not None else curves_of(walls),
             "tolerance": walls.tolerance,
             "walls": walls_table(walls, begin[:, :2], opened.scene.sensors),
             "problems": self.problems_table(document),
@@ -233,6 +236,19 @@ def with_material(walls: Walls, body: Table) -> Walls:
     if not changes:
         return walls
     return replace(walls, materials=tuple(replace(material, **changes) for material in walls.materials))
+
+
+def with_a_ball(opened: OpenedScene) -> OpenedScene:
+    """Put a ball in the middle where no place was found for one: it is shown all the same, and the person moves it."""
+    if not len(opened.scene.balls):
+        x0, y0, x1, y1 = opened.scene.walls.box()
+        opened.scene.balls = Balls([[(x0 + x1) / 2, (y0 + y1) / 2]], [[0.0, 0.0]])
+    return opened
+
+
+def curves_of(walls: Walls) -> str:
+    """Tell what the curves of walls have become."""
+    return "arcs" if walls.has_arcs else "lines"
 
 
 def starts_of(scene: Scene) -> np.ndarray:

@@ -7,47 +7,24 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
 
-from importers.drawing import Drawing
 from importers.errors import WallkitError
 from importers.problems import Problem
-from wallkit.scene import Scene
+from wallkit.opening import OpenedScene
+from wallkit.walls.import_options import ImportOptions
 
 MOST_DOCUMENTS = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Opened:
-    """A file made into a scene.
-
-    Attributes:
-        scene: walls, balls and what acts.
-        kind: what the file was, for people.
-        problems: all that was found on the way.
-        drawing: the drawing, where it was one; it can be imported again with other options.
-    """
-
-    scene: Scene
-    kind: str
-    problems: list[Problem]
-    drawing: Drawing | None
-
-
-@dataclass(frozen=True, slots=True)
 class Reader:
-    """How files become scenes, and findings words: the command line's own ways, so that the page says the same.
+    """How errors and findings become words: the command line's own ways, so that the page says the same.
 
     Attributes:
-        open: makes a scene of a file's bytes and its name; a scene may name files in the folder, None forbids any.
-        again: makes one of a drawing with other options of ``import_walls``.
         describe: gives an error as the command line writes it.
         describe_problem: gives a finding so, with the file's name.
     """
 
-    open: Callable[[bytes, str, Path | None], Opened]
-    again: Callable[[Drawing, dict[str, Any]], Opened]
     describe: Callable[[WallkitError], str]
     describe_problem: Callable[[Problem, str], str]
 
@@ -59,13 +36,13 @@ class Document:
     Attributes:
         name: as the person knows it.
         opened: its scene as imported last.
-        options: with which it was imported.
+        importing: how its drawing was imported then.
         key: by which the page names it.
     """
 
     name: str
-    opened: Opened
-    options: dict[str, Any] = field(default_factory=dict)
+    opened: OpenedScene
+    importing: ImportOptions
     key: str = field(default_factory=lambda: secrets.token_urlsafe(9))
 
 

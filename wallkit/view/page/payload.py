@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from wallkit.energy import lowest
 from wallkit.run import Ending, Kind, Run
 from wallkit.view.frame import walls_box
 from wallkit.view.outline import solid_areas
@@ -84,6 +85,7 @@ def run_table(run: Run, *, left_out: str = "", horizon: bool = True) -> Table:
         "rolling_friction": run.scene.rolling_friction,
         "drag": run.scene.drag,
         "radius": column(run.scene.balls.radius, "f8"),
+        "lowest": column(lowest(run), "f8"),
         "start": {name: column(start[:, index], "f8") for index, name in enumerate(("x", "y", "vx", "vy"))},
         "end": {name: column(final[name], "f8") for name in ("time", "x", "y", "vx", "vy")},
         "ending": [Ending(ending).label for ending in run.ending],

@@ -91,17 +91,18 @@ class PageServer(ThreadingHTTPServer):
             sample = next((sample for sample in samples() if sample.name == name), None)
             if sample is None:
                 return None
-            self.pictures[name] = _drawn(self.answers, sample)
+            self.pictures[name] = _drawn(sample)
         return self.pictures[name]
 
 
-def _drawn(answers: Answers, sample: Sample) -> str:
+def _drawn(sample: Sample) -> str:
     """Give the small picture of a sample: its walls alone."""
+    from wallkit.opening import Wishes, open_scene
     from wallkit.view.frame import united, walls_box
     from wallkit.view.picture import draw_walls, started
 
     try:
-        scene = answers.reader.open(sample.path.read_bytes(), sample.name, sample.path.parent).scene
+        scene = open_scene(sample.path, Wishes(may_be_empty=True)).scene
     except WallkitError:  # a sample of errors has no picture
         return '<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>'
     box = united([walls_box(scene.walls)] if len(scene.walls) else [])

@@ -42,10 +42,18 @@
       this.leftOut = run.left_out;
       this.duration = run.duration;
       this.radius = W.column(run.radius);
+      this.lowest = W.column(run.lowest);
       Object.assign(this, columns(run.contacts)); // time, ball, x, y, vx, vy, nx, ny, wall, kind
       [this.originX, this.originY] = run.origin;
       this.count = this.time.length;
       this.sortByBall();
+      this.countBounces();
+    }
+
+    // bounced[k]: how many of the first k contacts are bounces; a slide that begins or ends is none.
+    countBounces() {
+      this.bounced = new Int32Array(this.count + 1);
+      for (let i = 0; i < this.count; i++) this.bounced[i + 1] = this.bounced[i] + (this.kind[i] < SLIDE);
     }
 
     // Lists each ball's contacts: ball b has ofBall[first[b]] to ofBall[first[b + 1] - 1].
@@ -67,14 +75,19 @@
     }
 
     // The number of this ball's contacts up to and with t.
-    bouncesOf(ball, t) {
+    passedOf(ball, t) {
       const first = this.first[ball];
       return countUpTo(t, this.first[ball + 1] - first, (k) => this.time[this.ofBall[first + k]]);
     }
 
     // The number of all balls' contacts up to and with t.
-    bounces(t) {
+    passed(t) {
       return countUpTo(t, this.count, (k) => this.time[k]);
+    }
+
+    // The number of all balls' bounces up to and with t.
+    bounces(t) {
+      return this.bounced[this.passed(t)];
     }
 
     // The flight number k of a ball: from its contact k - 1 (0: its start) to its contact k (or its end).
@@ -118,7 +131,7 @@
 
     // Position and velocity at t, from the contact before t.
     state(ball, t, into = {}) {
-      this.flight(ball, this.bouncesOf(ball, t), into);
+      this.flight(ball, this.passedOf(ball, t), into);
       into.over = t > into.until;
       return this.carry(into, Math.max(0, Math.min(t, into.until) - into.time));
     }
@@ -143,17 +156,16 @@
       return state;
     }
 
-    // Energy per mass in (units/s)^2: v^2 / 2 - g . x, the height counted from the lowest corner of a box.
-    energy(ball, t, [x0, y0, x1, y1]) {
+    // Energy per mass in (units/s)^2: v^2 / 2 - g . x, the height counted from the lowest place the ball can reach.
+    energy(ball, t) {
       const s = this.state(ball, t);
       const [gx, gy] = this.gravity ?? [0, 0];
-      const [lowX, lowY] = [gx > 0 ? x1 : x0, gy > 0 ? y1 : y0];
-      return (s.vx * s.vx + s.vy * s.vy) / 2 - gx * (s.x - lowX) - gy * (s.y - lowY);
+      return (s.vx * s.vx + s.vy * s.vy) / 2 - gx * s.x - gy * s.y + this.lowest[ball];
     }
 
     // The time of the next contact after t, of any ball; null without one.
     next(t) {
-      const k = this.bounces(t);
+      const k = this.passed(t);
       return k < this.count ? this.time[k] : null;
     }
 

@@ -23,8 +23,7 @@
       const speed = positive("speed");
       const angle = (number("angle") * Math.PI) / 180;
       if (!Number.isFinite(speed) || !Number.isFinite(angle) || !Number.isFinite(positive("radius"))) return;
-      const up = this.page.stage.up ? 1 : -1;
-      Object.assign(ball, { vx: speed * Math.cos(angle), vy: up * speed * Math.sin(angle) });
+      Object.assign(ball, { vx: speed * Math.cos(angle), vy: speed * Math.sin(angle) });
       this.page.aim.suitArrow(this.page.size);
       for (const each of this.page.aim.balls) each.radius = positive("radius");
       this.page.forgetShot();
@@ -33,15 +32,14 @@
       this.showAim();
     }
 
-    // Angles are as on the screen: from the right, counter-clockwise.
+    // Angles are those of --angle: from the x axis towards the y axis of the drawing, which in SVG points down.
     showAim() {
       const { ball, seconds } = this.page.aim;
       if (!ball) return;
       const span = seconds === 1 ? "in a second" : `in ${seconds} s`;
       $("aim-hint").textContent = `Drag from the ball to aim, also in mid-flight. The arrow is how far it goes ${span}.`;
-      const up = this.page.stage.up ? 1 : -1;
       put("speed", Math.hypot(ball.vx, ball.vy));
-      put("angle", (Math.atan2(up * ball.vy, ball.vx) * 180) / Math.PI);
+      put("angle", (Math.atan2(ball.vy, ball.vx) * 180) / Math.PI);
       put("radius", ball.radius);
     }
 

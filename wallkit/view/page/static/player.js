@@ -219,7 +219,7 @@
     // The last flights: straight lines, or parabolas drawn as the quadratic curves that they are. They fade in
     // bands, since one stroke has one opacity.
     drawTrail(ctx, ball, flights) {
-      const last = this.motion.bouncesOf(ball, this.time);
+      const last = this.motion.passedOf(ball, this.time);
       const from = Math.max(0, last - flights);
       const many = this.motion.balls > MANY;
       const bands = many ? 3 : 8;
@@ -243,7 +243,7 @@
     drawGhosts(ctx, ball, ghosts) {
       const { motion, stage } = this;
       const radius = this.shownRadius(ball);
-      const last = motion.bouncesOf(ball, this.time);
+      const last = motion.passedOf(ball, this.time);
       ctx.lineWidth = 1;
       for (let k = Math.max(1, last - ghosts + 1); k <= last; k++) {
         const i = motion.ofBall[motion.first[ball] + k - 1];

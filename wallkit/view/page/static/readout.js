@@ -25,7 +25,7 @@
         for (const part of this.list.querySelectorAll("dd")) part.textContent = "–";
         return;
       }
-      const all = motion.openEnded ? "" : ` of ${motion.count.toLocaleString("en")}`;
+      const all = motion.openEnded ? "" : ` of ${motion.bounced[motion.count].toLocaleString("en")}`;
       this.set("bounces", motion.bounces(time).toLocaleString("en") + all);
       this.set("speed", this.speed(motion, time));
       this.set("energy", this.energy(motion, time));
@@ -55,15 +55,15 @@
     energy(motion, time) {
       let [now, first] = [0, 0];
       for (let b = 0; b < motion.balls; b++) {
-        now += motion.energy(b, time, this.player.stage.box);
-        first += motion.energy(b, 0, this.player.stage.box);
+        now += motion.energy(b, time);
+        first += motion.energy(b, 0);
       }
       if (!(first > 0)) return `${W.number(now / motion.balls)}`;
       return `${W.number(now / motion.balls)} (${((100 * now) / first).toFixed(2)} %)`;
     }
 
     lastContact(motion, time) {
-      const k = motion.bounces(time);
+      const k = motion.passed(time);
       if (!k) return "none yet";
       const { picture } = this.player;
       const name = picture ? picture.label(motion.wall[k - 1]) : `wall ${motion.wall[k - 1]}`;

@@ -1,0 +1,98 @@
+"""`wallkit export`: walls as the level that an engine, an editor or another program reads."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from wallkit.cli import import_options as options
+
+if TYPE_CHECKING:
+    from importers.drawing import Drawing
+    from importers.problems import Problem
+    from wallkit.export.options import Box
+    from wallkit.walls import Walls
+
+
+def register(app: typer.Typer) -> None:
+    """Attach the command."""
+    app.command("export")(export_level)
+
+
+def _list_formats(wanted: bool) -> None:
+    if wanted:
+        from wallkit.export.formats import formats
+
+        for each in formats().values():
+            typer.echo(f"{each.name:<11} {each.endings[0]:<14} {each.title}")
+        raise typer.Exit
+
+
+@options.with_import_options("arcs")
+def export_level(
+    file: Annotated[str, typer.Argument(metavar="FILE", help="Drawing, walls or scene; - is standard input.")],
+    out: Annotated[str, typer.Option("-o", "--out", metavar="OUT", help="Where to write; - is standard output.")] = "-",
+    format: Annotated[
+        str | None, typer.Option("--format", metavar="NAME", help="Of the level; without it the ending of OUT decides.")
+    ] = None,
+    list_formats: Annotated[
+        bool, typer.Option("--list", callback=_list_formats, is_eager=True, help="List the formats and end.")
+    ] = False,
+    target_scale: Annotated[
+        float | None,
+        typer.Option("--target-scale", "--meters-per-unit", help="Target units (px, m) per unit of the walls."),
+    ] = None,
+    origin: Annotated[
+        str, typer.Option(metavar="page|box|X,Y", help="What becomes (0, 0); y is mirrored about it where need be.")
+    ] = "page",
+    grid: Annotated[float, typer.Option(metavar="G", help="Round coordinates to multiples of it.")] = 0.0,
+    max_vertices: Annotated[int, typer.Option(help="Of a convex piece.")] = 8,
+    min_spacing: Annotated[float | None, typer.Option(metavar="D", help="Leave out vertices nearer than it.")] = None,
+    arena_frame: Annotated[float | None, typer.Option(metavar="W", help="Width of the material around a room.")] = None,
+    thickness: Annotated[float | None, typer.Option(metavar="W", help="Of open walls, where all is solid.")] = None,
+    importing: dict[str, Any] | None = None,
+) -> None:
+    """Write walls where the level is made: Tiled, Godot, Box2D and planck, pymunk, Phaser, DXF, SVG, GeoJSON..."""
+    from wallkit.cli.messages import show_problems
+    from wallkit.cli.scene_input import opened
+    from wallkit.export.formats import find_format
+    from wallkit.opening import Wishes
+
+    chosen = find_format(out, format)
+    asked = options.options_of(importing or {})
+    if not chosen.arcs:  # lines within the tolerance of the curve, rather than of arcs that are near it
+        asked = replace(asked, curves="lines")
+    found = opened(file, Wishes(importing=asked, may_be_empty=True))
+    walls = found.scene.walls
+    page = None if found.drawing is None else page_of(found.drawing, asked.scale, asked.flip_y)
+    wanted: dict[str, Any] = {"scale": target_scale, "origin": origin, "page": page, "grid": grid}
+    wanted |= {"tolerance": asked.tolerance, "max_vertices": max_vertices, "min_spacing": min_spacing}
+    wanted |= {"arena_frame": arena_frame, "thickness": thickness}
+    problems = write_level(walls, out, chosen.name, **wanted)
+    show_problems([*walls.problems, *problems], walls.source_file or file)
+
+
+def page_of(drawing: Drawing, scale: float = 1.0, flip_y: bool = False) -> Box | None:
+    """Give the first artboard's box where import options move it to, or None without any."""
+    if not drawing.artboards:
+        return None
+    page = drawing.artboards[0]
+    low, high = (-page.y_max, -page.y_min) if flip_y else (page.y_min, page.y_max)
+    return page.x_min * scale, low * scale, page.x_max * scale, high * scale
+
+
+def write_level(walls: Walls, out: str, format: str | None, **options: Any) -> list[Problem]:
+    """Export, and say on standard error what was written."""
+    from wallkit.export import export, find_format
+
+    problems = export(walls, out, format, **options)
+    chosen = find_format(out, format)
+    where = "standard output" if out == "-" else out
+    if chosen.loader and out != "-":
+        where += f", and {Path(out).parent / chosen.loader} that loads it"
+    print(f"{len(walls)} {'wall' if len(walls) == 1 else 'walls'} as {chosen.title} to {where}", file=sys.stderr)
+    return problems

@@ -1,0 +1,71 @@
+"""Export: walls as the level that an engine, an editor or another program reads. Sees walls, never scenes.
+
+``Walls.export(path)`` and ``wallkit export`` come here; docs/exports.md has the table of what each format keeps.
+"""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import Any
+
+from importers.problems import Problem
+from wallkit.export.formats import Format, find_format, formats
+from wallkit.export.level import Level, LevelWall, build_level
+from wallkit.export.options import ExportError, ExportOptions
+from wallkit.files import write_whole
+from wallkit.walls.walls import Walls
+
+__all__ = [
+    "ExportError",
+    "ExportOptions",
+    "Format",
+    "Level",
+    "LevelWall",
+    "build_level",
+    "export",
+    "export_text",
+    "find_format",
+    "formats",
+    "loader_of",
+]
+
+
+def export(walls: Walls, path: str | Path, format: str | None = None, **options: Any) -> list[Problem]:
+    """Write walls as a level under ``path``, whole or not at all, and beside it the loader that some engines need.
+
+    Args:
+        walls: any walls.
+        path: where to; ``"-"`` is standard output, then without a loader.
+        format: a name from :func:`formats`; None asks the ending of ``path``.
+        **options: fields of :class:`ExportOptions`.
+
+    Returns:
+        What the format cannot say, as info problems ``export-...``, each counted by wall.
+
+    Raises:
+        ExportError: the format, an option or a package for it is missing or wrong.
+        FileError: the file cannot be written.
+    """
+    chosen = find_format(path, format)
+    text, problems = export_text(walls, chosen, ExportOptions.of(options))
+    write_whole(path, text)
+    if chosen.loader and str(path) != "-":
+        write_whole(Path(path).parent / chosen.loader, loader_of(chosen))
+    return problems
+
+
+def export_text(walls: Walls, chosen: Format, options: ExportOptions) -> tuple[str, list[Problem]]:
+    """Give the text of an export and what it could not say; see :func:`export`."""
+    if chosen.entry_point is not None:
+        stream = io.StringIO()
+        problems = list(chosen.foreign()(walls, stream, options))
+        return stream.getvalue(), problems
+    level = build_level(walls, options, y_axis=chosen.y_axis, arcs=chosen.arcs, metres=chosen.metres)
+    text = chosen.write(level)
+    return text, level.findings.problems
+
+
+def loader_of(chosen: Format) -> str:
+    """Give the text of the file that an engine needs beside the level; it is the same for every level."""
+    return (Path(__file__).parent / "loaders" / chosen.loader).read_text(encoding="utf-8") if chosen.loader else ""

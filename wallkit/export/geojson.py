@@ -1,0 +1,55 @@
+"""GeoJSON: the material as polygons with holes, each closed wall as a ring of its own, open walls as lines.
+
+Coordinates are those of the level: planar, not longitude and latitude. GeoJSON has no place to say so, and programs
+for maps take them for degrees.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from wallkit.export.json_text import spread
+from wallkit.export.level import Level, LevelWall, signed_area
+from wallkit.export.material_shapes import areas_of, is_ring
+
+
+def write(level: Level) -> str:
+    """Write a level as a FeatureCollection; the property ``kind`` is material (or room), ring or line."""
+    if level.walls:
+        level.findings.say("export-planar", "coordinates are plane; programs for maps take GeoJSON for degrees")
+    kind = "room" if level.is_room else "material"
+    areas = [
+        _feature({"type": "Polygon", "coordinates": _rings(area.polygon)}, {"kind": kind}) for area in areas_of(level)
+    ]
+    return spread({"type": "FeatureCollection", "features": areas + [_wall(wall) for wall in level]}, 2) + "\n"
+
+
+def _wall(wall: LevelWall) -> dict[str, Any]:
+    ring = is_ring(wall)
+    properties = {
+        "kind": "ring" if ring else "line",
+        "name": wall.name,
+        "layer": wall.layer,
+        "wall": wall.number,
+        "depth": wall.depth,
+        "sides": wall.sides,
+        "restitution": float(wall.material.restitution),
+        "tangential_restitution": float(wall.material.tangential_restitution),
+    }
+    if not ring:
+        return _feature({"type": "LineString", "coordinates": wall.vertices.tolist()}, properties)
+    vertices = wall.vertices if signed_area(wall) >= 0 else wall.vertices[::-1]  # exteriors are counter-clockwise
+    closed = np.concatenate([vertices, vertices[:1]]).tolist()
+    if wall.curve is not None:
+        properties["arcs"] = wall.curve.tolist()
+    return _feature({"type": "Polygon", "coordinates": [closed]}, properties)
+
+
+def _feature(geometry: dict[str, Any], properties: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+
+def _rings(polygon: Any) -> list[Any]:
+    return [np.asarray(ring.coords).tolist() for ring in (polygon.exterior, *polygon.interiors)]

@@ -1,0 +1,14 @@
+"""matter.js: ``wallkit-level`` JSON with convex pieces; wallkit-matter.mjs beside it adds them to a world."""
+
+from __future__ import annotations
+
+from wallkit.export.level import Level
+from wallkit.export.losses import say_friction, say_one_way
+from wallkit.export.neutral import level_text
+
+
+def write(level: Level) -> str:
+    """Write a level for wallkit-matter.mjs."""
+    say_friction(level, "tangentialRestitution")
+    say_one_way(level, "oneWay")
+    return level_text(level, solids=True)

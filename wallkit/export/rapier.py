@@ -1,0 +1,15 @@
+"""Rapier: ``wallkit-level`` JSON; wallkit-rapier.mjs beside it makes a polyline collider of each wall."""
+
+from __future__ import annotations
+
+from wallkit.export.level import Level
+from wallkit.export.losses import say_friction, say_one_way, say_single_precision
+from wallkit.export.neutral import level_text
+
+
+def write(level: Level) -> str:
+    """Write a level for wallkit-rapier.mjs."""
+    say_friction(level, "tangentialRestitution")
+    say_one_way(level, "oneWay")
+    say_single_precision(level, "Rapier")
+    return level_text(level)

@@ -1,0 +1,183 @@
+"""What the parts of Walls may be: checked as they are given, one by one and as arguments of ``from_polylines``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from importers.errors import WallkitError
+from importers.problems import Problem
+from wallkit import arguments
+
+Sides = Literal["both", "outward"]
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+class WallsError(WallkitError):
+    """Arrays given as walls do not describe walls."""
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """How a wall gives a ball back.
+
+    Attributes:
+        restitution: 0 to 1, the part of the normal speed that a bounce leaves.
+        tangential_restitution: 0 to 1, the same along the wall. 0.9 for both slows a ball down by 10 %.
+    """
+
+    restitution: float = 1.0
+    tangential_restitution: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name in ("restitution", "tangential_restitution"):
+            given, may_be = getattr(self, name), "a number from 0 to 1"
+            arguments.number(given, name, may_be, error=WallsError, code="bad-material", least=0.0, most=1.0)
+
+
+def points_of(points: ArrayLike, index: int) -> FloatArray:
+    """Give the points of one polyline as an array (n, 2)."""
+    may_be = "an (n, 2) array of numbers, n >= 2"
+    array = arguments.floats(points, f"polyline {index}", may_be, error=WallsError, code="bad-polyline")
+    if array.ndim != 2 or array.shape[1] != 2 or len(array) < 2:
+        raise WallsError(f"polyline {index} has the shape {array.shape}", code="bad-polyline", fix=f"give {may_be}")
+    if not np.isfinite(array).all():
+        raise WallsError(f"polyline {index} has a coordinate that is not finite", code="bad-polyline")
+    return array
+
+
+def bulges_of(bulges: ArrayLike | None, length: int, index: int) -> FloatArray:
+    """Give the bulges of one polyline as an array (n,); zeros for None."""
+    if bulges is None:
+        return np.zeros(length)
+    name, may_be = f"bulges of polyline {index}", f"{length} finite numbers, one a vertex"
+    array = arguments.floats(bulges, name, may_be, error=WallsError, code="bad-bulges")
+    if array.shape != (length,) or not np.isfinite(array).all():
+        raise WallsError(
+            f"bulges of polyline {index} have the shape {array.shape}", code="bad-bulges", fix=f"give {may_be}"
+        )
+    return array
+
+
+def each(value: Any, count: int, name: str) -> list[Any]:
+    """Give one value a polyline: the value itself for each, or what the list holds."""
+    if isinstance(value, str | bool | np.bool_ | Material):
+        return [value] * count
+    values = several(value, name)
+    check_count(name, len(values), count, "polylines")
+    return values
+
+
+def several(values: Any, name: str) -> list[Any]:
+    """Give the entries of a list, or of anything else that can be gone through."""
+    if isinstance(values, str | bytes) or not isinstance(values, Iterable):
+        raise wrong(name, values, "a list, one entry a polyline")
+    return list(values)
+
+
+def check_count(name: str, given: int, count: int, things: str) -> None:
+    """Refuse lists of different lengths."""
+    if given != count:
+        raise WallsError(f"{name} has {given} entries for {count} {things}", code="bad-count")
+
+
+def wrong(name: str, value: object, may_be: str) -> WallkitError:
+    """Make the error for a part of the walls that is given wrongly."""
+    return arguments.refused(name, value, may_be, WallsError, "bad-walls")
+
+
+def _finite(name: str, may_be: str, *shape: int) -> Callable[[Any], FloatArray]:
+    """Make the check of an array of finite numbers, one a vertex, each of the shape given."""
+
+    def checked(value: Any) -> FloatArray:
+        array = arguments.floats(value, name, may_be, error=WallsError, code="bad-walls")
+        if array.ndim != 1 + len(shape) or array.shape[1:] != shape or not np.isfinite(array).all():
+            raise wrong(name, value, may_be)
+        return array
+
+    return checked
+
+
+def _whole(name: str, may_be: str) -> Callable[[Any], IntArray]:
+    def checked(value: Any) -> IntArray:
+        if isinstance(value, np.ndarray) and value.dtype == np.int64 and value.ndim == 1:
+            return value
+        array = arguments.floats(value, name, may_be, error=WallsError, code="bad-walls")
+        whole = array.astype(np.int64)
+        if array.ndim != 1 or not np.array_equal(whole, array):
+            raise wrong(name, value, may_be)
+        return whole
+
+    return checked
+
+
+def flags(value: Any) -> NDArray[np.bool_]:
+    """Give truth values, one a wall."""
+    array = np.asarray(value)
+    if array.ndim != 1 or (len(array) and array.dtype != np.bool_):
+        raise wrong("closed", value, "True or False, or one of them a wall")
+    return array.astype(np.bool_, copy=False)
+
+
+def _words(name: str, words: tuple[str, ...]) -> Callable[[Any], tuple[str, ...]]:
+    def checked(value: Any) -> tuple[str, ...]:
+        values = tuple(several(value, name))
+        for one in set(map(_hashable, values)).difference(words):
+            arguments.word(one, name, words, error=WallsError, code="bad-walls")
+        return values
+
+    return checked
+
+
+def _hashable(value: object) -> object:
+    return value if isinstance(value, str) else repr(value)
+
+
+def _all_of(name: str, kind: type, may_be: str) -> Callable[[Any], tuple[Any, ...]]:
+    def checked(value: Any) -> tuple[Any, ...]:
+        values = tuple(several(value, name))
+        if not all(issubclass(one, kind) for one in set(map(type, values))):  # of a million, few types are told at once
+            raise wrong(name, next(one for one in values if not isinstance(one, kind)), may_be)
+        return values
+
+    return checked
+
+
+def _length(name: str) -> Callable[[Any], float]:
+    return lambda value: arguments.number(
+        value, name, "a finite number, 0 or more", error=WallsError, code="bad-walls", least=0.0
+    )
+
+
+def _text(name: str) -> Callable[[Any], str]:
+    return lambda value: arguments.text(value, name, error=WallsError, code="bad-walls")
+
+
+def _y_axis(value: Any) -> str:
+    return arguments.word(value, "y_axis", ("up", "down"), error=WallsError, code="bad-walls")
+
+
+CHECKS: dict[str, Callable[[Any], Any]] = {
+    "vertices": _finite("vertices", "a (V, 2) array of finite numbers", 2),
+    "offsets": _whole("offsets", "W + 1 whole numbers"),
+    "closed": flags,
+    "bulges": _finite("bulges", "V finite numbers, one a vertex"),
+    "depth": _whole("depth", "W whole numbers, one a wall"),
+    "sides": _words("sides", get_args(Sides)),
+    "materials": _all_of("materials", Material, "a Material, or one a wall"),
+    "names": _all_of("names", str, "a text, or one a wall"),
+    "layers": _all_of("layers", str, "a text, or one a wall"),
+    "y_axis": _y_axis,
+    "tolerance": _length("tolerance"),
+    "measured_error": _length("measured_error"),
+    "measured_normal_error": lambda value: None if value is None else _length("measured_normal_error")(value),
+    "units": _text("units"),
+    "source_file": _text("source_file"),
+    "source_sha256": _text("source_sha256"),
+    "problems": lambda value: list(_all_of("problems", Problem, "a list of Problems")(value)),
+}

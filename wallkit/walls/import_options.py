@@ -1,0 +1,189 @@
+"""Import options: how a drawing becomes walls, in one frozen value that every way in shares.
+
+Commands, scene files (``[import]``), the page and ``import_walls`` differ in how they are asked, not in what may be
+said: the names here are the keywords of the library, the keys of the table and, with ``-`` for ``_``, the options of
+the command line.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any, Literal, TypedDict
+
+from wallkit.walls.repair import Repairs
+from wallkit.walls.walls import Sides, WallsError
+
+Curves = Literal["lines", "arcs"]
+
+_FLAGS = (
+    "hidden", "unpainted", "outline_strokes", "arena", "solid", "flip_y", "join", "drop_duplicates", "resolve", "union",
+)  # fmt: skip
+_LENGTHS = ("snap", "min_width", "simplify")
+REPAIRS = ("snap", "join", "drop_duplicates", "resolve", "union", "min_width", "simplify")
+"""These act on walls that are no drawing any more, too."""
+
+
+class ImportWishes(TypedDict, total=False):
+    """The keywords of ``import_walls``: see :class:`ImportOptions`."""
+
+    tolerance: float | None
+    curves: Curves
+    layers: Sequence[str] | None
+    hidden: bool
+    unpainted: bool
+    outline_strokes: bool
+    arena: bool
+    solid: bool
+    room: str
+    sides: Sides
+    scale: float
+    flip_y: bool
+    snap: float
+    join: bool
+    drop_duplicates: bool
+    resolve: bool
+    union: bool
+    min_width: float
+    simplify: float
+    repairs: Repairs | None
+
+
+@dataclass(frozen=True, slots=True)
+class ImportOptions:
+    """How a drawing becomes walls.
+
+    Attributes:
+        tolerance: the largest distance between a curve and its edges, in the drawing's units; None for 0.1 % of the
+            diagonal of what is taken, at most 0.1.
+        curves: ``"lines"`` or ``"arcs"``.
+        layers: globs on layer and group names; only these are taken; None for all.
+        hidden: take hidden paths too.
+        unpainted: take paths that have neither fill nor stroke although others are painted.
+        outline_strokes: a stroke with a width becomes the solid that it paints.
+        arena: the outermost closed walls are rooms: what is inside is free, material is outside.
+        solid: the outermost closed walls are solid.
+        room: a name or glob: the closed walls of that name are rooms. At most one of these three is given; without
+            any, paint and balls decide (:func:`wallkit.walls.solid.decide`).
+        sides: ``"both"`` or ``"outward"``, for closed walls; open ones are always two-sided.
+        scale: factor on all coordinates; the places of problems are scaled too.
+        flip_y: mirror the y axis (SVG's points down).
+        snap: repair: open ends this near to one another or to a wall are moved together, and joined; drawing's units.
+        join: repair: open walls whose ends meet become one.
+        drop_duplicates: repair: walls and edges drawn twice go.
+        resolve: repair: walls that cross themselves become the outline of what they enclose.
+        union: repair: overlapping and touching solids become one.
+        min_width: repair: closed walls that no disc of this diameter fits into go; drawing's units.
+        simplify: repair: vertices go where the wall then moves by at most this; drawing's units.
+
+    Raises:
+        WallsError: a value is none that may be; the message names the key, what was given and what may be.
+    """
+
+    tolerance: float | None = None
+    curves: Curves = "lines"
+    layers: tuple[str, ...] | None = None
+    hidden: bool = False
+    unpainted: bool = False
+    outline_strokes: bool = False
+    arena: bool = False
+    solid: bool = False
+    room: str = ""
+    sides: Sides = "both"
+    scale: float = 1.0
+    flip_y: bool = False
+    snap: float = 0.0
+    join: bool = False
+    drop_duplicates: bool = False
+    resolve: bool = False
+    union: bool = False
+    min_width: float = 0.0
+    simplify: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in _FLAGS:
+            if not isinstance(getattr(self, name), bool):
+                raise self._wrong(name, "give true or false")
+        for name in _LENGTHS:
+            self._number(name, least=0.0)
+        if self.tolerance is not None:
+            self._number("tolerance", least=0.0, above=True)
+        self._number("scale", least=0.0, above=True)
+        self._word("curves", ("lines", "arcs"))
+        self._word("sides", ("both", "outward"))
+        self._names()
+        said = [name for name in ("arena", "solid", "room") if getattr(self, name)]
+        if len(said) > 1:
+            raise WallsError(f"{' and '.join(said)} do not go together", code="bad-option", fix="give one of them")
+
+    @classmethod
+    def of(cls, **wishes: Any) -> ImportOptions:
+        """Make options of the keywords of ``import_walls``, among them ``repairs``.
+
+        Raises:
+            WallsError: a keyword or a value is none that may be.
+        """
+        repairs = wishes.pop("repairs", None)
+        if repairs is not None:
+            if not isinstance(repairs, Repairs):
+                raise WallsError(f"repairs is {repairs!r}", code="bad-option", fix="give a Repairs, or None")
+            wishes = {f.name: getattr(repairs, f.name) for f in fields(Repairs) if getattr(repairs, f.name)} | wishes
+        known = option_names()
+        for name in wishes:
+            if name not in known:
+                raise WallsError(f"there is no option {name!r}", code="bad-option", fix=f"one of: {', '.join(known)}")
+        return cls(**wishes)
+
+    @property
+    def repairs(self) -> Repairs | None:
+        """The passes to run, lengths in the units of the result; None for none."""
+        asked = Repairs(
+            snap=self.snap * self.scale,
+            join=self.join,
+            drop_duplicates=self.drop_duplicates,
+            resolve=self.resolve,
+            union=self.union,
+            min_width=self.min_width * self.scale,
+            simplify=self.simplify * self.scale,
+        )
+        return None if asked == Repairs() else asked
+
+    def said(self, usual: ImportOptions) -> dict[str, Any]:
+        """Give, by name, the options that differ from the usual ones."""
+        pairs = ((name, getattr(self, name)) for name in option_names())
+        return {name: value for name, value in pairs if value != getattr(usual, name)}
+
+    def _number(self, name: str, least: float, above: bool = False) -> None:
+        value = getattr(self, name)
+        real = not isinstance(value, bool) and isinstance(value, int | float) and math.isfinite(value)
+        if not real or value < least or (above and value == least):
+            raise self._wrong(name, f"give a number {'above' if above else 'from'} {least:g}")
+        object.__setattr__(self, name, float(value))
+
+    def _word(self, name: str, words: tuple[str, ...]) -> None:
+        if getattr(self, name) not in words:
+            raise self._wrong(name, "give " + " or ".join(f'"{word}"' for word in words))
+
+    def _names(self) -> None:
+        if not isinstance(self.room, str):
+            raise self._wrong("room", "give a wall's name or a glob")
+        layers = self.layers
+        if layers is None:
+            return
+        if isinstance(layers, str) or not isinstance(layers, Sequence) or not all(isinstance(g, str) for g in layers):
+            raise self._wrong("layers", 'give a list of globs, such as ["walls*"]')
+        object.__setattr__(self, "layers", tuple(layers))
+
+    def _wrong(self, name: str, fix: str) -> WallsError:
+        return WallsError(f"{name} is {getattr(self, name)!r}", code="bad-option", fix=fix)
+
+
+def option_names() -> tuple[str, ...]:
+    """List the names of all options."""
+    return tuple(f.name for f in fields(ImportOptions))
+
+
+def as_option(name: str) -> str:
+    """Name an option as the command line does."""
+    return "--layer" if name == "layers" else "--" + name.replace("_", "-")
