@@ -14,6 +14,7 @@ from typing import Any
 from importers.drawing import DrawnPath, FillRule, Layer, Segment, Subpath
 from importers.findings import Findings, Kind
 from importers.illustrator import findings
+from importers.illustrator.programs import MOVERS
 from importers.illustrator.state import Group, Paint, colour_of
 from importers.illustrator.text import decode
 from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, MAX_OPERATORS, good_coordinate, limit_error
@@ -32,10 +33,17 @@ PATH_OPERANDS = {
 _WITHOUT_GEOMETRY = (
     b"O R D d i j J M Ap Ar An AE Ae As Xd XD XW Xy XT Xt Xs XS Np Xz XZ XN Xn Bn Bd BD Bm Bc Bh Bs Pb PB Pc "
     b"Pn Xm XP Tr Tf Tz Tt TA TC TW Ti Ta Tq Tl Tx TX TV Tv TK TS Tk TG Tg Th Ts TY Xb XB XQ TE TZ Tj TI Tb "
-    b"Td z a e o r t Z E TP XF XG XH Xh Xi Xq Xg Xr Xv XV LB2 Lc X= X+ X# , / showpage gsave grestore "
-    b"annotatepage def bind load store begin end pop get put exec dict save restore initialize terminate "
+    b"Td z a e o r t Z E TP XF XG XH Xh Xi Xq Xg Xr Xv XV LB2 Lc X= X+ X# , / showpage "
+    b"annotatepage def bind load store begin end pop get put exec dict initialize terminate "
     b"userdict systemdict dup exch clear cleartomark mark currentdict cvx cvn closefile true false null "
 ).split()
+# What moves the axes nowhere.
+_IDENTITIES = {
+    b"translate": [0.0, 0.0],
+    b"scale": [1.0, 1.0],
+    b"rotate": [0.0],
+    b"concat": [1.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,9 +77,16 @@ class Art:
         named: what a name that follows in the file belongs to.
         note: the note that the next objects carry.
         handlers: what each operator does.
+        moved_by: what moved, scaled or turned the axes before something was drawn, ``""`` when nothing did.
+
+    Args:
+        source: the file.
+        encoding: the alphabet of its names.
+        file: its name, for messages.
+        movers: names of its own for what moves, scales or turns what follows.
     """
 
-    def __init__(self, source: Source, encoding: str, file: str = "") -> None:
+    def __init__(self, source: Source, encoding: str, file: str = "", movers: frozenset[bytes] = frozenset()) -> None:
         self.source = source
         self.encoding = encoding
         self.file = file
@@ -81,6 +96,11 @@ class Art:
         self.position = 0
         self.named: DrawnPath | Group | None = None
         self.note = ""
+        self.moved_by = ""
+        self._movers = movers
+        self._saves = 0  # graphics states that are kept
+        self._moved_in = -1  # how many were when the axes were moved; -1: they are where they were
+        self._mover = ""
         self._segments: list[Segment] = []  # of the subpath that is being drawn
         self._subpaths: list[Subpath] = []  # of its path, without that one
         self._begin = 0  # position of that path's first point
@@ -123,7 +143,10 @@ class Art:
         handlers.update({b"To": self._begin_text, b"Tp": self._ignore, b"TO": self._end_text, b"T": self._old_text})
         handlers.update({b"XI": partial(self._leave_out, findings.RASTER), b"`": self._placed, b"~": self._ignore})
         handlers.update({b":": self._begin_object, b";": self._end_object, b"X!": self._mesh})
-        handlers.update(dict.fromkeys((b"translate", b"scale", b"rotate", b"concat", b"cm"), self._moved))
+        handlers.update(
+            {b"gsave": self._save, b"save": self._save, b"grestore": self._restore, b"restore": self._restore}
+        )
+        handlers.update({name: partial(self._move_axes, name) for name in (*MOVERS, *self._movers)})
         return handlers
 
     # --- what the reader calls --------------------------------------------------------------------------
@@ -168,7 +191,7 @@ class Art:
         if operator.startswith(b"Adobe_"):
             return  # a set of procedures, which files name whether they hold it or not
         what = operator[:24].decode("latin-1")
-        self.findings.add(findings.UNKNOWN, self.position, what=what, layer=self._group.layer)
+        self.findings.add(findings.UNKNOWN, self.position, what=what, apart=True, layer=self._group.layer)
 
     def find(self, kind: Kind, *, what: str = "", position: int | None = None) -> None:
         """Note a finding at the operator at hand, or at `position`."""
@@ -328,6 +351,8 @@ class Art:
         group, paint, kind = self._group, self._paint, operator.lower()
         fills, strokes = kind in "fb", kind in "sb"
         framed = self._text or self._objects > 0
+        if self._moved_in >= 0 and not framed:
+            self.moved_by = self.moved_by or self._mover
         path = DrawnPath(
             subpaths,
             layer=group.layer or self._bare_layer,
@@ -450,12 +475,14 @@ class Art:
         outer = self._group
         hidden, locked = outer.hidden or self._hidden, outer.locked or self._locked
         self._open(Group("q", outer, "", hidden, locked, outer.layer, outer.depth + 1, self._paint.copy()))
+        self._save([])
 
     def _end_group(self, _operands: Operands) -> None:
         self._leave("u", "U")
 
     def _end_clip(self, _operands: Operands) -> None:
         self._leave("q", "Q")
+        self._restore([])
 
     def _leave(self, kind: str, operator: str) -> None:
         """Go out of the innermost group of a kind, and of what was left open in it."""
@@ -518,11 +545,13 @@ class Art:
         self._flush()
         self._leave_out(findings.TEXT, [])
         self._text = True
+        self._save([])
 
     def _end_text(self, _operands: Operands) -> None:
         self._flush()
         self._text = False
         self.named = None
+        self._restore([])
 
     def _old_text(self, _operands: Operands) -> None:
         """``T``: a text of versions 1 and 88 ends."""
@@ -550,9 +579,23 @@ class Art:
             self.findings.add(findings.OBJECT, self.position, what="Mesh", apart=True, layer=self._group.layer)
         self.named = None
 
-    def _moved(self, _operands: Operands) -> None:
-        """A PostScript program moves what follows; nobody but Illustrator's own operators is listened to."""
-        self.find(findings.MOVED)
+    # --- PostScript's own -------------------------------------------------------------------------------
+
+    def _save(self, _operands: Operands) -> None:
+        self._saves += 1
+
+    def _restore(self, _operands: Operands) -> None:
+        self._saves = max(self._saves - 1, 0)
+        if self._moved_in > self._saves:
+            self._moved_in = -1
+
+    def _move_axes(self, name: bytes, operands: Operands) -> None:
+        """A program moves, scales or turns what follows: what is drawn so has no place that is known here."""
+        if name in _IDENTITIES and [*map(float, operands)] == _IDENTITIES[name]:
+            return
+        if self._moved_in < 0:
+            self._moved_in = self._saves
+            self._mover = name[:24].decode("latin-1")
 
     def _end_object(self, _operands: Operands) -> None:
         self._flush()

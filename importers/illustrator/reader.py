@@ -26,9 +26,11 @@ class ArtReader:
         art: what was drawn.
     """
 
-    def __init__(self, source: Source, start: int, stop: int, file: str = "") -> None:
+    def __init__(
+        self, source: Source, start: int, stop: int, file: str = "", movers: frozenset[bytes] = frozenset()
+    ) -> None:
         self.source = source
-        self.art = Art(source, alphabet(source.data), file)
+        self.art = Art(source, alphabet(source.data), file, movers)
         self._start = start
         self._stop = stop
         self._endless: set[bytes] = set()  # blocks whose end was looked for and is not there

@@ -58,10 +58,15 @@ def is_operator_text(data: bytes) -> bool:
     start, stop = postscript_part(data)
     if data[start : start + 200].lstrip(b"\xef\xbb\xbf \t\r\n\x00")[:1] == b"<":
         return False
-    if _ILLUSTRATOR_NOTE.search(data, start, min(stop, start + (_LOOK >> 4))):
+    if is_marked(data, start, stop):
         return True
     begin = art_start(data, start, stop)
     return _OPERATORS.search(data[begin : min(stop, begin + _LOOK)]) is not None
+
+
+def is_marked(data: bytes, start: int, stop: int) -> bool:
+    """Tell whether a file calls itself Illustrator's, or names Illustrator's procedures."""
+    return _ILLUSTRATOR_NOTE.search(data, start, min(stop, start + (_LOOK >> 4))) is not None
 
 
 def plain_bytes(data: bytes) -> bytes:

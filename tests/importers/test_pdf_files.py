@@ -380,7 +380,12 @@ def test_a_coordinate_that_is_none_is_never_in_the_result(numbers):
 
 
 def opacities(pdf):
-    states = {"/F": Dictionary(ca=0), "/S": Dictionary(CA=0), "/B": Dictionary(ca=0, CA=0), "/L": Dictionary(ca=1, LW=3)}
+    states = {
+        "/F": Dictionary(ca=0),
+        "/S": Dictionary(CA=0),
+        "/B": Dictionary(ca=0, CA=0),
+        "/L": Dictionary(ca=1, LW=3),
+    }
     group = Dictionary(S=Name.Transparency)
     form = {"Subtype": Name.Form, "Resources": Dictionary(ExtGState=Dictionary(L=states["/L"]))}
     forms = {
