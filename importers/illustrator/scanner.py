@@ -9,9 +9,9 @@ from importers.illustrator.text import MAX_STRING_BYTES, string_end
 from importers.limits import MAX_DEPTH
 
 # Operands that are plain numbers, then an operator of one or two letters: nearly all that a file consists of.
-# The bounds keep a hostile line from being read twice for each of its tokens.
+# All may be missing, so it never fails, and no number is read twice.
 NUMBERS_AND_OPERATOR = re.compile(
-    rb"\s{0,200}((?:[-+.\deE]{1,40}\s{1,20}){0,8})([A-Za-z]{1,2}|\*[uU]?)(?=[\s%\[(/]|\Z)"
+    rb"\s{0,200}((?:[-+.\deE]{1,40}\s{1,20}){0,8})(?:([A-Za-z]{1,2}|\*[uU]?)(?=[\s%\[(/]|\Z))?"
 )
 WHITE = re.compile(rb"[\s\x00]+")
 WORD = re.compile(rb"[^\s\x00()<>\[\]{}/%]+")

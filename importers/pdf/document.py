@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator
+from itertools import islice
 from typing import Any
 
 from importers import filters
@@ -19,6 +20,7 @@ _HEADER = re.compile(rb"%PDF-\d")
 _MAX_MENDED = 8 * 1024 * 1024  # bytes of a file whose table of objects is made anew
 _MAX_PAGES = 50_000  # and nodes of their tree
 _MAX_SLOW_BYTES = 4_000_000  # of LZW and RunLength data, which are decoded code by code
+_MAX_FILTERS = 16  # of one stream
 _FILTER_NAMES = {"/Fl": "/FlateDecode", "/LZW": "/LZWDecode", "/A85": "/ASCII85Decode", "/AHx": "/ASCIIHexDecode"}
 _FILTER_NAMES["/RL"] = "/RunLengthDecode"
 
@@ -140,6 +142,8 @@ class Document:
             return b"", _reason(error)
         damage = ""
         filters_used = _filters_of(stream)
+        if len(filters_used) > _MAX_FILTERS:
+            return b"", f"it is packed more than {_MAX_FILTERS} times over"
         if not filters_used:
             self.unpacker.charge(len(data))
         for name, parameters in filters_used:
@@ -276,8 +280,8 @@ def _filters_of(stream: Any) -> list[tuple[str, Any]]:
         names = [str(found)]
         all_parameters = [parameters]
     else:
-        names = [word(name) for name in items(found)]
-        all_parameters = list(items(parameters))
+        names = [word(name) for name in islice(items(found), _MAX_FILTERS + 1)]
+        all_parameters = list(islice(items(parameters), _MAX_FILTERS + 1))
     names = [_FILTER_NAMES.get(name, name) for name in names]
     return [(name, all_parameters[index] if index < len(all_parameters) else None) for index, name in enumerate(names)]
 
@@ -285,7 +289,7 @@ def _filters_of(stream: Any) -> list[tuple[str, Any]]:
 def _reason(error: Exception) -> str:
     """Give an error of the PDF library without its talk of memory addresses."""
     text = str(error).strip() or type(error).__name__
-    return re.sub(r"^.*<[^>]*>[^:]*: *", "", text.splitlines()[0])[:200]
+    return re.sub(r"^.*<[^>]*>[^:]*: *", "", text.splitlines()[0][:500])[:200]
 
 
 def _library_errors() -> tuple[type[Exception], ...]:

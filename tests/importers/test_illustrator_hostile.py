@@ -118,6 +118,7 @@ READ = {
         "b'\\n%%EndProlog\\n0 0 m 1 1 l f'",
         "read 1 []",
     ),
+    "long numbers and no operator": ("b'0 0 m 1 1 l f ' + (b'1' * 40 + b' ' * 20) * 300_000", "read 1 []"),
     "20,000 compound paths in each other": ("b'*u ' * 20_000 + b'0 0 m n ' + b'*U ' * 20_000", "read 1 []"),
     "a million kinds of objects": (
         "b'0 0 m n ' + b''.join(b'/A%d : ; ' % i for i in range(300_000))",

@@ -132,6 +132,18 @@ STORIES = {
         "pdf(stream(bytes(9_000_000), b'/Type/XRef/W[1 1 0]/Size 9'))",
         "table of objects of a PDF, at most 8 MB",
     ),
+    "a million object streams without an end": (
+        "pdf() + b' 1 0 obj<</N 1/First 1>>stream' * 900_000",
+        "objects in each other in a PDF",
+    ),
+    "half a million filters": (
+        "pdf(b'<</Length 9/Filter[' + b'/AHx' * 500_000 + b']>>stream\\n123456789\\nendstream', " + PAGE + ")",
+        "read 0 ['damaged-stream']",
+    ),
+    "half a million digits and letters in ASCIIHex": (
+        "pdf(b'<</Length 40000000/Filter/AHx>>stream\\n' + b'a x ' * 10_000_000 + b'\\nendstream', " + PAGE + ")",
+        "read 0 [",
+    ),
     "10 million objects": ("pdf() + b' obj' * 10_000_000", "objects of a PDF, at most 1,000,000"),
     "5 million objects with brackets": ("pdf() + b' obj [' * 5_000_000", "values in the objects of a PDF"),
     "a comment of 60 MB": ("pdf(b'%' * 60_000_000 + b'\\n0')", "read 0 []"),
