@@ -261,7 +261,7 @@ def test_a_program_sees_no_other_file(tmp_path):
     secret.write_text("20 20 moveto 30 30 lineto stroke")
     for attempt in (b"(%s) run", b"(%s) (r) file pop", b"(%s) deletefile", b"(%s) (w) file pop"):
         program = b"%!PS\n" + attempt % os.fsencode(secret) + b" showpage\n"
-        with pytest.raises(DrawingError, match="invalidfileaccess|ioerror") as caught:
+        with pytest.raises(DrawingError, match=r"invalidfileaccess|ioerror") as caught:
             read_drawing_text(program, via="ghostscript")
         assert caught.value.code == "postscript-program"
     assert secret.read_text().startswith("20 20")
