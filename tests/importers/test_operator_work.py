@@ -11,18 +11,20 @@ from importers.errors import WallkitError
 from importers.illustrator import read_illustrator
 from importers.pdf import read_pdf
 
-SIZE = 12_000  # bytes of the smaller text
+SIZE = 6_000  # bytes of the smaller text
 
 # Pieces of text between bars; \n, \r, \0 and \s stand for what does not show.
 ILLUSTRATOR = r"""
 1 1 m 2 2 L S\n|1\s|e\s|word\s|(a\n|(a)\s|(\|{|{a}\s|[|<|/a\s|/m{moveto}def\s|*u 1 1 m 2 2 L f\s|*u\n*U\n|u\nU\n|q\nQ\n
 1 1 1 1 Lb (a) Ln LB\n|To\nTO\n|/A : ;\n|%_(a\n|%_/XMLUID : (a) ;\n|%_ (AIArtName)|%AI3_Note:x\n|%AI5_BeginRaster\n
-%AI5_EndRaster\n|%%BeginData: 3\n|%_%%BeginData: 9 Hex Bytes\n|%%BeginDocument\n|%AI3_BeginPattern\n|%%Page: 1\n|%|\r|\0|\s
+%AI5_EndRaster\n|%%BeginData: 3\n|%_%%BeginData: 9 Hex Bytes\n|%%BeginDocument\n|%AI3_BeginPattern\n|%%Page: 1\n|%|\r
+\0|\s
 %AI3_BeginPattern\n%AI3_EndPattern\n|%%BeginProcSet: Adobe_a\n|gsave translate\s
 /Dictionary : 1 1 /RealPointRelToROrigin\n(PositionPoint1) (ArtboardArray)\n
 """
 PAGE = r"""
-1 1 m 2 2 l S\s|1\s|e\s|word\s|(a|(a) Tj\s|(\|<a|<<|[|/a#41\s|%\s|q Q\s|1 0 0 1 0 0 cm\s|/OC /A BDC EMC\s|/S gs\s|/X Do\s
+1 1 m 2 2 l S\s|1\s|e\s|word\s|(a|(a) Tj\s|(\|<a|<<|[|/a#41\s|%\s|q Q\s|1 0 0 1 0 0 cm\s|/OC /A BDC EMC\s|/S gs\s
+/X Do\s
 /C cs 1 scn\s|BI ID x EI\s|BI\s|BT (a) Tj ET\s|1 1 1 1 re W n\s|\0|\s
 """
 
