@@ -63,17 +63,21 @@ class Document:
             ) from error
 
     def _open(self, data: bytes) -> Any:
-        """Open the file; a broken one is mended only while that takes no time to speak of."""
+        """Open the file; one that is broken or shows no page is mended, while that takes no time to speak of."""
         import pikepdf
 
         try:
             # Pages inherit when they are asked: to push everything down, qpdf would list all pages at 2 kB each.
-            return pikepdf.open(io.BytesIO(data), attempt_recovery=False, inherit_page_attributes=False)
+            pdf = pikepdf.open(io.BytesIO(data), attempt_recovery=False, inherit_page_attributes=False)
         except pikepdf.PasswordError:
             raise
         except (pikepdf.PdfError, pikepdf.PikepdfError, RuntimeError, ValueError):
             if len(data) > _MAX_MENDED:
                 raise
+        else:
+            if len(data) > _MAX_MENDED or next(self._pages_below(_catalogue(pdf)), None) is not None:
+                return pdf
+            pdf.close()
         return pikepdf.open(io.BytesIO(data), inherit_page_attributes=False)
 
     def close(self) -> None:
@@ -82,8 +86,8 @@ class Document:
 
     @property
     def root(self) -> Any:
-        """The catalogue."""
-        return self._pdf.Root
+        """The catalogue, or None."""
+        return _catalogue(self._pdf)
 
     @property
     def info(self) -> Any:
@@ -96,8 +100,12 @@ class Document:
         Raises:
             LimitError: the tree of pages is too deep, or has too many nodes.
         """
+        return self._pages_below(self.root)
+
+    def _pages_below(self, catalogue: Any) -> Iterator[Page]:
+        """Go through the pages that a catalogue knows."""
         above: list[tuple[Iterator[Any], dict[str, Any], tuple[int, int]]] = []
-        kids, inherited = iter((get(self.root, "/Pages"),)), dict[str, Any]()
+        kids, inherited = iter((get(catalogue, "/Pages"),)), dict[str, Any]()
         key = (0, 0)
         while True:
             node = next(kids, None)
@@ -183,6 +191,14 @@ class Document:
         self._slow_bytes += size
         if self._slow_bytes > _MAX_SLOW_BYTES:
             raise limit_error("LZW and RunLength data of a PDF", f"{_MAX_SLOW_BYTES // 1_000_000} MB", file=self.file)
+
+
+def _catalogue(pdf: Any) -> Any:
+    """Give the catalogue of an open file, None when it has none."""
+    try:
+        return pdf.Root
+    except _library_errors():
+        return None
 
 
 def _is_above(key: tuple[int, int], own: tuple[int, int], above: list[tuple[Any, Any, tuple[int, int]]]) -> bool:
