@@ -15,9 +15,9 @@ import time
 import numpy as np
 
 from importers.drawing import Subpath
-from wallkit.walls.arcs import fit_arcs
-from wallkit.walls.flatten import flatten
-from wallkit.walls.strokes import Strokes, gather
+from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_arcs
+from wallkit.walls.importing.curves_to_lines import flatten
+from wallkit.walls.importing.segments import Strokes, gather
 
 TOLERANCES = [10.0**-k for k in range(7)]
 FEWEST_FOR_LINES = 1e-4  # below it lines take millions of edges

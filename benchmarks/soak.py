@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 
 import wallkit
-from wallkit.run import Ending
+from wallkit.simulation.run import Ending
 
 BALLS, BOUNCES = 400, 25_000
 

@@ -10,11 +10,11 @@ import resource
 import numpy as np
 import pytest
 
-from wallkit.walls.contacts import find_contacts
-from wallkit.walls.edges import Edges
+from wallkit.walls.checking.self_check import straight_edges, validate
+from wallkit.walls.crossings import find_contacts
+from wallkit.walls.edge_tree import Edges
 from wallkit.walls.nesting import depths
 from wallkit.walls.orient import oriented
-from wallkit.walls.validate import straight_edges, validate
 from wallkit.walls.walls import Walls
 
 

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from wallkit import Run, simulate
-from wallkit.files import write_whole
-from wallkit.opening import Wishes, open_scene
+from wallkit.scene.opening import Wishes, open_scene
 from wallkit.view.film import film
 from wallkit.view.picture import walls_svg
 from wallkit.view.raster import png
 from wallkit.view.run_picture import run_canvas, run_svg
+from wallkit.write_file import write_whole
 
 HERE = Path(__file__).parent
 SAMPLES = HERE.parent / "samples"

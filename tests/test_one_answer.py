@@ -16,8 +16,8 @@ import wallkit
 from wallkit.cli import main
 from wallkit.cli.play import reader
 from wallkit.view.page.answers import Answers
-from wallkit.walls.files import to_json
-from wallkit.walls.free_space import free_space
+from wallkit.walls.checking.free_space import free_space
+from wallkit.walls.walls_json import to_json
 
 HERE = Path(__file__).parent
 LEVELS = HERE / "levels"
@@ -288,7 +288,7 @@ def test_walls_given_as_numbers_follow_their_winding():
 
 def test_a_scene_says_which_way_its_own_y_axis_points():
     walls = "[[walls]]\nvertices = [[0, 0], [4, 0], [4, 3]]\n"
-    from wallkit.scene_files import read_scene
+    from wallkit.scene.scene_files import read_scene
 
     assert read_scene(walls.encode()).scene.walls.y_axis == "up"
     assert read_scene(f'y_axis = "down"\n{walls}'.encode()).scene.walls.y_axis == "down"

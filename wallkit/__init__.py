@@ -25,33 +25,33 @@ if TYPE_CHECKING:
     from importers.drawing import Drawing, DrawnPath, Layer, Subpath
     from importers.problems import Problem
     from importers.read import read_drawing, read_drawing_text
-    from importers.svg.from_svgpathtools import drawing_from_svgpathtools
-    from wallkit.opening import OpenedScene, Wishes, open_scene
-    from wallkit.preparing import Prepared, prepare
-    from wallkit.run import Ending, Kind, Run
-    from wallkit.scene import Balls, Scene, SceneError
-    from wallkit.simulation import simulate
-    from wallkit.surveys import Totals, survey
+    from importers.svg.svgpathtools_paths import drawing_from_svgpathtools
+    from wallkit.scene.opening import OpenedScene, Wishes, open_scene
+    from wallkit.scene.scene import Balls, Scene, SceneError
+    from wallkit.simulation.prepared import Prepared, prepare
+    from wallkit.simulation.run import Ending, Kind, Run
+    from wallkit.simulation.simulate import simulate
+    from wallkit.simulation.survey import Totals, survey
+    from wallkit.simulation.world import World
     from wallkit.walls import Material, Wall, Walls
-    from wallkit.walls.build import import_walls
     from wallkit.walls.import_options import ImportOptions
-    from wallkit.world import World
+    from wallkit.walls.importing.pipeline import import_walls
 
 _HOMES = {
     "importers.drawing": ("Drawing", "DrawnPath", "Layer", "Subpath"),
     "importers.problems": ("Problem",),
     "importers.read": ("read_drawing", "read_drawing_text"),
-    "importers.svg.from_svgpathtools": ("drawing_from_svgpathtools",),
-    "wallkit.opening": ("OpenedScene", "Wishes", "open_scene"),
-    "wallkit.run": ("Ending", "Kind", "Run"),
-    "wallkit.scene": ("Balls", "Scene", "SceneError"),
-    "wallkit.simulation": ("simulate",),
-    "wallkit.preparing": ("Prepared", "prepare"),
-    "wallkit.surveys": ("Totals", "survey"),
+    "importers.svg.svgpathtools_paths": ("drawing_from_svgpathtools",),
+    "wallkit.scene.opening": ("OpenedScene", "Wishes", "open_scene"),
+    "wallkit.simulation.run": ("Ending", "Kind", "Run"),
+    "wallkit.scene.scene": ("Balls", "Scene", "SceneError"),
+    "wallkit.simulation.simulate": ("simulate",),
+    "wallkit.simulation.prepared": ("Prepared", "prepare"),
+    "wallkit.simulation.survey": ("Totals", "survey"),
     "wallkit.walls": ("Material", "Wall", "Walls"),
-    "wallkit.walls.build": ("import_walls",),
+    "wallkit.walls.importing.pipeline": ("import_walls",),
     "wallkit.walls.import_options": ("ImportOptions",),
-    "wallkit.world": ("World",),
+    "wallkit.simulation.world": ("World",),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
 

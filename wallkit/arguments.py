@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from importers.errors import WallkitError
+from wallkit.geometry.arrays import FloatArray
 
-FloatArray = NDArray[np.float64]
 Kind = type[WallkitError]
 
 

@@ -5,12 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from wallkit import horizon, simulate
+from wallkit import simulate
 from wallkit.accuracy import scenes
 from wallkit.accuracy.reference import Reference, sure_events
-from wallkit.near_misses import CORNER, GRAZE, near_misses
-from wallkit.run import CONTACT
-from wallkit.scene import Balls, Scene
+from wallkit.scene.scene import Balls, Scene
+from wallkit.simulation import horizon
+from wallkit.simulation.near_misses import CORNER, GRAZE, near_misses
+from wallkit.simulation.run import CONTACT
 from wallkit.walls import Material, Walls
 
 BOUNCES = 160

@@ -9,7 +9,7 @@ import pytest
 
 from wallkit.accuracy import scenes
 from wallkit.accuracy.reference import PrecisionError, Reference, context, sure_events
-from wallkit.scene import Balls, Scene
+from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Material, Walls
 
 VELOCITY = (50 * math.cos(math.radians(30)), 50 * math.sin(math.radians(30)))

@@ -113,7 +113,7 @@ class Start:
 
     def __init__(self, walls, y_axis, metres, **options):
         from wallkit.export import build_level
-        from wallkit.starts import roomiest
+        from wallkit.scene.starting_places import roomiest
 
         level = build_level(walls, ExportOptions(**options), y_axis=y_axis, metres=metres)
         placed = wallkit.Walls.from_polylines([w.vertices for w in level], [w.closed for w in level])

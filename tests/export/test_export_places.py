@@ -12,7 +12,7 @@ from levels import problems_of, sample, text_of, three_walls
 import wallkit
 from wallkit.export import ExportError, ExportOptions, build_level
 from wallkit.export.level import signed_area
-from wallkit.scene import Balls, Scene
+from wallkit.scene.scene import Balls, Scene
 
 
 def mirrored(walls, about):

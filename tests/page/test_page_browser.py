@@ -10,7 +10,7 @@ from wallkit import Balls, Scene, Walls, simulate
 from wallkit.cli.play import reader
 from wallkit.view.page.answers import Answers
 from wallkit.view.page.server import PageServer
-from wallkit.walls.files import to_json
+from wallkit.walls.walls_json import to_json
 
 pytestmark = pytest.mark.browser
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from wallkit.samples import samples
+from wallkit.scene.samples import samples
 
 ROOT = Path(__file__).parents[2]
 

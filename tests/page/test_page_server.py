@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from wallkit.cli.play import reader
-from wallkit.samples import samples
+from wallkit.scene.samples import samples
 from wallkit.view.page.answers import MOST_BALLS, MOST_CONTACTS, Answers
 from wallkit.view.page.server import MAX_BODY, PAGE_SCRIPTS, PAGE_STYLES, PageServer
 

@@ -3,8 +3,8 @@
 import numpy as np
 
 from wallkit import Balls, Scene, survey
-from wallkit.modelling import Modelled
-from wallkit.preparing import Prepared
+from wallkit.simulation.modelled import Modelled
+from wallkit.simulation.prepared import Prepared
 
 
 def flown(scene, index="grid", **limits):

@@ -7,9 +7,9 @@ import pytest
 
 from wallkit import Balls, Material, Scene, Walls, simulate
 from wallkit.cli.summary import energy_words
-from wallkit.energy import energies, farthest
-from wallkit.horizon import trusted_until
-from wallkit.run import Kind
+from wallkit.simulation.energy import energies, farthest
+from wallkit.simulation.horizon import trusted_until
+from wallkit.simulation.run import Kind
 
 
 def half_pipe(restitution=1.0):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import wallkit
-from wallkit.run import Ending, Kind
+from wallkit.simulation.run import Ending, Kind
 
 FLOOR = np.array([[-100.0, 0.0], [100.0, 0.0]])
 BOX = np.array([[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import wallkit
-from wallkit.simulation import Flights
+from wallkit.simulation.simulate import Flights
 
 
 def circle(radius=100.0, centre=(0.0, 0.0), pieces=2, turn=1):

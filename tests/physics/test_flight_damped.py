@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from wallkit import Balls, Material, Scene, SceneError, Walls, World, simulate, survey
 from wallkit.accuracy import scenes
-from wallkit.kernels.damping import free_time, last_flight, slowed
+from wallkit.kernels.flight.damping import free_time, last_flight, slowed
 from wallkit.kernels.jit import compiled, kernel
-from wallkit.modelling import Modelled
-from wallkit.run import Ending, Kind
-from wallkit.streams import RandomBalls, survey_stream
+from wallkit.simulation.modelled import Modelled
+from wallkit.simulation.run import Ending, Kind
+from wallkit.simulation.streams import RandomBalls, survey_stream
 
 FAR = Walls.from_polylines([[(-1e6, -1e6), (1e6, -1e6), (1e6, 1e6), (-1e6, 1e6)]])
 ACTS = [{"rolling_friction": 3.0}, {"drag": 0.2}]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import wallkit
-from wallkit.simulation import Flights
+from wallkit.simulation.simulate import Flights
 
 BOX = np.array([[0.0, 0.0], [400.0, 0.0], [400.0, 300.0], [0.0, 300.0]])
 SPIKES = np.array(

@@ -12,7 +12,7 @@ import shapely
 from alone import assert_same_bits, flown
 
 from wallkit import Balls, Scene, Walls
-from wallkit.modelling import Modelled
+from wallkit.simulation.modelled import Modelled
 
 EIGHTH = math.tan(math.pi / 8)
 OFFS = [0.0, 1e-15, -1e-15, 1e-14, -1e-14, 1e-13, 1e-12, 1e-9]

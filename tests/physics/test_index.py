@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wallkit import Balls, Scene, Walls, survey
-from wallkit.indexing import AT_LEAST, CROWDED, GROWTH
-from wallkit.kernels.grid import clearing, home, leaf, moves_to_next
-from wallkit.kernels.model import WIDEST
-from wallkit.modelling import Modelled
-from wallkit.preparing import Prepared
+from wallkit.kernels.index.grid import clearing, home, leaf, moves_to_next
+from wallkit.kernels.records import WIDEST
+from wallkit.simulation.build_grid import AT_LEAST, CROWDED, GROWTH
+from wallkit.simulation.modelled import Modelled
+from wallkit.simulation.prepared import Prepared
 
 ROOM = np.array([[0.0, 0.0], [400.0, 0.0], [400.0, 300.0], [0.0, 300.0]])
 

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from alone import assert_same_bits, flown
 
-from wallkit import Balls, Scene, Walls, indexing
-from wallkit.clearance import clearances
-from wallkit.kernels.grid import clearing, departures_of, per_speed, way_of
-from wallkit.kernels.model import HALF, QUARTERS, WAYS, WIDEST
-from wallkit.modelling import Modelled
+from wallkit import Balls, Scene, Walls
+from wallkit.kernels.index.grid import clearing, departures_of, per_speed, way_of
+from wallkit.kernels.records import HALF, QUARTERS, WAYS, WIDEST
+from wallkit.scene.start_overlaps import clearances
+from wallkit.simulation import build_grid
+from wallkit.simulation.modelled import Modelled
 
 LIMITS = {"until": 40.0, "bounces": 60}
 
@@ -114,8 +115,8 @@ def test_interpreted_and_compiled_kernels_find_the_same_clearings(radius):
 
 @pytest.mark.parametrize("radius", [0.0, 5.0])
 def test_clearings_that_lie_beside_their_cells(radius, monkeypatch):
-    monkeypatch.setattr(indexing, "WORTH_PACKING", 100.0)
-    monkeypatch.setattr(indexing, "WORTH_PACKING_SPARSE", 100.0)
+    monkeypatch.setattr(build_grid, "WORTH_PACKING", 100.0)
+    monkeypatch.setattr(build_grid, "WORTH_PACKING_SPARSE", 100.0)
     walls = wavy(300, 0.01, 3)
     scene = Scene(walls, balls_inside(walls, radius))
     one, modelled = flown(scene, **LIMITS)

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wallkit.kernels.instructions import AT_ONCE, claim, fetch, look_up, lowest, pair_up, prefetch, prefetch_far
+from wallkit.kernels.intrinsics import AT_ONCE, claim, fetch, look_up, lowest, pair_up, prefetch, prefetch_far
 from wallkit.kernels.jit import compiled, kernel
-from wallkit.kernels.model import CORNER, LINE
+from wallkit.kernels.records import CORNER, LINE
 
 
 @kernel

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from wallkit.kernels.roots import NEVER, first_fall_quadratic, first_fall_quartic
+from wallkit.kernels.impact.polynomial_roots import NEVER, first_fall_quadratic, first_fall_quartic
 
 mpmath.mp.dps = 60
 EPS = 2.0**-52

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wallkit
-from wallkit.clearance import clearances
-from wallkit.preparing import prepare_again
-from wallkit.run import Kind
-from wallkit.streams import RandomBalls, survey_stream
+from wallkit.scene.start_overlaps import clearances
+from wallkit.simulation.prepared import prepare_again
+from wallkit.simulation.run import Kind
+from wallkit.simulation.streams import RandomBalls, survey_stream
 
 ROOM = wallkit.Walls.from_polylines(
     [[[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]], [[18.0, 13.0], [22.0, 13.0], [22.0, 17.0], [18.0, 17.0]]]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from wallkit import Balls, Scene, Walls, survey
-from wallkit.scene import SceneError
+from wallkit.scene.scene import SceneError
 
 SQUARE = [(0.0, 0.0), (0.0, 10.0), (10.0, 10.0), (10.0, 0.0)]
 

@@ -8,9 +8,9 @@ from alone import assert_as_alone
 
 from wallkit import Balls, Ending, Scene, Walls
 from wallkit.accuracy import scenes
-from wallkit.flying import WORTH_LOCKSTEP, suits_lockstep
-from wallkit.kernels.lockstep import LANES
-from wallkit.preparing import prepare
+from wallkit.kernels.batches.lockstep import LANES
+from wallkit.simulation.prepared import prepare
+from wallkit.simulation.survey_backends import WORTH_LOCKSTEP, suits_lockstep
 
 BOX = [[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]]
 ROOM = Walls.from_polylines(

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from wallkit import Balls, Scene, SceneError, Walls, prepare
-from wallkit.clearance import check_starts
-from wallkit.kernels.room import all_clear, all_clear_in_cells
-from wallkit.modelling import Modelled
-from wallkit.preparing import ball_cells
+from wallkit.kernels.index.start_overlaps import all_clear, all_clear_in_cells
+from wallkit.scene.start_overlaps import check_starts
+from wallkit.simulation.modelled import Modelled
+from wallkit.simulation.prepared import ball_cells
 
 WALLS = Walls.from_polylines(
     [[[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]], [[18.0, 13.0], [22.0, 16.0]], [[30.0, 5.0], [30.0, 5.0]]],

@@ -10,9 +10,9 @@ import pytest
 
 from wallkit import Balls, Scene, Walls, survey
 from wallkit.accuracy import scenes
-from wallkit.flying import AT_ONCE
-from wallkit.kernels.queue import BLOCK, NO_BALL, Queue, next_ball
-from wallkit.threads import in_threads
+from wallkit.kernels.batches.ball_queue import BLOCK, NO_BALL, Queue, next_ball
+from wallkit.simulation.survey_backends import AT_ONCE
+from wallkit.simulation.threads import in_threads
 
 
 def _scene(name):
@@ -66,7 +66,7 @@ def test_work_is_done_without_threads_that_are_busy_elsewhere(monkeypatch):
     held = threading.Event()
     with ThreadPoolExecutor(1) as busy:
         busy.submit(held.wait)
-        monkeypatch.setattr("wallkit.threads._helpers", lambda: busy)
+        monkeypatch.setattr("wallkit.simulation.threads._helpers", lambda: busy)
         assert in_threads(lambda: threading.current_thread().name, 3) == [threading.current_thread().name]
         held.set()
 

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wallkit import Balls, Ending, Material, Scene, Walls, survey
-from wallkit.flying import WORTH_A_WAVE, suits_wave
-from wallkit.kernels.wave_lanes import PER_TURN
-from wallkit.kernels.wavefront import NEAR_EDGES
-from wallkit.preparing import prepare
+from wallkit.kernels.batches.wave import NEAR_EDGES
+from wallkit.kernels.batches.wave_columns import PER_TURN
+from wallkit.simulation.prepared import prepare
+from wallkit.simulation.survey_backends import WORTH_A_WAVE, suits_wave
 
 COUNT = 3 * WORTH_A_WAVE + 7
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from wallkit.files import FileError, write_whole
+from wallkit.write_file import FileError, write_whole
 
 
 def test_text_is_written_as_utf8_with_its_line_ends(tmp_path):

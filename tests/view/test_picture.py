@@ -7,7 +7,8 @@ import pytest
 from importers.drawing import Drawing, DrawnPath, Subpath
 from importers.problems import Problem
 from wallkit import Material, Walls
-from wallkit.curves import arc_points, contains
+from wallkit.geometry.bulge_arcs import arc_points
+from wallkit.geometry.polygons import contains
 from wallkit.view.frame import fit, walls_box
 from wallkit.view.outline import solid_areas, tick_places
 from wallkit.view.picture import drawing_svg, walls_svg

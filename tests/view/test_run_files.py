@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import wallkit
-from wallkit import run_files
-from wallkit.scene_files import read_scene
+from wallkit.scene.scene_files import read_scene
+from wallkit.simulation import run_files
 
 
 @pytest.fixture(scope="module")

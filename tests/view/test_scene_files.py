@@ -9,8 +9,8 @@ import pytest
 import wallkit
 from importers.errors import LimitError
 from wallkit import Balls, Material, Scene, SceneError, Walls
-from wallkit.scene_files import kind_of, load_scene, read_scene, scene_to_json
-from wallkit.walls.files import dumps
+from wallkit.scene.scene_files import kind_of, load_scene, read_scene, scene_to_json
+from wallkit.walls.walls_json import dumps
 
 ROOM = """
 # a room with a bumper

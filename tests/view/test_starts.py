@@ -4,8 +4,8 @@ import shapely
 
 from importers.drawing import Drawing, DrawnPath, Subpath
 from wallkit import SceneError, Walls
-from wallkit.starts import roomiest, scattered
-from wallkit.walls.drawn_balls import drawn_balls
+from wallkit.scene.starting_places import roomiest, scattered
+from wallkit.walls.importing.drawn_balls import drawn_balls
 
 # A unit circle of four cubics, with the factor that every drawing program uses, 4/3 (sqrt 2 - 1).
 K = 0.5522847498307936

@@ -10,9 +10,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from importers.drawing import Subpath
-from wallkit.walls.arcs import fit_arcs
-from wallkit.walls.build import import_walls
-from wallkit.walls.strokes import gather
+from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_arcs
+from wallkit.walls.importing.pipeline import import_walls
+from wallkit.walls.importing.segments import gather
 
 coordinate = st.floats(-100, 100, allow_nan=False).map(lambda x: round(x, 6))
 point = st.tuples(coordinate, coordinate)

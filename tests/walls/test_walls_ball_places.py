@@ -9,10 +9,10 @@ import pytest
 from drawn import drawing, line, path, polygon, square
 
 from wallkit.walls import Walls
-from wallkit.walls.ball_places import ball_problems, goal_problems
-from wallkit.walls.build import import_walls
-from wallkit.walls.free_space import free_space
-from wallkit.walls.leaks import leak_problems, reach_of
+from wallkit.walls.checking.ball_places import ball_problems, goal_problems
+from wallkit.walls.checking.free_space import free_space
+from wallkit.walls.checking.leaks import leak_problems, reach_of
+from wallkit.walls.importing.pipeline import import_walls
 
 # A thick frame, open to the right by 30, with a solid block in it.
 OPEN_FRAME = [(0, 0), (300, 0), (300, 85), (280, 85), (280, 20), (20, 20),

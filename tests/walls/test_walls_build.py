@@ -7,7 +7,7 @@ import pytest
 from drawn import circle, codes, drawing, line, path, polygon, square
 
 from importers.errors import LimitError
-from wallkit.walls.build import import_walls
+from wallkit.walls.importing.pipeline import import_walls
 from wallkit.walls.walls import WallsError
 
 PASTED = [("M", 24, 803), ("L", 69, 828), ("L", 108, 775), ("L", 31, 757), ("L", 24, 803)]

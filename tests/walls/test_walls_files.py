@@ -14,9 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wallkit.walls import Material, Walls
-from wallkit.walls.build import import_walls
-from wallkit.walls.files import dumps, loads
+from wallkit.walls.importing.pipeline import import_walls
 from wallkit.walls.walls import WallsError
+from wallkit.walls.walls_json import dumps, loads
 
 number = st.floats(allow_nan=False, allow_infinity=False)
 

@@ -11,8 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from importers.drawing import Subpath
-from wallkit.walls.flatten import evaluate, flatten
-from wallkit.walls.strokes import gather
+from wallkit.geometry.cubics import evaluate
+from wallkit.walls.importing.curves_to_lines import flatten
+from wallkit.walls.importing.segments import gather
 
 
 def cubic(points):

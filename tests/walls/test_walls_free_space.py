@@ -12,9 +12,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from wallkit.walls import Walls
-from wallkit.walls.build import import_walls
-from wallkit.walls.free_space import eroded, free_space
-from wallkit.walls.leaks import leak_problems, reach_of
+from wallkit.walls.checking.free_space import eroded, free_space
+from wallkit.walls.checking.leaks import leak_problems, reach_of
+from wallkit.walls.importing.pipeline import import_walls
 
 ROOM_WITH_GAP = [(0, 30), (0, 0), (100, 0), (100, 60), (0, 60), (0, 30.5)]
 CUP = [

@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely.geometry import Polygon
 
-from wallkit.walls.build import import_walls
-from wallkit.walls.contacts import find_contacts
-from wallkit.walls.edges import Edges
+from wallkit.geometry.orientation import side
+from wallkit.walls.crossings import find_contacts
+from wallkit.walls.edge_tree import Edges
+from wallkit.walls.importing.pipeline import import_walls
 from wallkit.walls.nesting import depths
-from wallkit.walls.orientation import side
 
 
 def edges_of(*rings, closed=True):

@@ -13,10 +13,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wallkit.walls import Walls
-from wallkit.walls.build import import_walls
-from wallkit.walls.repair import Repairs, repair
+from wallkit.walls.checking.widths import is_thin
+from wallkit.walls.importing.pipeline import import_walls
+from wallkit.walls.repairing.passes import Repairs, repair
 from wallkit.walls.walls import WallsError
-from wallkit.walls.widths import is_thin
 
 EVERYTHING = Repairs(
     snap=0.05, join=True, drop_duplicates=True, resolve=True, union=True, min_width=0.01, simplify=1e-6

@@ -13,10 +13,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wallkit.walls import Walls
-from wallkit.walls.build import import_walls
-from wallkit.walls.lines import to_lines
-from wallkit.walls.repair import Repairs, repair
-from wallkit.walls.snapping import snap_ends
+from wallkit.walls.importing.pipeline import import_walls
+from wallkit.walls.repairing.loose_walls import to_lines
+from wallkit.walls.repairing.passes import Repairs, repair
+from wallkit.walls.repairing.snapping import snap_ends
 
 # A frame that is not quite closed, drawn in two strokes; a post from its top; one that sticks out at the bottom by 0.9.
 FRAME, LEFT = [(10, 10), (90, 10), (90, 60), (10.4, 60)], [(10, 59.5), (10, 10.3)]

@@ -13,12 +13,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from wallkit.scene import Balls, Scene
+from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Walls
 
-FloatArray = NDArray[np.float64]
 INTERPRETED = 400_000  # entries that are looked at in less time than a compiler takes
 
 _MODULES = ("known_lines", "known_corners", "known_scale", "known_arcs", "known_motion", "known_statistics")
@@ -107,7 +106,7 @@ def run_cases(slow: bool = True) -> Iterator[tuple[Case, Outcome, float]]:
 
 def fly(walls: Walls, position: ArrayLike, velocity: ArrayLike, radius: float = 0.0, **what: Any) -> Any:
     """Simulate one ball; ``what`` is until, bounces and gravity."""
-    from wallkit.simulation import simulate
+    from wallkit.simulation.simulate import simulate
 
     gravity = what.pop("gravity", None)
     entries = 2 * len(walls.vertices) + 4
@@ -119,7 +118,7 @@ def fly(walls: Walls, position: ArrayLike, velocity: ArrayLike, radius: float = 
 
 def count(walls: Walls, position: ArrayLike, velocity: ArrayLike, radius: float = 0.0, until: float = 1e300) -> int:
     """Count the bounces of one ball without keeping them."""
-    from wallkit.surveys import survey
+    from wallkit.simulation.survey import survey
 
     scene = Scene(walls, Balls(np.atleast_2d(position), np.atleast_2d(velocity), radius))
     return int(survey(scene, until=until, bounces=10**9).bounces[0])

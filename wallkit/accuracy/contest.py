@@ -9,14 +9,13 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wallkit.accuracy import engines
 from wallkit.accuracy.reference import Event, PrecisionError, Reference, sure_events
 from wallkit.accuracy.scenes import BuiltIn
-from wallkit.scene import Scene
+from wallkit.geometry.arrays import FloatArray
+from wallkit.scene.scene import Scene
 
-FloatArray = NDArray[np.float64]
 BOUNCES = 3  # the error is taken after so many: few enough that chaos has not yet mixed everything up
 WRONG = 0.01  # a ball is somewhere else when it is off by this part of the scene's size
 WAYS = ("exact", "stop", "full-step", "reflect-in-place")

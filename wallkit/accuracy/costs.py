@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wallkit.accuracy import scenes
-from wallkit.scene import Balls, Scene
+from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Material, Walls
 
 SPEED = 50.0
@@ -36,20 +36,20 @@ def _star(material: Material | None = None, bulge: float = 0.0) -> Walls:
 
 
 def _surveyed(scene: Scene, bounces: int) -> int:
-    from wallkit.surveys import survey
+    from wallkit.simulation.survey import survey
 
     return int(survey(scene, bounces=bounces, threads=1).bounces[0])
 
 
 def _simulated(scene: Scene, bounces: int) -> int:
-    from wallkit.simulation import simulate
+    from wallkit.simulation.simulate import simulate
 
     return len(simulate(scene, bounces=bounces, mode="compiled").contacts)
 
 
 def _with_horizon(scene: Scene, bounces: int) -> int:
-    from wallkit.horizon import predicted_errors
-    from wallkit.simulation import simulate
+    from wallkit.simulation.horizon import predicted_errors
+    from wallkit.simulation.simulate import simulate
 
     contacts = simulate(scene, bounces=bounces, mode="compiled").contacts
     predicted_errors(scene, contacts)
@@ -58,7 +58,7 @@ def _with_horizon(scene: Scene, bounces: int) -> int:
 
 def _sensed(scene: Scene, bounces: int) -> int:
     """Sensors are asked after the run, in Python: a hundredth of the bounces is enough to time them."""
-    from wallkit.simulation import simulate
+    from wallkit.simulation.simulate import simulate
 
     return int(simulate(scene, bounces=max(bounces // 100, 1), mode="compiled").bounces[0])
 

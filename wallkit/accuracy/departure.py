@@ -6,14 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wallkit.accuracy.reference import sure_events
 from wallkit.accuracy.scenes import BuiltIn, built_in
-from wallkit.horizon import predicted_errors, trusted_until
-from wallkit.scene import Balls, Scene
+from wallkit.geometry.arrays import FloatArray
+from wallkit.scene.scene import Balls, Scene
+from wallkit.simulation.horizon import predicted_errors, trusted_until
 
-FloatArray = NDArray[np.float64]
 TOLERANCE = 1e-6
 DRAWS = 4
 NUDGE = 2.0**-40  # far below anything else, and some roundings of the scenes' coordinates
@@ -50,7 +49,7 @@ def true_error(scene: Scene, bounces: int) -> tuple[FloatArray, FloatArray, int]
         The error of the place of each contact, its predicted root mean square, and the bounces promised good to
         :data:`TOLERANCE`. Arrays are as long as the shorter of the two runs.
     """
-    from wallkit.simulation import simulate
+    from wallkit.simulation.simulate import simulate
 
     events = sure_events(scene, bounces)
     contacts = simulate(scene, bounces=bounces).contacts

@@ -15,12 +15,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from wallkit.scene import Scene
+from wallkit.geometry.arrays import FloatArray
+from wallkit.scene.scene import Scene
 from wallkit.walls import Walls
 
-FloatArray = NDArray[np.float64]
 Place = tuple[float, float]
 MOST_STEPS = 400_000
 
@@ -61,7 +60,7 @@ def exact(scene: Scene, series: str, setting: str, value: float) -> Contestant:
     """Wrap the exact simulator, compiled; preparing the walls is not timed, as it is not for the others."""
 
     def fly(times: FloatArray, runs: int) -> Flown:
-        from wallkit.simulation import Flights, simulate
+        from wallkit.simulation.simulate import Flights, simulate
 
         run = simulate(scene, until=float(times[-1]), mode="compiled")
         position = np.array([run.position(float(t))[0] for t in times])
@@ -82,7 +81,7 @@ def stepped(scene: Scene, way: Any, dt: float) -> Contestant:
     """Wrap :class:`wallkit.World` in one of its ways."""
 
     def fly(times: FloatArray, runs: int) -> Flown:
-        from wallkit.world import World
+        from wallkit.simulation.world import World
 
         def start() -> Stepper:
             world = World(scene, way, compile=True)

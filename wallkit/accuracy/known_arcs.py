@@ -8,7 +8,8 @@ from functools import partial
 import numpy as np
 
 from wallkit.accuracy import scenes
-from wallkit.accuracy.cases import FloatArray, Outcome, add, case, fly, nothing
+from wallkit.accuracy.cases import Outcome, add, case, fly, nothing
+from wallkit.geometry.arrays import FloatArray
 from wallkit.walls import Walls
 
 SPEED = 50.0

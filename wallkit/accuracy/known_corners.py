@@ -8,8 +8,9 @@ from functools import partial
 import numpy as np
 
 from wallkit.accuracy import scenes
-from wallkit.accuracy.cases import FloatArray, Outcome, add, case, count, counted, fly
-from wallkit.scene import Balls, Scene
+from wallkit.accuracy.cases import Outcome, add, case, count, counted, fly
+from wallkit.geometry.arrays import FloatArray
+from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Walls
 
 SPEED = 50.0
@@ -80,7 +81,7 @@ def corner_shots() -> Outcome:
     """None may be outside afterwards; a point may end in a corner that has no answer, and says so."""
     from shapely import contains_xy
 
-    from wallkit.surveys import survey
+    from wallkit.simulation.survey import survey
 
     walls = scenes.star()
     outside = 0
@@ -100,7 +101,7 @@ def _room(walls: Walls, margin: float) -> object:
 @case("seams", "20,000 point rays aimed at the shared corners of 1,000 short walls")
 def seams() -> Outcome:
     """Each hits one of the two neighbours, once: none slips between, none is hit by both."""
-    from wallkit.surveys import survey
+    from wallkit.simulation.survey import survey
 
     walls = scenes.regular(1000, 100.0)
     random = np.random.default_rng(5)
@@ -158,7 +159,7 @@ def ambiguous_corner() -> Outcome:
 @case("thousands at one point", "2,000 walls meet in one place; 400 discs and points aimed at it")
 def thousands_at_one_point() -> Outcome:
     """A sun of spokes inside a ring: nothing may pass a spoke or leave the ring, or hang."""
-    from wallkit.surveys import survey
+    from wallkit.simulation.survey import survey
 
     turns = np.arange(2_000) * math.tau / 2_000
     spokes = [np.array([(0.0, 0.0), (math.cos(t), math.sin(t))]) for t in turns]

@@ -8,7 +8,8 @@ from fractions import Fraction
 import numpy as np
 
 from wallkit.accuracy import scenes
-from wallkit.accuracy.cases import FloatArray, Outcome, case, counted, fly, measured, nothing
+from wallkit.accuracy.cases import Outcome, case, counted, fly, measured, nothing
+from wallkit.geometry.arrays import FloatArray
 from wallkit.walls import Walls
 
 SPEED = 50.0

@@ -9,7 +9,7 @@ import numpy as np
 
 from wallkit.accuracy import scenes
 from wallkit.accuracy.cases import Outcome, add, case, counted, fly, measured, nothing
-from wallkit.scene import Balls, Scene
+from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Walls
 
 SPEED = 50.0
@@ -133,7 +133,7 @@ def fast_ball() -> Outcome:
 @case("corridor escape", "1,000 points in a maze for 100 s: none may be outside")
 def maze_keeps() -> Outcome:
     """No point passes the outer wall."""
-    from wallkit.surveys import survey
+    from wallkit.simulation.survey import survey
 
     random = np.random.default_rng(17)
     turns = random.uniform(0, math.tau, 1_000)

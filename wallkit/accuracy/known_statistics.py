@@ -7,10 +7,11 @@ from functools import partial
 
 import numpy as np
 
-from wallkit import horizon
 from wallkit.accuracy import scenes
-from wallkit.accuracy.cases import FloatArray, Outcome, add, case, fly
-from wallkit.scene import Balls, Scene
+from wallkit.accuracy.cases import Outcome, add, case, fly
+from wallkit.geometry.arrays import FloatArray
+from wallkit.scene.scene import Balls, Scene
+from wallkit.simulation import horizon
 from wallkit.walls import Walls
 
 

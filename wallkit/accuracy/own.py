@@ -9,8 +9,8 @@ import numpy as np
 
 from wallkit.accuracy.contest import Subject, along
 from wallkit.accuracy.scenes import lines_for_turn
-from wallkit.near_misses import circles
-from wallkit.scene import Balls, Scene, SceneError
+from wallkit.geometry.bulge_arcs import circles
+from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.walls import Walls
 
 

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from importers.errors import WallkitError
-from wallkit.scene import Scene
+from wallkit.scene.scene import Scene
 from wallkit.walls import Walls
 
 Real = Any  # an mpmath.mpf of the context in use

@@ -11,13 +11,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from wallkit.near_misses import circles
-from wallkit.scene import Balls, Scene
+from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.bulge_arcs import circles
+from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Walls
 
-FloatArray = NDArray[np.float64]
 SPEED = 50.0
 _COS, _SIN = SPEED * math.cos(math.radians(30)), SPEED * math.sin(math.radians(30))
 

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
     from importers.problems import Problem
     from wallkit.walls import Walls
-    from wallkit.walls.free_space import FreeSpace
+    from wallkit.walls.checking.free_space import FreeSpace
+    from wallkit.walls.checking.leaks import Reach
     from wallkit.walls.import_options import ImportOptions
-    from wallkit.walls.leaks import Reach
 
 FORMAT, VERSION = "wallkit-check", 1
 
@@ -42,9 +42,9 @@ def check(
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Find problems and leaks, with places and fixes; exit with 1 when there are findings."""
-    from wallkit.walls.ball_places import ball_problems, goal_problems
-    from wallkit.walls.free_space import free_space
-    from wallkit.walls.leaks import leak_problems, reach_of
+    from wallkit.walls.checking.ball_places import ball_problems, goal_problems
+    from wallkit.walls.checking.free_space import free_space
+    from wallkit.walls.checking.leaks import leak_problems, reach_of
 
     _check_radius(radius)
     given = _given(file, options.options_of(importing or {}))
@@ -115,7 +115,7 @@ def _given(file: str, importing: ImportOptions) -> _Given:
     import numpy as np
 
     from wallkit.cli.scene_input import opened
-    from wallkit.opening import Wishes
+    from wallkit.scene.opening import Wishes
 
     found = opened(file, Wishes(importing=importing, may_be_empty=True))
     walls, balls = found.scene.walls, found.scene.balls
@@ -127,7 +127,7 @@ def _given(file: str, importing: ImportOptions) -> _Given:
 
 
 def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, findings: int) -> dict[str, Any]:
-    from wallkit.walls.leaks import gap_json
+    from wallkit.walls.checking.leaks import gap_json
 
     return {
         "format": FORMAT,
@@ -150,7 +150,7 @@ def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reac
 def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, assumed: list[str]) -> None:
     from wallkit.cli.import_ import summarise
     from wallkit.cli.messages import show_problems
-    from wallkit.walls.leaks import middle
+    from wallkit.walls.checking.leaks import middle
 
     show_problems(problems, walls.source_file, sys.stdout)
     for sentence in assumed:

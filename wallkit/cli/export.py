@@ -60,7 +60,7 @@ def export_level(
     from wallkit.cli.messages import show_problems
     from wallkit.cli.scene_input import opened
     from wallkit.export.formats import find_format
-    from wallkit.opening import Wishes
+    from wallkit.scene.opening import Wishes
 
     chosen = find_format(out, format)
     asked = options.options_of(importing or {})

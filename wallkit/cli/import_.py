@@ -37,7 +37,7 @@ def import_drawing(
     from wallkit.cli.export import page_of, write_level
     from wallkit.cli.messages import show_problems
     from wallkit.export.formats import known_ending
-    from wallkit.walls.build import import_walls
+    from wallkit.walls.importing.pipeline import import_walls
 
     _check_ending(out)
     asked = options.options_of(importing or {})

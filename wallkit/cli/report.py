@@ -17,7 +17,7 @@ from wallkit.cli import import_options as options
 if TYPE_CHECKING:
     from wallkit.accuracy.contest import Effort, Subject
     from wallkit.accuracy.report import Report
-    from wallkit.scene import Scene
+    from wallkit.scene.scene import Scene
     from wallkit.walls.import_options import ImportOptions
 
 ENDINGS = (".svg", ".html", ".json")
@@ -76,7 +76,7 @@ def report(
 
 
 def _check(file: str | None, out: list[str], hard: bool, scene: list[str] | None) -> None:
-    from wallkit.opening import UsageError
+    from wallkit.scene.opening import UsageError
 
     for target in out:
         if Path(target).suffix.lower() not in ENDINGS:
@@ -104,7 +104,7 @@ def _effort(quick: bool, precision: int | None) -> Effort:
 def _built_in(names: list[str] | None, quick: bool) -> list[Subject]:
     from wallkit.accuracy.contest import Subject
     from wallkit.accuracy.scenes import built_in
-    from wallkit.opening import UsageError
+    from wallkit.scene.opening import UsageError
 
     scenes = {scene.name: scene for scene in built_in()}
     unknown = [name for name in names or [] if name not in scenes]
@@ -120,7 +120,7 @@ def _of_file(file: str, importing: ImportOptions) -> Subject:
     from wallkit.accuracy.contest import Subject
     from wallkit.accuracy.own import first_ball, of_scene
     from wallkit.cli.scene_input import opened
-    from wallkit.opening import UsageError, Wishes
+    from wallkit.scene.opening import UsageError, Wishes
 
     name = "standard input" if file == "-" else Path(file).name
     try:
@@ -138,7 +138,7 @@ def _of_file(file: str, importing: ImportOptions) -> Subject:
     balls = first_ball(found.scene.balls)
 
     def walls(curves: Literal["lines", "arcs"], tolerance: float) -> Scene:
-        from wallkit.walls.build import build_walls
+        from wallkit.walls.importing.pipeline import build_walls
 
         imported = build_walls(drawing, replace(importing, curves=curves, tolerance=tolerance))
         return replace(found.scene, walls=imported, balls=balls)
@@ -167,7 +167,7 @@ def progress() -> Iterator[Callable[[str], None] | None]:
 
 
 def _write(target: str, measured: Report) -> None:
-    from wallkit.files import write_whole
+    from wallkit.write_file import write_whole
 
     ending = Path(target).suffix.lower()
     if ending == ".json":

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wallkit.opening import OpenedScene, UsageError, Wishes, open_scene, read_file
+from wallkit.scene.opening import OpenedScene, UsageError, Wishes, open_scene, read_file
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

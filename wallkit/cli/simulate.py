@@ -14,8 +14,8 @@ import typer
 from wallkit.cli import import_options as drawing_options
 
 if TYPE_CHECKING:
-    from wallkit.opening import OpenedScene
-    from wallkit.run import Run
+    from wallkit.scene.opening import OpenedScene
+    from wallkit.simulation.run import Run
 
 Format = Literal["csv", "json", "npz", "svg", "png", "gif", "mp4", "html"]
 FORMATS: tuple[Format, ...] = ("csv", "json", "npz", "svg", "png", "gif", "mp4", "html")
@@ -95,7 +95,7 @@ def simulate_file(
 ) -> None:
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
     from wallkit.cli.scene_input import opened, pair, pairs
-    from wallkit.opening import Wishes
+    from wallkit.scene.opening import Wishes
 
     wishes = Wishes(
         pairs(ball, "--ball"), None if velocity is None else pair(velocity, "--velocity"), speed, angle, radius,
@@ -116,7 +116,7 @@ def simulate_file(
 
 def _targets(out: list[str], form: Format | None) -> list[tuple[str, Format]]:
     """Pair each OUT with its format; a format alone goes to standard output."""
-    from wallkit.opening import UsageError
+    from wallkit.scene.opening import UsageError
 
     targets: list[tuple[str, Format]] = []
     for name in out or (["-"] if form else []):
@@ -134,7 +134,7 @@ def _targets(out: list[str], form: Format | None) -> list[tuple[str, Format]]:
 
 
 def _flown(scene: OpenedScene, settle: bool) -> Run:
-    from wallkit.simulation import simulate
+    from wallkit.simulation.simulate import simulate
 
     with progress_bar("simulating") as report:
         return simulate(scene.scene, scene.until, scene.bounces, settle=settle, progress=report)
@@ -175,8 +175,8 @@ def _trust(run: Run) -> list[Any]:
 
 
 def _write(target: str, kind: Format, run: Run, scene: OpenedScene, trust: list[Any], look: dict[str, Any]) -> None:
-    from wallkit import run_files
-    from wallkit.files import write_whole
+    from wallkit.simulation import run_files
+    from wallkit.write_file import write_whole
 
     if kind == "csv":
         write_whole(target, run_files.to_csv(run))

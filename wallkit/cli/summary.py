@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from wallkit.run import Run
+    from wallkit.simulation.run import Run
     from wallkit.walls import Walls
 
 
@@ -45,7 +45,7 @@ def _range(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> str:
 
 def bounce_words(run: Run) -> str:
     """Say how many bounces there were, in what time, and how many of them at corners."""
-    from wallkit.run import Kind
+    from wallkit.simulation.run import Kind
 
     kinds = run.contacts["kind"]
     corners, crossings = int(np.count_nonzero(kinds == Kind.VERTEX)), int(np.count_nonzero(kinds >= Kind.ENTER))
@@ -66,9 +66,9 @@ def energy_words(run: Run) -> str:
     """Say what became of the energy of all balls together, per mass.
 
     Under gravity it is kinetic and potential energy, the potential one above the lowest place that each ball can reach,
-    see :func:`wallkit.energy.energies`.
+    see :func:`wallkit.simulation.energy.energies`.
     """
-    from wallkit.energy import energies
+    from wallkit.simulation.energy import energies
 
     before, change = (float(each.sum()) for each in energies(run))
     gravity = np.array(run.scene.gravity or (0.0, 0.0))

@@ -13,8 +13,8 @@ from importers.problems import Problem
 from wallkit.export.formats import Format, find_format, formats
 from wallkit.export.level import Level, LevelWall, build_level
 from wallkit.export.options import ExportError, ExportOptions
-from wallkit.files import write_whole
 from wallkit.walls.walls import Walls
+from wallkit.write_file import write_whole
 
 __all__ = [
     "ExportError",

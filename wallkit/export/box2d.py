@@ -8,7 +8,7 @@ import numpy as np
 
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.losses import say_friction
-from wallkit.walls.strokes import FloatArray
+from wallkit.geometry.arrays import FloatArray
 
 
 def is_loop(wall: LevelWall) -> bool:

@@ -16,7 +16,7 @@ import shapely
 
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.material_shapes import areas_of, is_ring
-from wallkit.walls.strokes import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray
 
 MOST_AT_ONCE = 400  # vertices of a polygon that is triangulated as it is
 MITRE = 5.0  # how far a corner of a thickened wall may stick out, in half thicknesses

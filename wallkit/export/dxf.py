@@ -12,8 +12,8 @@ import numpy as np
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.names import unique, without
 from wallkit.export.options import ExportError
-from wallkit.walls.shapes import points_on
-from wallkit.walls.strokes import FloatArray
+from wallkit.geometry.arrays import FloatArray
+from wallkit.walls.as_shapely import points_on
 
 APP = "WALLKIT"
 _FORBIDDEN = '<>/\\":;?*|=`,'

@@ -17,7 +17,7 @@ import numpy as np
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.losses import say_friction, say_single_precision
 from wallkit.export.names import say_renamed, unique
-from wallkit.walls.strokes import FloatArray
+from wallkit.geometry.arrays import FloatArray
 
 _FORBIDDEN = '.:@/"%'  # in the name of a node
 

@@ -15,9 +15,9 @@ import numpy as np
 
 from wallkit.export.findings import Findings
 from wallkit.export.options import Box, ExportOptions, Point
-from wallkit.walls.rings import signed_areas
-from wallkit.walls.shapes import straightened
-from wallkit.walls.strokes import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.rings import signed_areas
+from wallkit.walls.as_shapely import straightened
 from wallkit.walls.walls import Material, Sides, Walls
 
 YAxis = Literal["up", "down"]

@@ -9,8 +9,8 @@ import numpy as np
 import shapely
 
 from wallkit.export.level import Level, LevelWall
-from wallkit.walls.rings import rings_of
-from wallkit.walls.shapes import even_odd
+from wallkit.geometry.rings import rings_of
+from wallkit.walls.as_shapely import even_odd
 
 
 @dataclass(frozen=True, slots=True)

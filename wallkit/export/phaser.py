@@ -16,7 +16,7 @@ from wallkit.export.convex import Solid, solids_of
 from wallkit.export.json_text import points, spread
 from wallkit.export.level import Level
 from wallkit.export.losses import say_friction, say_one_way
-from wallkit.walls.strokes import FloatArray
+from wallkit.geometry.arrays import FloatArray
 
 
 def write(level: Level) -> str:

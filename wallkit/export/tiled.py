@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.losses import say_friction, say_one_way
-from wallkit.walls.strokes import FloatArray
+from wallkit.geometry.arrays import FloatArray
 
 VERSION = "1.10"
 TILE = 32  # px; a map must have tiles, and only its size in tiles is seen

@@ -9,7 +9,7 @@ import numpy as np
 
 from wallkit.export.level import Level
 from wallkit.export.material_shapes import areas_of, is_ring
-from wallkit.walls.strokes import FloatArray
+from wallkit.geometry.arrays import FloatArray
 
 
 def write(level: Level) -> str:

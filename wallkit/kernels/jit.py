@@ -15,7 +15,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
-from wallkit.kernels import instructions
+from wallkit.kernels import intrinsics
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -48,7 +48,7 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     from numba.extending import register_jitable
 
     _register_all(register_jitable)
-    instructions.register()
+    intrinsics.register()
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False}
     theirs = getattr(config, "CACHE_DIR", "")
     setattr(config, "CACHE_DIR", str(_cache_folder()))  # noqa: B010 - numba makes its settings at run time
@@ -70,8 +70,9 @@ def _register_all(register: Callable[..., Any]) -> None:
 
 def _cache_folder() -> Path:
     digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(path.read_bytes())
+    folder = Path(__file__).parent
+    for path in sorted(folder.rglob("*.py")):  # kernels live in subfolders too
+        digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes())
     return _cache_home() / f"kernels-{digest.hexdigest()[:16]}"
 
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from importers.errors import WallkitError
+from wallkit.geometry.arrays import FloatArray
 from wallkit.view.canvas import Command, Disc, Item, Label, Shape
 from wallkit.view.frame import Frame
 from wallkit.view.picture import draw_walls, finish, round_length, started
@@ -27,9 +28,8 @@ from wallkit.view.theme import RAMP_STEPS, Theme
 from wallkit.view.tracks import arrays_of, tracks
 
 if TYPE_CHECKING:
-    from wallkit.run import Run
+    from wallkit.simulation.run import Run
 
-FloatArray = NDArray[np.float64]
 Progress = Callable[[float], None]
 
 _RATES = {"gif": 25, "mp4": 30}  # frames a second; GIF counts in hundredths, so that 25 is exact

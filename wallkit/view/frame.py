@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from wallkit.curves import flattened
+from wallkit.geometry.arrays import FloatArray
 from wallkit.walls import Walls
+from wallkit.walls.sample import flattened
 
-FloatArray = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 
 

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from wallkit.geometry.arrays import FloatArray
 from wallkit.view.frame import Frame
 from wallkit.view.theme import RAMP_STEPS
 from wallkit.view.tracks import Tracks
-
-FloatArray = NDArray[np.float64]
 
 _CELLS = 96  # along the longer side
 _SAMPLES = 4_000_000  # at most, over all stretches

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from importers.drawing import Drawing
-from wallkit.run import Run
-from wallkit.scene import Scene
+from wallkit.scene.scene import Scene
+from wallkit.simulation.run import Run
 from wallkit.view.picture import drawing_svg, walls_svg
 from wallkit.view.run_picture import run_svg, scene_svg
 from wallkit.walls import Walls

@@ -7,14 +7,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.curves import contains, flattened, in_material
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.polygons import contains
 from wallkit.view.canvas import Command
 from wallkit.view.frame import Frame
 from wallkit.walls import Material, Walls
 from wallkit.walls.orient import is_arena
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from wallkit.walls.sample import flattened, in_material
 
 
 def wall_path(walls: Walls, index: int, frame: Frame) -> list[Command]:

@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 
 from importers.drawing import Drawing, Subpath
 from importers.problems import Problem
+from wallkit.geometry.arrays import FloatArray
 from wallkit.view.canvas import Canvas, Command, Disc, Label, Shape
 from wallkit.view.frame import Box, Frame, fit, united, walls_box
 from wallkit.view.outline import solid_areas, tick_places, wall_path
 from wallkit.view.theme import MATERIALS
 from wallkit.walls import Material, Walls
-
-FloatArray = NDArray[np.float64]
 
 WIDTH = 960.0
 _MAX_HEIGHT = 1100.0

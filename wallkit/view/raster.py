@@ -6,14 +6,12 @@ import io
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from wallkit.curves import chords
+from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.path_segments import chords
 from wallkit.view.canvas import Bitmap, Canvas, Command, Disc, Item, Label, Shape
 from wallkit.view.theme import STYLES, Theme, colour, ramp
-
-FloatArray = NDArray[np.float64]
 
 _FINE = 2  # each pixel is the mean of 2 by 2
 _ANCHORS = {"start": "ls", "middle": "ms", "end": "rs"}

@@ -9,7 +9,7 @@ from html import escape
 
 import numpy as np
 
-from wallkit.run import Run
+from wallkit.simulation.run import Run
 from wallkit.view.frame import Box
 from wallkit.view.page import look
 from wallkit.view.page.payload import inlined, run_table, starts, walls_table

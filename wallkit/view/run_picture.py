@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from importers.problems import Problem
-from wallkit.scene import Scene
+from wallkit.geometry.arrays import FloatArray
+from wallkit.scene.scene import Scene
 from wallkit.view.canvas import Bitmap, Canvas, Command, Disc, Label, Shape
 from wallkit.view.frame import Box, Frame, united, walls_box
 from wallkit.view.heat import heat_rows
@@ -29,9 +30,8 @@ from wallkit.view.theme import RAMP_STEPS
 from wallkit.view.tracks import Tracks, arrays_of, tracks
 
 if TYPE_CHECKING:
-    from wallkit.run import Run
+    from wallkit.simulation.run import Run
 
-FloatArray = NDArray[np.float64]
 Colouring = Literal["time", "speed"]
 
 MAX_STRETCHES = 20_000  # drawn at most; the picture says so where there are more

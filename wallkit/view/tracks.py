@@ -6,16 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from wallkit.run import Ending, Kind
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.simulation.run import Ending, Kind
 
 if TYPE_CHECKING:
-    from wallkit.run import Run
-    from wallkit.scene import Balls
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+    from wallkit.scene.scene import Balls
+    from wallkit.simulation.run import Run
 
 
 @dataclass(slots=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from importers.errors import WallkitError
-from wallkit.files import write_whole
 from wallkit.view.canvas import Canvas
 from wallkit.view.theme import Theme
+from wallkit.write_file import write_whole
 
 
 class PictureError(WallkitError):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.walls.edges import Edges
-from wallkit.walls.strokes import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.walls.edge_tree import Edges
 
 
 def copies(edges: Edges, chosen: NDArray[np.bool_], group: IntArray | None = None) -> IntArray:

@@ -12,10 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from importers.errors import WallkitError
 from importers.problems import Problem
 from wallkit import arguments
+from wallkit.geometry.arrays import FloatArray, IntArray
 
 Sides = Literal["both", "outward"]
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 class WallsError(WallkitError):

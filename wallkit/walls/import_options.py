@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal, TypedDict
 
-from wallkit.walls.repair import Repairs
+from wallkit.walls.repairing.passes import Repairs
 from wallkit.walls.walls import Sides, WallsError
 
 Curves = Literal["lines", "arcs"]

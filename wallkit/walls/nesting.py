@@ -19,10 +19,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.rings import signed_areas
 from wallkit.walls.copies import copies
-from wallkit.walls.edges import Edges
-from wallkit.walls.rings import signed_areas
-from wallkit.walls.strokes import FloatArray, IntArray
+from wallkit.walls.edge_tree import Edges
 
 _PAIRS_AT_ONCE = 4_000_000  # of a point and an edge: bounds the memory
 _FRACTION = 0.41421  # of the chord below the top; no simple fraction, so that rays miss the vertices of tidy drawings

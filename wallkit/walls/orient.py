@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from wallkit.walls.contacts import Contacts
-from wallkit.walls.edges import Edges
+from wallkit.geometry.arrays import IntArray
+from wallkit.geometry.rings import signed_areas, turned
+from wallkit.walls.crossings import Contacts
+from wallkit.walls.edge_tree import Edges
 from wallkit.walls.nesting import depths
-from wallkit.walls.rings import signed_areas, turned
-from wallkit.walls.strokes import IntArray
 from wallkit.walls.walls import Walls
 
 

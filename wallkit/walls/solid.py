@@ -18,16 +18,14 @@ from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from importers.drawing import DrawnPath
+from wallkit.geometry.arrays import FloatArray, IntArray
 
 if TYPE_CHECKING:
-    from wallkit.walls.edges import Edges
+    from wallkit.walls.edge_tree import Edges
     from wallkit.walls.import_options import ImportOptions
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 How = Literal["asked", "paint", "balls", "start", "default"]
 
 

@@ -13,14 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from importers.pictured import Pictured
 from importers.problems import Problem
 from wallkit import arguments
+from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.fields import CHECKS, bulges_of, check_count, each, flags, points_of, several, wrong
 from wallkit.walls.fields import Material as Material
 from wallkit.walls.fields import Sides as Sides
 from wallkit.walls.fields import WallsError as WallsError
 from wallkit.walls.solid import Solid
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -269,16 +267,16 @@ class Walls(Pictured):
     __hash__ = None  # type: ignore[assignment]
 
     def save(self, path: str | Path) -> None:
-        """Write the walls as JSON, see :func:`wallkit.walls.files.save`."""
-        from wallkit.walls.files import save
+        """Write the walls as JSON, see :func:`wallkit.walls.walls_json.save`."""
+        from wallkit.walls.walls_json import save
 
         arguments.of_type(path, "path", (str, Path), "a path", error=WallsError, code="bad-path")
         save(self, path)
 
     @staticmethod
     def load(source: str | Path | IO[bytes] | IO[str]) -> Walls:
-        """Read walls that :meth:`save` wrote, the same bits; see :func:`wallkit.walls.files.load`."""
-        from wallkit.walls.files import load
+        """Read walls that :meth:`save` wrote, the same bits; see :func:`wallkit.walls.walls_json.load`."""
+        from wallkit.walls.walls_json import load
 
         if not isinstance(source, str | Path) and not hasattr(source, "read"):
             raise arguments.refused("source", source, "a path or an open file", WallsError, "bad-path")
@@ -291,8 +289,8 @@ class Walls(Pictured):
         return export(self, path, format, **options)
 
     def to_shapely(self, tolerance: float | None = None) -> Any:
-        """Give the material and the open walls as shapely geometry, see :func:`wallkit.walls.shapes.to_shapely`."""
-        from wallkit.walls.shapes import to_shapely
+        """Give the material and the open walls as shapely geometry, see :func:`wallkit.walls.as_shapely.to_shapely`."""
+        from wallkit.walls.as_shapely import to_shapely
 
         return to_shapely(self, _distance(tolerance))
 
@@ -309,7 +307,7 @@ class Walls(Pictured):
         Raises:
             WallsError: the tolerance is no number above 0.
         """
-        from wallkit.walls.shapes import largest_distance, straightened
+        from wallkit.walls.as_shapely import largest_distance, straightened
 
         within = _distance(tolerance) or largest_distance(self)
         if not self.has_arcs:

@@ -13,10 +13,10 @@ import numpy as np
 
 from importers.errors import WallkitError
 from importers.limits import MAX_COORDINATE
-from wallkit.opening import USUAL, OpenedScene, Wishes, open_scene
-from wallkit.run import Ending, Run
-from wallkit.samples import samples
-from wallkit.scene import Balls, Scene
+from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
+from wallkit.scene.samples import samples
+from wallkit.scene.scene import Balls, Scene
+from wallkit.simulation.run import Ending, Run
 from wallkit.view.page.documents import Document, Reader, Shelf
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
 from wallkit.view.page.warmth import Warmth
@@ -91,7 +91,7 @@ class Answers:
 
     def simulate(self, body: Table) -> Table:
         """Fly balls: to a time, or for a number of bounces each."""
-        from wallkit.simulation import simulate
+        from wallkit.simulation.simulate import simulate
 
         scene = self.scene_of(body)
         until, bounces = self.limits_of(body, len(scene.balls))
@@ -109,18 +109,18 @@ class Answers:
         stem = re.sub(r"[^A-Za-z0-9_-]+", "-", Path(document.name).stem).strip("-")[:60] or "wallkit"
         what = body.get("what")
         if what == "walls":
-            from wallkit.walls.files import to_json
+            from wallkit.walls.walls_json import to_json
 
             return Download(f"{stem}.walls.json", json.dumps(to_json(document.opened.scene.walls)), "application/json")
         scene = self.scene_of(body)
         until, bounces = self.limits_of(body, len(scene.balls))
         if what == "scene":
-            from wallkit.scene_files import scene_to_json
+            from wallkit.scene.scene_files import scene_to_json
 
             content = json.dumps(scene_to_json(scene, until), allow_nan=False)
             return Download(f"{stem}.scene.json", content, "application/json")
         if what == "replay":
-            from wallkit.simulation import simulate
+            from wallkit.simulation.simulate import simulate
             from wallkit.view.replay import replay_html
 
             run = simulate(scene, until, bounces)

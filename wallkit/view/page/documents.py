@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from importers.errors import WallkitError
 from importers.problems import Problem
-from wallkit.opening import OpenedScene
+from wallkit.scene.opening import OpenedScene
 from wallkit.walls.import_options import ImportOptions
 
 MOST_DOCUMENTS = 8

@@ -11,16 +11,16 @@ import json
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from wallkit.energy import lowest
-from wallkit.run import Ending, Kind, Run
+from wallkit.geometry.arrays import FloatArray
+from wallkit.simulation.energy import lowest
+from wallkit.simulation.run import Ending, Kind, Run
 from wallkit.view.frame import walls_box
 from wallkit.view.outline import solid_areas
 from wallkit.view.picture import shades
 from wallkit.walls import Walls
 
-FloatArray = NDArray[np.float64]
 Table = dict[str, Any]
 
 FULL_PRECISION_CONTACTS = 100_000
@@ -113,7 +113,7 @@ def horizon_table(run: Run) -> Table | None:
 
     Of a long run only the beginning is looked at: nearly always trust ends there.
     """
-    from wallkit.horizon import trusted_until
+    from wallkit.simulation.horizon import trusted_until
 
     if len(run.final) != 1 or not len(run.contacts):
         return None

@@ -17,7 +17,7 @@ from urllib.parse import parse_qs, quote, urlsplit
 import numpy as np
 
 from importers.errors import WallkitError
-from wallkit.samples import Sample, samples
+from wallkit.scene.samples import Sample, samples
 from wallkit.view.page import look
 from wallkit.view.page.answers import MOST_CONTACTS, Answers, Download
 from wallkit.view.page.payload import Table, inlined
@@ -97,7 +97,7 @@ class PageServer(ThreadingHTTPServer):
 
 def _drawn(sample: Sample) -> str:
     """Give the small picture of a sample: its walls alone."""
-    from wallkit.opening import Wishes, open_scene
+    from wallkit.scene.opening import Wishes, open_scene
     from wallkit.view.frame import united, walls_box
     from wallkit.view.picture import draw_walls, started
 

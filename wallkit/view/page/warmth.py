@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from wallkit.scene import Balls, Scene
+from wallkit.scene.scene import Balls, Scene
 
 Key = tuple[bool, ...]
 _SMALL = 20_000  # edges; interpreting a few bounces among more takes longer than a person likes to wait
@@ -39,7 +39,7 @@ class Warmth:
         return "interpreted" if len(scene.walls.vertices) <= _SMALL else "auto"
 
     def _compile(self, scene: Scene, key: Key) -> None:
-        from wallkit.simulation import simulate
+        from wallkit.simulation.simulate import simulate
 
         first = Balls(
             *(np.asarray(part)[:1] for part in (scene.balls.position, scene.balls.velocity, scene.balls.radius))

@@ -1,0 +1,237 @@
+"""A Delaunay triangulation of wall vertices that has every wall edge among its edges, cut where need be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+
+MOST_POINTS = 600_000
+_ROUNDS = 40
+SHORTEST = 1e-7  # of the size of everything: shorter pieces of walls are not cut further, and may be no edges
+_SAME = 1e-11  # of the size of everything: points as near are one
+_TIES = 20  # rounds for points on one circle, whose triangles are a matter of taste; feet make many
+_FRAME = 4.0  # the frame around everything, in diagonals: far enough to count as outside
+
+
+@dataclass(slots=True)
+class Triangulation:
+    """Triangles of points, the walls among their edges.
+
+    Attributes:
+        points: (P, 2); the last four are the frame.
+        corners: (T, 3) points of each triangle.
+        neighbours: (T, 3) the triangle opposite each corner, or -1.
+        edge: (T, 3) number of the edge opposite each corner.
+        ends: (N, 2) points of each edge, the smaller number first.
+        wall: (N,) the edge is a piece of a wall.
+        outer: (N,) the edge is on the frame.
+        complete: every piece of a wall is an edge, but for pieces of 2e-7 of the whole and less.
+        given: how many points, the first, are ends of given segments.
+        cut: the pieces of walls, to be cut further.
+    """
+
+    points: FloatArray
+    corners: IntArray
+    neighbours: IntArray
+    edge: IntArray
+    ends: IntArray
+    wall: NDArray[np.bool_]
+    outer: NDArray[np.bool_]
+    complete: bool
+    given: int
+    cut: _Cut
+
+
+def triangulate(a: FloatArray, b: FloatArray) -> Triangulation:
+    """Triangulate segments from ``a`` to ``b``, (n, 2) each, that meet at their ends only.
+
+    A segment is an edge of the triangulation when the circle over it is empty. A point in the circle cuts the
+    segment: at its foot; but at its own distance from the shared end when a segment leads from there to it, since
+    cuts at feet would chase each other into the corner for ever (J. Ruppert, A Delaunay refinement algorithm,
+    1995, on small angles).
+    """
+    points, which = np.unique(np.concatenate([a, b]), axis=0, return_inverse=True)
+    low, high = points.min(axis=0), points.max(axis=0)
+    origin, size = (low + high) / 2, float(np.hypot(*(high - low))) or 1.0
+    which = _merged(points, _SAME * size)[which.reshape(-1)]
+    kept, which = np.unique(which, return_inverse=True)
+    points = points[kept]
+    segments = np.sort(which.reshape(2, -1).T, axis=1)
+    segments = np.unique(segments[segments[:, 0] != segments[:, 1]], axis=0)
+    owner, nowhere = np.arange(len(segments)), np.full(len(points), -1)
+    return _triangulated(_Cut(points - origin, segments, owner, segments, nowhere, points, origin, size))
+
+
+def cut_further(mesh: Triangulation, edge: IntArray, at: FloatArray) -> Triangulation:
+    """Triangulate once more, with (n, 2) places ``at`` on edges that are pieces of walls among the points."""
+    work = replace(mesh.cut)
+    work.split_often(mesh.ends[edge], at - work.origin, _SAME * work.size)
+    return _triangulated(work)
+
+
+def _triangulated(work: _Cut) -> Triangulation:
+    """Triangulate pieces of segments, cut as far as need be."""
+    from scipy.spatial import Delaunay  # late: scipy is slow to import
+
+    size = work.size
+    frame = _FRAME * size * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    for _ in range(_TIES):
+        complete = _conform(work, SHORTEST * size, _SAME * size)
+        everything = np.concatenate([work.points, frame])
+        found = Delaunay(everything)
+        corners = found.simplices.astype(np.int64)
+        count = len(everything)
+        sides = np.stack([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]], axis=1)
+        keys, edge = np.unique(_keys(sides.reshape(-1, 2), count), return_inverse=True)
+        walls = _keys(work.segments, count)
+        length = np.hypot(*(work.points[work.segments[:, 0]] - work.points[work.segments[:, 1]]).T)
+        missing = ~np.isin(walls, keys) & (length > 2 * SHORTEST * size)
+        if not complete or not missing.any():
+            break
+        # four points on one circle: the other diagonal was taken, so the wall gets a point in its middle
+        work.split(missing, work.points[work.segments[missing]].mean(axis=1))
+    neighbours = found.neighbors.astype(np.int64)
+    edge = edge.reshape(-1, 3)
+    outer = np.zeros(len(keys), dtype=np.bool_)
+    outer[edge[neighbours < 0]] = True
+    ends = np.stack(np.divmod(keys, count), axis=1)
+    complete, given = complete and not missing.any(), len(work.given)
+    everything += work.origin
+    everything[:given] = work.given  # to the bit
+    return Triangulation(
+        everything, corners, neighbours, edge, ends, np.isin(keys, walls), outer, complete, given, work
+    )
+
+
+def _merged(points: FloatArray, within: float) -> IntArray:
+    """For each point the first of those that are as near as rounding: a triangulation would leave the others out."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    one, two = cKDTree(points).query_pairs(within, output_type="ndarray").T
+    links = coo_matrix((np.ones(len(one)), (one, two)), shape=(len(points), len(points)))
+    _, group = connected_components(links, directed=False)
+    _, first = np.unique(group, return_index=True)
+    chosen: IntArray = first[group].astype(np.int64)
+    return chosen
+
+
+@dataclass(slots=True)
+class _Cut:
+    """Segments on their way to be edges, each a piece of an original one.
+
+    Attributes:
+        points: (P, 2).
+        segments: (S, 2) ends.
+        owner: (S,) the original segment that each is a piece of.
+        original: (O, 2) ends of the original segments.
+        of_point: (P,) the original segment that a point was put on, or -1.
+        given: (G, 2) the first of the points where they were given.
+        origin: (2,) what was taken off all points, for the sake of their digits.
+        size: of everything.
+    """
+
+    points: FloatArray
+    segments: IntArray
+    owner: IntArray
+    original: IntArray
+    of_point: IntArray
+    given: FloatArray
+    origin: FloatArray
+    size: float
+
+    def split(self, where: NDArray[np.bool_], at: FloatArray, known: IntArray | None = None) -> None:
+        """Cut the segments ``where`` at new points, one each, or at the points ``known`` where that is not -1."""
+        cut, owner = self.segments[where], self.owner[where]
+        new = np.ones(len(cut), dtype=np.bool_) if known is None else known < 0
+        number = len(self.points) + np.cumsum(new) - 1
+        if known is not None:
+            number = np.where(new, number, known)
+        self.points = np.concatenate([self.points, at[new]])
+        self.of_point = np.concatenate([self.of_point, owner[new]])
+        halves = [np.stack([cut[:, 0], number], axis=1), np.stack([number, cut[:, 1]], axis=1)]
+        self.segments = np.concatenate([self.segments[~where], *halves])
+        self.owner = np.concatenate([self.owner[~where], owner, owner])
+
+    def split_often(self, ends: IntArray, at: FloatArray, same: float) -> None:
+        """Cut the segments with these ends, (n, 2), at new points, any number each; points as near as same are one."""
+        keys = _keys(self.segments, len(self.points))
+        order = np.argsort(keys)
+        on = order[np.searchsorted(keys, _keys(ends, len(self.points)), sorter=order)]
+        p, q = (self.points[self.segments[:, k]] for k in (0, 1))
+        d = q - p
+        length = np.hypot(*d.T)
+        along = ((at - p[on]) * d[on]).sum(axis=1) / length[on]
+        order = np.lexsort((along, on))
+        on, at, along = on[order], at[order], along[order]
+        again = np.append(False, (on[1:] == on[:-1]) & (along[1:] - along[:-1] <= same))
+        new = ~again & (along > same) & (along < length[on] - same)
+        on, at, along = on[new], at[new], along[new]
+        rows, number = np.arange(len(self.segments)), len(self.points) + np.arange(len(on))
+        row = np.concatenate([rows, on, rows])
+        order = np.lexsort((np.concatenate([np.full(len(rows), -1.0), along, length + 1]), row))
+        row = row[order]
+        vertex = np.concatenate([self.segments[:, 0], number, self.segments[:, 1]])[order]
+        joined = row[1:] == row[:-1]
+        self.points = np.concatenate([self.points, at])
+        self.of_point = np.concatenate([self.of_point, self.owner[on]])
+        self.segments = np.stack([vertex[:-1][joined], vertex[1:][joined]], axis=1)
+        self.owner = self.owner[row[:-1][joined]]
+
+
+def _conform(work: _Cut, shortest: float, same: float) -> bool:
+    """Cut segments until no point lies in the circle over one of them; tell whether that came to an end."""
+    from scipy.spatial import cKDTree
+
+    for _ in range(_ROUNDS):
+        points, segments = work.points, work.segments
+        p, q = points[segments[:, 0]], points[segments[:, 1]]
+        middle, half = (p + q) / 2, np.hypot(*(q - p).T) / 2
+        distance, nearest = cKDTree(points).query(middle, k=min(3, len(points)))
+        own = (nearest == segments[:, :1]) | (nearest == segments[:, 1:])
+        distance = np.where(own, np.inf, distance)
+        column = distance.argmin(axis=1)
+        rows = np.arange(len(segments))
+        inside = (distance[rows, column] < half * (1 - 1e-9)) & (half > shortest)
+        if not inside.any():
+            return True
+        if len(points) + int(inside.sum()) > MOST_POINTS:
+            break
+        intruder = nearest[rows, column][inside]
+        new = _cut_points(work, inside, intruder)
+        touches = np.hypot(*(new - points[intruder]).T) <= same  # it lies on the segment, but for rounding
+        work.split(inside, new, np.where(touches, intruder, -1))
+    return False
+
+
+def _cut_points(work: _Cut, inside: NDArray[np.bool_], intruder: IntArray) -> FloatArray:
+    """Where to cut each segment: the intruder's foot, or its distance from a corner that both lines lead to."""
+    points, original = work.points, work.original
+    p, q = (points[work.segments[inside, k]] for k in (0, 1))
+    v, d = points[intruder], q - p
+    square = (d * d).sum(axis=1)
+    part = np.clip(((v - p) * d).sum(axis=1) / square, 1e-6, 1 - 1e-6)
+    keys = _keys(original, len(points))
+    mine = original[work.owner[inside]]
+    theirs = np.where(work.of_point[intruder, None] >= 0, original[work.of_point[intruder]], -1)
+    for end in (0, 1):
+        corner, other = mine[:, end], mine[:, 1 - end]
+        joined = (theirs == corner[:, None]).any(axis=1)
+        joined |= np.isin(_keys(np.stack([corner, intruder], axis=1), len(points)), keys)
+        away = points[other] - points[corner]
+        far = np.hypot(*(v - points[corner]).T) / np.hypot(*away.T)
+        there = ((points[corner] + away * far[:, None] - p) * d).sum(axis=1) / square
+        part = np.where(joined & (there > 1e-6) & (there < 1 - 1e-6), there, part)
+    cut: FloatArray = p + d * part[:, None]
+    return cut
+
+
+def _keys(pairs: IntArray, count: int) -> IntArray:
+    """One number a pair, whatever its order."""
+    keys: IntArray = pairs.min(axis=1) * count + pairs.max(axis=1)
+    return keys

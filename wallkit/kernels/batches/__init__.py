@@ -1,0 +1,1 @@
+"""The same formulas for many balls at once: lockstep and waves."""

@@ -1,0 +1,1 @@
+"""One ball from contact to contact: change the physics here."""

@@ -1,0 +1,174 @@
+"""The derivative of a flight and its bounces: how a small error, or a cloud of them, is carried along."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from wallkit.kernels.jit import kernel
+
+
+@kernel
+def derivative(
+    vx: float, vy: float, ux: float, uy: float, nx: float, ny: float, keep: Any, bend: float, g: Any, h: Any
+) -> Any:
+    """Give the derivative of one bounce, as rows of 2 x 2 blocks; see ``wallkit.simulation.horizon`` for the equations.
+
+    Args:
+        vx: velocity before, with vy; u is the velocity after, n the normal, v.n < 0.
+        vy: see vx.
+        ux: see vx.
+        uy: see vx.
+        nx: see vx.
+        ny: see vx.
+        keep: (T, R), tangential and normal restitution.
+        bend: curvature k.
+        g: (gx, gy), the acceleration before.
+        h: the same after: another one where the ball slides from here on.
+
+    Returns:
+        S = d(place along the wall)/dx, A = dx'/dx, B = dv'/dx, M = dv'/dv.
+    """
+    across = vx * nx + vy * ny
+    tx, ty = -nx / across, -ny / across  # dt/dx
+    s11, s12, s21, s22 = 1 + vx * tx, vx * ty, vy * tx, 1 + vy * ty
+    wx, wy = vx - ux, vy - uy
+    both = keep[0] + keep[1]
+    m11, m12, m22 = keep[0] - both * nx * nx, -both * nx * ny, keep[0] - both * ny * ny
+    jx, jy = m11 * g[0] + m12 * g[1] - h[0], m12 * g[0] + m22 * g[1] - h[1]
+    rx, ry = vx * s11 + vy * s21, vx * s12 + vy * s22
+    k = both * bend
+    return (
+        (s11, s12, s21, s22),
+        (1 + wx * tx, wx * ty, wy * tx, 1 + wy * ty),
+        (
+            jx * tx - k * (nx * rx + across * s11),
+            jx * ty - k * (nx * ry + across * s12),
+            jy * tx - k * (ny * rx + across * s21),
+            jy * ty - k * (ny * ry + across * s22),
+        ),
+        (m11, m12, m12, m22),
+    )
+
+
+@kernel
+def contact(vx: float, vy: float, path: Any, bend: Any, keep: Any, pull: Any, i: int) -> Any:
+    """Give the derivative at contact i, whatever it is: S, A, B and M as of :func:`derivative`.
+
+    Where a ball begins to slide, or leaves the wall, no neighbour touches earlier or later: it keeps what its
+    place and velocity have along the wall, or everything.
+    """
+    nx, ny = path[i, 3], path[i, 4]
+    if path[i, 5] == 0.0:
+        g, h = (pull[i, 0], pull[i, 1]), (pull[i + 1, 0], pull[i + 1, 1])
+        return derivative(vx, vy, path[i, 1], path[i, 2], nx, ny, (keep[i, 0], keep[i, 1]), bend[i], g, h)
+    share = 1.0 if path[i, 5] == 1.0 else 0.0
+    along = (1.0 - share * nx * nx, -share * nx * ny, -share * nx * ny, 1.0 - share * ny * ny)
+    return along, along, (0.0, 0.0, 0.0, 0.0), along
+
+
+@kernel
+def _times(m: Any, n: Any) -> Any:
+    """Multiply two 2 x 2 matrices, given by rows."""
+    return (
+        m[0] * n[0] + m[1] * n[2],
+        m[0] * n[1] + m[1] * n[3],
+        m[2] * n[0] + m[3] * n[2],
+        m[2] * n[1] + m[3] * n[3],
+    )
+
+
+@kernel
+def _times_turned(m: Any, n: Any) -> Any:
+    """Multiply a 2 x 2 matrix with another's transpose, m n^T."""
+    return _times(m, (n[0], n[2], n[1], n[3]))
+
+
+@kernel
+def _plus(m: Any, n: Any) -> Any:
+    return m[0] + n[0], m[1] + n[1], m[2] + n[2], m[3] + n[3]
+
+
+@kernel
+def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, fresh: Any, variance: Any) -> None:
+    """Fill ``variance`` with that of the place of each contact.
+
+    Args:
+        start: (2,) velocity at time 0.
+        path: (n, 6) time, velocity after, normal of each contact, and 0 a bounce, 1 begins to slide, 2 leaves.
+        bend: (n,) curvature.
+        keep: (n, 2) tangential and normal restitution.
+        pull: (n + 1, 2) acceleration before each contact and after the last.
+        fresh: (n, 4) new at each contact: displacement of the wall, turn of its normal, rounding of the place,
+            and of the velocity relative to the speed.
+        variance: (n,), filled; left as it is after the first that exceeds 1e300.
+    """
+    ux, uy = start[0], start[1]
+    # covariances of position, of position with velocity, of velocity; the start is exact: it is what was asked for
+    xx = xv = vv = (0.0, 0.0, 0.0, 0.0)
+    now = 0.0
+    for i in range(len(path)):
+        t = path[i, 0] - now
+        now = path[i, 0]
+        both = _plus(xv, (xv[0], xv[2], xv[1], xv[3]))
+        xx = _plus(
+            xx,
+            (
+                t * (both[0] + t * vv[0]),
+                t * (both[1] + t * vv[1]),
+                t * (both[2] + t * vv[2]),
+                t * (both[3] + t * vv[3]),
+            ),
+        )
+        xv = _plus(xv, (t * vv[0], t * vv[1], t * vv[2], t * vv[3]))
+        vx, vy = ux + pull[i, 0] * t, uy + pull[i, 1] * t
+        ux, uy, nx, ny = path[i, 1], path[i, 2], path[i, 3], path[i, 4]
+        across = vx * nx + vy * ny
+        if path[i, 5] == 0.0 and not across < 0:
+            break  # not a bounce that a neighbour shares: it began in contact
+        S, A, B, M = contact(vx, vy, path, bend, keep, pull, i)
+        place = _times_turned(_times(S, xx), S)
+        variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]
+        if not variance[i] < 1e300:
+            break
+        back = (xv[0], xv[2], xv[1], xv[3])
+        turned = _plus(_times(B, xx), _times(M, back))
+        vv = _plus(_times_turned(turned, B), _times_turned(_plus(_times(B, xv), _times(M, vv)), M))
+        xv = _plus(_times_turned(_times(A, xx), B), _times_turned(_times(A, xv), M))
+        xx = _times_turned(_times(A, xx), A)
+        if path[i, 5] != 0.0:
+            continue  # nothing is turned, and the rounding of the place is less than that of the bounces before
+        # New here: the wall moved by `shift` along n moves the state by (v - v') shift / (v.n) ...
+        shift, turn = fresh[i, 0] / across, fresh[i, 1] * (keep[i, 0] + keep[i, 1])
+        p, q = (vx - ux) * shift, (vy - uy) * shift
+        rounded = fresh[i, 2] * fresh[i, 2]
+        xx = _plus(xx, (p * p + rounded, p * q, p * q, q * q + rounded))
+        # ... its normal turned by `turn` turns v', with dn = (ny, -nx) turn; and the state is rounded
+        slip = vx * ny - vy * nx
+        p, q = turn * (nx * slip + across * ny), turn * (ny * slip - across * nx)
+        rounded = fresh[i, 3] * fresh[i, 3] * (ux * ux + uy * uy)
+        vv = _plus(vv, (p * p + rounded, p * q, p * q, q * q + rounded))
+
+
+@kernel
+def stretch(start: Any, path: Any, bend: Any, keep: Any, pull: Any, error: Any, logs: Any) -> None:
+    """Carry one small error (dx, dv) along and fill ``logs`` with the logarithm of its growth at each bounce."""
+    ux, uy = start[0], start[1]
+    x, y, vx_, vy_ = error[0], error[1], error[2], error[3]
+    now = 0.0
+    for i in range(len(path)):
+        t = path[i, 0] - now
+        now = path[i, 0]
+        x, y = x + vx_ * t, y + vy_ * t
+        vx, vy = ux + pull[i, 0] * t, uy + pull[i, 1] * t
+        ux, uy = path[i, 1], path[i, 2]
+        _, A, B, M = contact(vx, vy, path, bend, keep, pull, i)
+        vx_, vy_, x, y = (
+            B[0] * x + B[1] * y + M[0] * vx_ + M[1] * vy_,
+            B[2] * x + B[3] * y + M[2] * vx_ + M[3] * vy_,
+            A[0] * x + A[1] * y,
+            A[2] * x + A[3] * y,
+        )
+        size = math.sqrt(x * x + y * y + vx_ * vx_ + vy_ * vy_)
+        logs[i] = math.log(size)
+        x, y, vx_, vy_ = x / size, y / size, vx_ / size, vy_ / size

@@ -1,0 +1,169 @@
+"""What gravity does to a flight: parabolas, energy kept, and the way along a straight wall that holds a ball.
+
+Each kernel takes gravity as an argument of its own; where it is None only the straight flight is left of it.
+"""
+
+from __future__ import annotations
+
+import math
+
+from wallkit.kernels.flight.motion import reflect
+from wallkit.kernels.impact.gravity_impact import LEVEL_SPEED, fall_search
+from wallkit.kernels.impact.polynomial_roots import first_fall_quadratic
+from wallkit.kernels.index.grid import search
+from wallkit.kernels.jit import kernel
+from wallkit.kernels.records import END_OF_EDGE, LEFT, NO_HIT, SLIDING
+
+LEVEL = 2.0**-48
+"""A wall that turns gravity by less than this is level."""
+
+
+@kernel
+def first_contact(model, gravity, radius, x, y, vx, vy, energy, last, held, hold, tolerance, best):
+    """Find what ends the flight before ``best``: (time, feature, edges touched by a point where it starts)."""
+    if gravity is None:
+        return search(model, model.grid, radius, x, y, vx, vy, energy, last, tolerance, best, NO_HIT)
+    gx, gy = pull_on(model, gravity, held, hold)
+    skipped = held if hold in (SLIDING, LEFT) else NO_HIT
+    reference = towards(model, held, gravity) if skipped != NO_HIT else (0.0, 0.0)
+    t, feature, touched = fall_search(
+        model, model.grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, NO_HIT
+    )
+    if hold == SLIDING:
+        end = end_of_edge(model, held, x, y, vx, vy, gx, gy)
+        if end < t:
+            return end, END_OF_EDGE, 0
+    return t, feature, touched
+
+
+@kernel
+def move(model, gravity, held, hold, x, y, vx, vy, t):
+    """Where a ball is after a time, and its velocity: p + v t + g t^2 / 2, v + g t."""
+    if gravity is None:
+        return x + t * vx, y + t * vy, vx, vy
+    gx, gy = pull_on(model, gravity, held, hold)
+    return x + t * (vx + 0.5 * t * gx), y + t * (vy + 0.5 * t * gy), vx + t * gx, vy + t * gy
+
+
+@kernel
+def bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy):
+    """Turn the velocity at a contact: (vx, vy, energy kept by the next flight).
+
+    Under gravity a flight keeps v^2 - 2 g.p; the speed before the bounce is taken from it.
+    """
+    if gravity is None:
+        return reflect(model.restitution, wall, nx, ny, twice, vx, vy, energy)
+    if vx * nx + vy * ny >= 0.0:  # it begins to be pressed on the wall: nothing to turn yet
+        return vx, vy, energy
+    height = 2.0 * (gravity[0] * x + gravity[1] * y)
+    vx, vy, square = reflect(model.restitution, wall, nx, ny, twice, vx, vy, max(energy + height, 0.0))
+    return vx, vy, square - height
+
+
+@kernel
+def kept_energy(gravity, x, y, vx, vy):
+    """What a flight keeps: v^2 - 2 g.p."""
+    return vx * vx + vy * vy - 2.0 * (gravity[0] * x + gravity[1] * y)
+
+
+@kernel
+def towards(model, held, gravity):
+    """Unit normal of the edge that holds a ball, towards the ball: against gravity."""
+    line = model.lines[held]
+    side = -1.0 if gravity[0] * line.nx + gravity[1] * line.ny > 0.0 else 1.0
+    return side * line.nx, side * line.ny
+
+
+@kernel
+def facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny):
+    """Turn the normal of a contact to the ball.
+
+    Without gravity a contact approaches by far more than rounding, and the velocity tells the side. Under gravity it
+    may begin with no speed towards the wall at all. The centre of a disc is its radius off the wall then, and
+    tells the side; a point is on the side from which it is pressed.
+    """
+    towards_ball = -(vx * nx + vy * ny)
+    if gravity is not None:
+        if radius > 0.0:
+            towards_ball = _offset(model, model.arcs, feature, x, y, nx, ny)
+        else:
+            bend = curvature(model, model.arcs, feature, radius, x, y, nx, ny)
+            press = -(gravity[0] * nx + gravity[1] * ny) + bend * (vx * vx + vy * vy)
+            if abs(towards_ball) <= LEVEL_SPEED * (abs(vx) + abs(vy)) * math.sqrt(nx * nx + ny * ny):
+                towards_ball = press
+    if towards_ball < 0.0:
+        return -nx, -ny
+    return nx, ny
+
+
+@kernel
+def _offset(model, arcs, feature, x, y, nx, ny):
+    """On which side of a feature a centre is: that of the normal above 0. All round a corner is outside."""
+    if feature < 0:
+        return 1.0
+    if arcs is not None:
+        arc = arcs[feature]
+        if arc.radius > 0.0:
+            return nx * nx + ny * ny - arc.radius * arc.radius
+    line = model.lines[feature]
+    return (x - line.ax) * nx + (y - line.ay) * ny
+
+
+@kernel
+def curvature(model, arcs, feature, radius, x, y, nx, ny):
+    """How the way of the centre along a feature bends towards the normal, per unit of the normal's length.
+
+    1 / (R - r) in the hollow of an arc, -1 / (R + r) on its back, -1 / r on a corner, 0 on a line.
+    """
+    length = math.sqrt(nx * nx + ny * ny)
+    if feature < 0:
+        return -length / radius
+    if arcs is not None:
+        arc = arcs[feature]
+        if arc.radius > 0.0:
+            ex, ey = x - arc.ax + arc.sx, y - arc.ay + arc.sy
+            return (
+                -length / math.sqrt(ex * ex + ey * ey)
+                if ex * nx + ey * ny > 0.0
+                else length / max(arc.radius - radius, arc.radius * LEVEL)
+            )
+    return 0.0
+
+
+@kernel
+def side_kept(model, gravity, held, hold, vx, vy):
+    """Velocity at a flight's start as corners remember it: a ball that slides has the side from which it is pressed.
+
+    The lift off the wall, 2^-40 of the speed, is far above rounding and far below what corners tell apart.
+    """
+    if gravity is None:
+        return vx, vy
+    if hold != SLIDING:
+        return vx, vy
+    nx, ny = towards(model, held, gravity)
+    lift = 2.0**-40 * (abs(vx) + abs(vy))
+    return vx + lift * nx, vy + lift * ny
+
+
+@kernel
+def pull_on(model, gravity, held, hold):
+    """Gravity as a ball feels it: all of it, or the part along the edge that holds it; none on a level one."""
+    if hold != SLIDING:
+        return gravity[0], gravity[1]
+    line = model.lines[held]
+    pull = gravity[1] * line.nx - gravity[0] * line.ny
+    if abs(pull) <= LEVEL * (abs(gravity[0]) + abs(gravity[1])):
+        return 0.0, 0.0
+    return -pull * line.ny, pull * line.nx
+
+
+@kernel
+def end_of_edge(model, held, x, y, vx, vy, gx, gy):
+    """Time at which a ball that slides on an edge comes to its end; g is the pull along the edge."""
+    line = model.lines[held]
+    u = (y - line.ay) * line.nx - (x - line.ax) * line.ny
+    v = vy * line.nx - vx * line.ny
+    g = gy * line.nx - gx * line.ny
+    return min(
+        first_fall_quadratic(0.5 * g, v, u, math.inf), first_fall_quadratic(-0.5 * g, -v, line.length - u, math.inf)
+    )

@@ -1,0 +1,1 @@
+"""When a ball first touches a line, an arc or a corner."""

@@ -1,0 +1,1 @@
+"""The grid over the walls, and how a flight walks through it."""

@@ -1,0 +1,300 @@
+"""Which cells an edge or a corner goes into: those crossed by the places of a centre at a contact, widened.
+
+The places are two lines beside an edge, two arcs beside an arc, and the arc around a corner. Arcs are cut into chords.
+Entries are written into flat numbers, four a cell as in ``Cell``, twice: first they are only counted, then, when
+``lay_out`` has made places of the counts, the ids are written too. So nothing is sorted, and ids come cell by cell in
+the order in which they are given.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from wallkit.kernels.impact.arc_impact import FALLING_MOULD, MOULD, is_mould, is_wide, to_end
+from wallkit.kernels.intrinsics import prefetch_far
+from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.records import WAYS
+
+BOW = 1.0 / 8.0
+"""Chords miss their arc by at most this part of a cell, and what they miss it by widens them."""
+SMALL = 1.0 / 4.0
+"""An arc of at most this radius, in cells, crosses most of the cells that its box does."""
+MOST_CHORDS = 1024
+"""Of a part of an arc; in cells so small that they bow more, they are the wider."""
+OF_LINES, OF_ARCS, OF_CORNERS = 1, 2, 4
+"""Where in a cell's numbers the entries of a kind are counted. When all are written each of them has come to the end of
+its kind, which is where the next one begins: ``arcs``, ``corners``, and ``first`` of the next cell."""
+ALL_WAYS = (1 << WAYS) - 1
+ASIDE = 2.0**-10
+"""Cosine by which a flight must go away from what it is not to meet: far above what rounding may turn."""
+NEAR_CELLS = 1 << 16
+"""So many stay in the second cache: asking memory for them ahead would gain nothing."""
+AHEAD = 8
+"""Entered before what memory is asked for: by then it has come, and it is still there."""
+LATEST = 3
+"""Where in a cell's numbers the latest entry stands, so that none is entered twice; later the ``moves_to_next``."""
+
+
+class Table(NamedTuple):
+    """What is written of cells."""
+
+    numbers: Any
+    """Four a cell, and four more at the end."""
+    ways: Any
+    """The bits of the ways in which a flight may meet something that a cell lists; empty where nobody asks."""
+    ids: Any
+    """What the cells list; empty as long as it is only counted."""
+
+
+@kernel
+def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
+    """Enter edges and corners into the cells of blocks; with no ``ids`` they are only counted.
+
+    Blocks speak of ids of ``source``; lines, arcs, their numbers and corners are those of ``Model``, and ``fans`` has
+    a ``Fan`` for each vertex. ``distance`` is that of a centre at a contact. Written are ``numbers``, four a cell and
+    four more at the end, ``ids``, and how many are ``entered`` by block: more than ``most`` where it was given up.
+    """
+    for b in range(len(blocks)):
+        block = blocks[b]
+        count, far = 0, block.columns * block.rows > NEAR_CELLS
+        for k in range(block.start, block.end):
+            if count > block.most:
+                break
+            if far and k + AHEAD < block.end:
+                _prefetch_cells(block, source[k + AHEAD], k + AHEAD >= block.corners, lines, corners, table.numbers)
+            if k < block.arcs:
+                count += _enter_line(block, lines[source[k]], distance, k, source[k], table)
+            elif k >= block.corners:
+                corner, fan = corners[source[k]], fans[source[k]]
+                if fan.both > 0.0:
+                    count += _arc(block, corner.x, corner.y, distance, -fan.ux, -fan.uy, -fan.wx, -fan.wy, fan.wide,
+                                  1.0, OF_CORNERS, k, source[k], table)  # fmt: skip
+                count += _arc(block, corner.x, corner.y, distance, fan.ux, fan.uy, fan.wx, fan.wy, fan.wide, 1.0,
+                              OF_CORNERS, k, source[k], table)  # fmt: skip
+            elif arcs is not None:
+                count += _enter_arc(block, arcs[source[k]], distance, k, source[k], table)
+        entered[b] = count
+
+
+@kernel
+def _prefetch_cells(block, entry, is_corner, lines, corners, numbers):
+    """Ask memory for the cell in the middle of what is entered soon, and for those above and below it."""
+    if is_corner:
+        x, y = corners[entry].x, corners[entry].y
+    else:
+        line = lines[entry]
+        x, y = 0.5 * (line.ax + line.bx), 0.5 * (line.ay + line.by)
+    column, row = int((x - block.x0) * block.per_side), int((y - block.y0) * block.per_side)
+    at = 4 * (block.first + column + block.columns * row)
+    for neighbour in range(-1, 2):
+        prefetch_far(numbers, at + 4 * block.columns * neighbour)
+
+
+@kernel
+def _enter_line(block, line, distance, item, entry, table):
+    """Enter the lines at a distance beside an edge; the functions below give how many cells were new to it."""
+    nx, ny = line.nx, line.ny
+    sx, sy = distance * nx, distance * ny
+    ways = ALL_WAYS
+    if len(table.ways) > 0:
+        ways = ways_against(nx, ny, nx, ny)
+    count = _line(block, line.ax + sx, line.ay + sy, line.bx + sx, line.by + sy, block.reach,
+                  OF_LINES, item, entry, ways, table)  # fmt: skip
+    if distance > 0.0:
+        if len(table.ways) > 0:
+            ways = ways_against(-nx, -ny, -nx, -ny)
+        count += _line(block, line.ax - sx, line.ay - sy, line.bx - sx, line.by - sy, block.reach,
+                       OF_LINES, item, entry, ways, table)  # fmt: skip
+    return count
+
+
+@kernel
+def _enter_arc(block, arc, distance, item, entry, table):
+    """Enter the arcs at a distance outside and inside an arc."""
+    x, y, per = arc.ax - arc.sx, arc.ay - arc.sy, 1.0 / arc.radius
+    fx, fy = to_end(arc)
+    ux, uy, wx, wy = arc.sx * per, arc.sy * per, fx * per, fy * per
+    wide = 1.0 if is_wide(arc.sweep) else 0.0
+    count = _arc(block, x, y, arc.radius + distance, ux, uy, wx, wy, wide, 1.0, OF_ARCS, item, entry, table)
+    if distance > 0.0:
+        inside = MOULD * arc.radius if is_mould(arc.radius, distance) else arc.radius - distance
+        count += _arc(block, x, y, inside, ux, uy, wx, wy, wide, -1.0, OF_ARCS, item, entry, table)
+        inside = FALLING_MOULD * arc.radius
+        if abs(arc.radius - distance) < inside:
+            count += _arc(block, x, y, inside, ux, uy, wx, wy, wide, -1.0, OF_ARCS, item, entry, table)
+    return count
+
+
+@rare_kernel
+def _arc(block, x, y, radius, ux, uy, wx, wy, wide, facing, kind, item, entry, table):
+    """Enter an arc about (x, y), from the direction u counter-clockwise to w: its box, or parts below 120 degrees."""
+    small = abs(radius) <= SMALL * block.side
+    facing = facing if radius > SMALL * block.side + block.reach else 0.0
+    if wide == 0.0 and not small and ux * wx + uy * wy > -0.5:
+        return _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, table)
+    mx, my = _half_way(ux, uy, wx, wy, wide)
+    if small:
+        edge = mx * ux + my * uy  # directions as near to the middle are in the arc
+        left, right = -1.0 if -mx >= edge else min(ux, wx), 1.0 if mx >= edge else max(ux, wx)
+        low, high = -1.0 if -my >= edge else min(uy, wy), 1.0 if my >= edge else max(uy, wy)
+        if radius < 0.0:
+            left, right, low, high = right, left, high, low
+        return _box(block, x + radius * left, x + radius * right, y + radius * low, y + radius * high,
+                    kind, item, entry, ALL_WAYS, table)  # fmt: skip
+    if wide == 0.0:
+        count = _chords(block, x, y, radius, ux, uy, mx, my, facing, kind, item, entry, table)
+        return count + _chords(block, x, y, radius, mx, my, wx, wy, facing, kind, item, entry, table)
+    hx, hy = _half_way(ux, uy, mx, my, 0.0)
+    count = _chords(block, x, y, radius, ux, uy, hx, hy, facing, kind, item, entry, table)
+    count += _chords(block, x, y, radius, hx, hy, mx, my, facing, kind, item, entry, table)
+    hx, hy = _half_way(mx, my, wx, wy, 0.0)
+    count += _chords(block, x, y, radius, mx, my, hx, hy, facing, kind, item, entry, table)
+    return count + _chords(block, x, y, radius, hx, hy, wx, wy, facing, kind, item, entry, table)
+
+
+@kernel
+def ways_against(ux, uy, wx, wy):
+    """Give the bits of the ways (see ``grid.way_of``) in which a flight may go against a direction between u and w.
+
+    Not so where both lie along both ends of the way, by more than rounding: so do all between, along all of the way.
+    """
+    low_x, high_x, low_y, high_y = min(ux, wx), max(ux, wx), min(uy, wy), max(uy, wy)
+    low_sum, high_sum = min(ux + uy, wx + wy), max(ux + uy, wx + wy)
+    low_rest, high_rest = min(ux - uy, wx - wy), max(ux - uy, wx - wy)
+    right, left, up, down = low_x >= ASIDE, high_x <= -ASIDE, low_y >= ASIDE, high_y <= -ASIDE
+    right_up, left_down = low_sum >= ASIDE, high_sum <= -ASIDE
+    right_down, left_up = low_rest >= ASIDE, high_rest <= -ASIDE
+    along = (
+        int(right & right_up) + (int(left & left_up) << 1)
+        + (int(right & right_down) << 2) + (int(left & left_down) << 3)
+        + (int(up & right_up) << 4) + (int(up & left_up) << 5)
+        + (int(down & right_down) << 6) + (int(down & left_down) << 7)
+    )  # fmt: skip
+    return ALL_WAYS - along
+
+
+@kernel
+def _half_way(ux, uy, wx, wy, wide):
+    """Direction half way from u counter-clockwise to w: along their sum, or beside their difference."""
+    if ux * wx + uy * wy <= 0.0:
+        mx, my = wy - uy, ux - wx
+    else:
+        mx, my = ux + wx, uy + wy
+        if wide != 0.0:
+            mx, my = -mx, -my
+    length = math.sqrt(mx * mx + my * my)
+    return mx / length, my / length
+
+
+@rare_kernel
+def _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, table):
+    """Enter an arc of less than 120 degrees in chords: halved until they bow little enough, then turned on and on.
+
+    Cosines and sines of halves need square roots alone, which are the same everywhere. Turning on gathers up to two
+    roundings a chord, and the centre of a flat arc is far away: both are parts of the radius, and widen the chords.
+    """
+    cosine, sine = min(ux * wx + uy * wy, 1.0), ux * wy - uy * wx
+    half = math.sqrt(0.5 + 0.5 * cosine)
+    size = abs(radius)
+    bow = size * (0.5 - 0.5 * cosine) / (1.0 + half)
+    count = 1
+    while bow > BOW * block.side and count < MOST_CHORDS:
+        cosine, sine, count = half, sine / (2.0 * half), 2 * count
+        half = math.sqrt(0.5 + 0.5 * cosine)
+        bow = size * (0.5 - 0.5 * cosine) / (1.0 + half)
+    reach = block.reach + bow + size * (count + 1) * 2.0**-51
+    ax, ay, entries, ways = x + radius * ux, y + radius * uy, 0, ALL_WAYS
+    for _chord in range(count):
+        wx, wy = ux * cosine - uy * sine, ux * sine + uy * cosine
+        bx, by = x + radius * wx, y + radius * wy
+        if len(table.ways) > 0 and facing != 0.0:
+            ways = ways_against(facing * ux, facing * uy, facing * wx, facing * wy)
+        entries += _line(block, ax, ay, bx, by, reach, kind, item, entry, ways, table)
+        ax, ay, ux, uy = bx, by, wx, wy
+    return entries
+
+
+@rare_kernel
+def _box(block, left, right, low, high, kind, item, entry, ways, table):
+    """Enter a box, and what is within reach of it."""
+    per_side, reach = block.per_side, block.reach
+    left, right = (left - reach - block.x0) * per_side, (right + reach - block.x0) * per_side
+    low, high = (low - reach - block.y0) * per_side, (high + reach - block.y0) * per_side
+    if right < 0.0 or left >= block.columns or high < 0.0 or low >= block.rows:
+        return 0
+    count = 0
+    for column in range(int(max(left, 0.0)), int(min(right, block.columns - 0.5)) + 1):
+        count += _rows(block, column, low, high, kind, item, entry, ways, table)
+    return count
+
+
+@rare_kernel
+def _line(block, ax, ay, bx, by, reach, kind, item, entry, ways, table):
+    """Enter a line, and all within reach of it along x and y: column by column, the rows that it covers there."""
+    per_side = block.per_side
+    ax, ay, bx, by, reach = (
+        (ax - block.x0) * per_side, (ay - block.y0) * per_side,
+        (bx - block.x0) * per_side, (by - block.y0) * per_side, reach * per_side,
+    )  # fmt: skip
+    left, right, low, high = min(ax, bx) - reach, max(ax, bx) + reach, min(ay, by), max(ay, by)
+    if right < 0.0 or left >= block.columns or high + reach < 0.0 or low - reach >= block.rows:
+        return 0
+    first, last = int(max(left, 0.0)), int(min(right, block.columns - 0.5))
+    if first == last or ax == bx:
+        bottom, top, count = low - reach, high + reach, 0
+        for column in range(first, last + 1):
+            count += _rows(block, column, bottom, top, kind, item, entry, ways, table)
+        return count
+    slope, count = (by - ay) / (bx - ax), 0
+    for column in range(first, last + 1):
+        here, there = ay + (column - reach - ax) * slope, ay + (column + 1 + reach - ax) * slope
+        bottom, top = max(low, min(here, there, high)) - reach, min(high, max(here, there, low)) + reach
+        if top >= 0.0 and bottom < block.rows:
+            count += _rows(block, column, bottom, top, kind, item, entry, ways, table)
+    return count
+
+
+@kernel
+def _rows(block, column, bottom, top, kind, item, entry, ways, table):
+    """Enter what a column holds between two heights, given in cells; one of them at least is in the block."""
+    numbers, lowest, count = table.numbers, int(max(bottom, 0.0)), 0
+    at = 4 * (block.first + column + block.columns * lowest)
+    for _row in range(lowest, int(min(top, block.rows - 0.5)) + 1):
+        if numbers[at + LATEST] != item + 1:
+            numbers[at + LATEST] = item + 1
+            if len(table.ids) > 0:
+                table.ids[numbers[at + kind]] = entry
+            numbers[at + kind] += 1
+            count += 1
+        if len(table.ways) > 0:
+            table.ways[at >> 2] |= ways
+        at += 4 * block.columns
+    return count
+
+
+@kernel
+def lay_out(numbers):
+    """Make of the counts of each cell where its entries of each kind begin; give how many there are in all."""
+    total = 0
+    for at in range(0, len(numbers) - 4, 4):
+        lines, arcs, corners = numbers[at + OF_LINES], numbers[at + OF_ARCS], numbers[at + OF_CORNERS]
+        numbers[at + OF_LINES] = total
+        numbers[at + OF_ARCS] = total + lines
+        numbers[at + OF_CORNERS] = total + lines + arcs
+        numbers[at + LATEST] = 0
+        total += int(lines) + int(arcs) + int(corners)
+    return total
+
+
+@kernel
+def describe(numbers, before, farthest, cells):
+    """Write of cells what ``Cell`` has, flat; so many ids come before theirs, and ``farthest`` is the most moves."""
+    for at in range(0, len(cells), 4):
+        first, arcs, corners, end = numbers[at], numbers[at + OF_LINES], numbers[at + OF_ARCS], numbers[at + OF_CORNERS]
+        if first == end:
+            moves = min(max(numbers[at + LATEST], 1), farthest)
+            cells[at], cells[at + 1], cells[at + 2], cells[at + 3] = moves, moves, moves, moves
+        else:
+            cells[at], cells[at + 1] = first + before, arcs + before
+            cells[at + 2], cells[at + 3] = corners + before, end + before

@@ -1,0 +1,232 @@
+"""What the kernels see of a scene: flat arrays of floats, and None for what the scene lacks.
+
+The same tuples hold NumPy arrays (of records) for the compiled kernels and lists (of named tuples) of Python floats
+for the interpreted ones; both are read as ``lines[i].ax``, so that one source serves and gives the same bits.
+Ids and what counts them are unsigned: they need no look whether they count from the end.
+Coordinates are local (see ``wallkit.simulation.modelled``).
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+STATE_SIZE = 12
+"""x, y, vx, vy, time, what the time lost to rounding, speed squared (under gravity
+less 2 g.p, which a flight keeps); for points where the last flight began (x, y)
+and its velocity, and the tolerance: how far positions may be off by rounding."""
+LOG_STRIDE = 11
+"""time, x, y, vx, vy, px, py, nx, ny, feature, kind."""
+
+NO_HIT = -1
+"""No feature. Edge e is the feature e, corner j is the feature -2 - j."""
+END_OF_EDGE = -(2**61)
+"""In place of a feature: a sliding ball comes to the end of the edge that holds it."""
+COLLAPSES = -(2**60)
+"""In place of a feature: an exact corner hit that the ball does not get out of."""
+AMBIGUOUS = -(2**62)
+"""In place of a feature: an exact corner hit whose outcome depends on which wall comes first."""
+
+RUNNING = -1
+EDGE, VERTEX, SLIDE, LEAVE = 0, 1, 2, 3
+FREE, COMING_TO_REST, SLIDING, LEAVING, LEFT, CAUGHT, WEDGED = 0, 1, 2, 3, 4, 5, 6
+"""How an edge holds a ball under gravity: not; from the next moment; now; until the next moment; until just now; by a
+curve (an arc or a corner), along which no flight of ours goes on; with another feature in the way of the slide."""
+TIME_REACHED, BOUNCE_LIMIT, LEFT_SCENE, AT_REST, COLLAPSE, AMBIGUOUS_CORNER, ABSORBED = 0, 1, 2, 3, 4, 5, 6
+
+
+class Line(NamedTuple):
+    """An edge from a to b; n is the outward unit normal as rounded, twice = 2 / (n.n)."""
+
+    ax: float
+    ay: float
+    bx: float
+    by: float
+    nx: float
+    ny: float
+    length: float
+    twice: float
+
+
+class Arc(NamedTuple):
+    """A circular arc, counter-clockwise from a to b, a = c + s.
+
+    sweep is its angle, in radians, below 0 if the wall runs clockwise, from b to a (then its outward side is the inside
+    of the circle).
+    """
+
+    ax: float
+    ay: float
+    bx: float
+    by: float
+    sx: float
+    sy: float
+    radius: float
+    sweep: float
+
+
+class Corner(NamedTuple):
+    """A vertex, and the sum of the outward normals of its edges: which side of a one-sided wall a centre is on."""
+
+    x: float
+    y: float
+    sx: float
+    sy: float
+
+
+class Cell(NamedTuple):
+    """A cell of the index, and what is listed in it: ids from ``first`` to before ``end``.
+
+    Lines come first, then arcs (from ``arcs`` on), then corners (from ``corners`` on). Where nothing is listed all
+    four are one number: so many king's moves away, at least 1, is the nearest cell that may list something. Where
+    ``end`` is before ``first`` the cell is divided into 2^arcs by 2^arcs smaller ones, row by row from the cell
+    ``first`` on, and lists nothing itself.
+    """
+
+    first: int
+    arcs: int
+    corners: int
+    end: int
+
+
+class Fan(NamedTuple):
+    """The directions in which a disc can touch a vertex: from u counter-clockwise to w; ``wide`` is 1 for all.
+
+    ``both`` is 1 where it may, by rounding, touch it in the opposite directions too.
+    """
+
+    ux: float
+    uy: float
+    wx: float
+    wy: float
+    wide: float
+    both: float
+
+
+class Block(NamedTuple):
+    """Square cells, row by row from the cell ``first`` on, and what is to be entered in them.
+
+    That is ids from ``start`` to ``end``: lines, then arcs (from ``arcs`` on), then corners (from ``corners`` on).
+    """
+
+    x0: float
+    y0: float
+    side: float
+    per_side: float
+    """1 / side."""
+    reach: float
+    """So much to each side is entered too."""
+    columns: int
+    rows: int
+    first: int
+    start: int
+    arcs: int
+    corners: int
+    end: int
+    most: int
+    """Entries it may come to; with more it is given up."""
+
+
+LINE = np.dtype([(name, np.float64) for name in Line._fields])
+ARC = np.dtype([(name, np.float64) for name in Arc._fields])
+CORNER = np.dtype([(name, np.float64) for name in Corner._fields])
+WAYS = 8
+"""Eighths of a full turn, in one of which a flight goes, see ``grid.way_of``."""
+FIRST_CLEARING, PACKED = 8, 4
+"""Where packed clearings begin after their cell, and bits of the room that both take, in numbers of 16 bits."""
+QUARTERS = 4
+"""For points, which meet a line from both its sides, they are no better than quarters."""
+HALF, WIDEST = 7, 127
+"""Bits of a clearing's width and of its height, in cells, and what they hold."""
+CELL = np.dtype([(name, np.uint32) for name in Cell._fields])
+FAN = np.dtype([(name, np.float64) for name in Fan._fields])
+BLOCK = np.dtype([(name, np.float64 if place < 5 else np.int64) for place, name in enumerate(Block._fields)])
+_RECORDS: dict[Any, Any] = {LINE: Line, ARC: Arc, CORNER: Corner, CELL: Cell, FAN: Fan, BLOCK: Block}
+
+
+def in_lists(value: Any) -> Any:
+    """Give lists of Python floats, and of named tuples, for arrays: several times faster to interpret."""
+    if isinstance(value, np.ndarray):
+        if value.dtype.names is None:
+            return value.tolist()
+        return list(map(_RECORDS[value.dtype]._make, value.tolist()))
+    if isinstance(value, tuple):
+        items = (in_lists(item) for item in value)
+        return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
+    return value
+
+
+class Grid(NamedTuple):
+    """Square cells, row by row, some of them divided again and again.
+
+    Places in it are counted in units: whole numbers of the side of the smallest cell, so that all cells begin and end
+    at whole numbers and the walk through them is exact whatever their sizes.
+    """
+
+    x0: float
+    y0: float
+    unit: float
+    per_unit: float
+    """1 / unit."""
+    shift: int
+    """A cell that is not part of another one has the side 2^shift, in units."""
+    columns: int
+    rows: int
+    """Of cells that are not part of another one."""
+    ways: int
+    """For which such a cell has clearings: WAYS or QUARTERS."""
+    departs: int
+    """1 if there are departures, else 0."""
+    packed: int
+    """1 if a record with the clearings of a cell comes after its own, so that memory is asked once for both; 0 if
+    clearings lie by way, so that more of them stay in the cache."""
+
+
+class Model(NamedTuple):
+    """All that a flight needs to know of its scene."""
+
+    ids: Any
+    """Edges and vertices cell by cell, unsigned; with a grid AT_ONCE more at the end, so many are read at once."""
+    cells: Any
+    """``Cell``; without a grid one lists all."""
+    grid: Any
+    """``Grid``, or None."""
+    clearings: Any
+    """At ``grid.clearing_at``: by way of flight and by cell that is not part of another, a large rectangle of cells
+    that begins with it, goes that way, and lists nothing that a flight of that way may meet. It is width +
+    2^HALF * height, in cells; 0 where the cell lists something to be met. At ``grid.departures_of`` the like for points
+    that leave a wall: what they leave may be listed too. Packed clearings are in the memory of ``cells``."""
+    lines: Any
+    """``Line`` by edge; the chord of an arc."""
+    arcs: Any
+    """``Arc`` by edge, of radius 0 for a line; None when all edges are lines."""
+    corners: Any
+    """``Corner`` by vertex."""
+    edge_wall: Any
+    corner_wall: Any
+    restitution: Any
+    """By wall: normal, tangential; None when all are 1."""
+    one_sided: Any
+    """By wall: 1 when solid from its outward side alone; None when all are two-sided."""
+    gravity: Any
+    """(gx, gy), or None."""
+    damping: Any
+    """(rolling friction, drag), one of them 0, or None."""
+    extent: float
+    """Largest absolute local coordinate."""
+
+
+class Counts(NamedTuple):
+    """The integer state of a ball.
+
+    Last feature; bounces; ending or RUNNING; contacts in a row without time; edge that holds it, or NO_HIT; how it
+    does, see FREE and the following.
+    """
+
+    last: int
+    bounces: int
+    ending: int
+    still: int
+    held: int
+    hold: int

@@ -1,0 +1,1 @@
+"""What is simulated: the scene, files that describe one, and where balls start."""

@@ -1,0 +1,330 @@
+"""From FILE and wishes to a scene: one way for the command line, scene files, the page and the library.
+
+FILE is a drawing, walls or a scene, told by its content. Whatever nobody said is assumed, and said in ``assumed``.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from importers.drawing import Drawing
+from importers.errors import WallkitError
+from importers.problems import Problem
+from wallkit.scene.ball_findings import ball_findings
+from wallkit.scene.drawn_scene import ANGLE, SPEED, Drawn, drawn_scene
+from wallkit.scene.scene import Balls, Scene
+from wallkit.walls import Walls
+from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
+
+if TYPE_CHECKING:
+    from wallkit.scene.scene_files import SceneFile
+
+BOUNCES = 100
+USUAL = ImportOptions(curves="arcs")
+"""How a drawing is imported to be simulated, unless somebody says otherwise."""
+
+
+class UsageError(WallkitError):
+    """Wishes that do not go together, or a value that is none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wishes:
+    """What is asked of a scene; None is what is not asked.
+
+    Attributes:
+        ball: places (x, y) of balls, instead of those in the file.
+        velocity: (vx, vy) of every ball.
+        speed: units per second, of every ball.
+        angle: degrees from the x axis towards the y axis of the drawing.
+        radius: of every ball.
+        balls: so many balls at random places.
+        seed: of that randomness.
+        gravity: (gx, gy).
+        restitution: of every wall.
+        tangential_restitution: the same along the wall.
+        friction: deceleration of a rolling ball, units per second squared.
+        drag: rate k of dv/dt = -k v, per second.
+        until: end in seconds.
+        bounces: end in bounces a ball.
+        importing: how a drawing becomes walls; over what a scene file says of its drawing.
+        may_be_empty: a scene without a ball is fine, where there is no room for one.
+    """
+
+    ball: tuple[tuple[float, float], ...] = ()
+    velocity: tuple[float, float] | None = None
+    speed: float | None = None
+    angle: float | None = None
+    radius: float | None = None
+    balls: int | None = None
+    seed: int = 0
+    gravity: tuple[float, float] | None = None
+    restitution: float | None = None
+    tangential_restitution: float | None = None
+    friction: float | None = None
+    drag: float | None = None
+    until: float | None = None
+    bounces: int | None = None
+    importing: ImportOptions = USUAL
+    may_be_empty: bool = False
+
+    def __post_init__(self) -> None:
+        if self.ball and self.balls is not None:
+            raise UsageError("--ball and --balls do not go together", code="usage", fix="give places or a number")
+        if self.balls is not None and self.balls < 1:
+            raise UsageError(f"--balls is {self.balls}", code="usage", fix="give 1 or more")
+        if self.velocity is not None and (self.speed is not None or self.angle is not None):
+            raise UsageError("--velocity and --speed or --angle do not go together", code="usage", fix="give one way")
+
+    @property
+    def moves(self) -> bool:
+        """A velocity is asked for, or a part of one."""
+        return not (self.velocity is None and self.speed is None and self.angle is None)
+
+
+@dataclass(slots=True)
+class OpenedScene:
+    """A scene that is ready to fly.
+
+    Attributes:
+        scene: what is simulated.
+        until: end in seconds, or None.
+        bounces: end in bounces a ball, or None.
+        kind: what the file was, for people.
+        problems: what was found on the way: by the reader, in the walls, about the balls.
+        assumed: what nobody said, a sentence each.
+        drawing: the drawing, where the file was one.
+        found_place: no ball was given: the one in the scene was put where there is most room.
+    """
+
+    scene: Scene
+    until: float | None
+    bounces: int | None
+    kind: str
+    problems: list[Problem]
+    assumed: list[str] = field(default_factory=list)
+    drawing: Drawing | None = None
+    found_place: bool = False
+
+
+def open_scene(
+    source: str | Path | bytes | Drawing,
+    wishes: Wishes | None = None,
+    *,
+    name: str = "",
+    folder: Path | None = None,
+) -> OpenedScene:
+    """Make a scene of a drawing, walls or a scene file.
+
+    Args:
+        source: a path, the bytes of a file, or a drawing that is read already.
+        wishes: what is asked of it; by default nothing.
+        name: of the file whose bytes are given, for messages.
+        folder: where a scene file of which the bytes are given finds the files that it names; None forbids any.
+
+    Raises:
+        WallkitError: it cannot be read, a wish cannot be met, or there is no room for a ball.
+    """
+    wishes = wishes or Wishes()
+    if isinstance(source, Drawing):
+        return _of_drawing(source, wishes)
+    if isinstance(source, str | Path):
+        return open_scene(read_file(source), wishes, name=str(source), folder=Path(source).parent)
+    from wallkit.scene.scene_files import kind_of, read_scene
+
+    kind = kind_of(source)
+    if kind == "drawing":
+        from importers.read import read_drawing
+
+        stream = io.BytesIO(source)
+        stream.name = name
+        return _of_drawing(read_drawing(stream), wishes)
+    if kind == "walls":
+        from wallkit.walls.walls_json import loads
+
+        return _of_walls(loads(source, name), wishes)
+    said = wishes.importing.said(USUAL)
+    return _of_scene_file(read_scene(source, file=name, folder=folder, importing=said, balls=_given(wishes)), wishes)
+
+
+def read_file(path: str | Path) -> bytes:
+    """Read a file, up to the limit on input.
+
+    Raises:
+        UsageError: there is no such file, or it cannot be read.
+    """
+    from importers.limits import MAX_INPUT_BYTES, check_input_size
+
+    try:
+        with Path(path).open("rb") as stream:
+            data = stream.read(MAX_INPUT_BYTES + 1)
+    except OSError as error:
+        raise UsageError(f"cannot read it: {error.strerror}", code="cannot-read", file=str(path)) from error
+    check_input_size(len(data), str(path))
+    return data
+
+
+def _given(wishes: Wishes) -> np.ndarray | None:
+    return np.array(wishes.ball, dtype=np.float64) if wishes.ball else None
+
+
+def _of_drawing(drawing: Drawing, wishes: Wishes) -> OpenedScene:
+    drawn = drawn_scene(drawing, wishes.importing, _given(wishes))
+    opened = OpenedScene(Scene(drawn.walls, drawn.balls), None, None, drawing.kind or "drawing", drawn.problems)
+    opened.drawing = drawing
+    return _completed(opened, drawn, wishes)
+
+
+def _of_walls(walls: Walls, wishes: Wishes) -> OpenedScene:
+    walls = _repaired(walls, wishes.importing, "walls")
+    return _completed(OpenedScene(Scene(walls), None, None, "walls", []), None, wishes)
+
+
+def _of_scene_file(read: SceneFile, wishes: Wishes) -> OpenedScene:
+    scene = read.scene
+    if read.drawn is None:
+        scene = replace(scene, walls=_repaired(scene.walls, wishes.importing, "a scene without a drawing"))
+    problems = [] if read.drawn is None else read.drawn.problems
+    opened = OpenedScene(scene, read.until, read.bounces, "scene", problems, drawing=read.drawing)
+    return _completed(opened, read.drawn, wishes)
+
+
+def _repaired(walls: Walls, options: ImportOptions, what: str) -> Walls:
+    """Look at walls anew, which somebody may have edited, and repair them if asked to; a drawing's options are none."""
+    from wallkit.walls.checking.self_check import validate
+    from wallkit.walls.repairing.passes import repair
+
+    other = [name for name in options.said(USUAL) if name not in REPAIRS]
+    if other:
+        raise UsageError(
+            f"{', '.join(map(as_option, other))}: only for drawings, and this is {what}",
+            code="usage",
+            fix="leave it out, or give the drawing",
+        )
+    found = validate(walls)
+    codes = {problem.code for problem in found}
+    said = [problem for problem in walls.problems if problem.code not in codes]
+    if options.repairs is None:
+        return replace(walls, problems=said + found)
+    done = repair(walls, options.repairs)
+    codes = {problem.code for problem in done.violations}
+    said = [problem for problem in said if problem.code not in codes]
+    return replace(done.walls, problems=[*said, *(change.to_problem() for change in done.changes), *done.violations])
+
+
+def _completed(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> OpenedScene:
+    """Give the scene its balls, materials and what acts, and say what was assumed and what is doubtful."""
+    scene = opened.scene
+    walls, balls = _walls_and_balls(opened, drawn, wishes)
+    if walls.solid is not None and walls.solid.how != "asked" and (walls.solid.room or walls.solid.how == "balls"):
+        opened.assumed.insert(0, walls.solid.sentence())  # that filled shapes are solid needs no words
+    if wishes.until is not None or wishes.bounces is not None:
+        opened.until, opened.bounces = wishes.until, wishes.bounces
+    if opened.until is None and opened.bounces is None:
+        opened.bounces = BOUNCES
+        opened.assumed.append(f"{BOUNCES} bounces a ball (--bounces, --until)")
+    opened.scene = replace(
+        scene,
+        walls=_with_material(walls, wishes),
+        balls=balls,
+        gravity=scene.gravity if wishes.gravity is None else wishes.gravity,
+        rolling_friction=scene.rolling_friction if wishes.friction is None else wishes.friction,
+        drag=scene.drag if wishes.drag is None else wishes.drag,
+    )
+    about_balls = [] if opened.found_place else ball_findings(walls, balls)
+    opened.problems = [*walls.problems, *opened.problems, *about_balls]
+    return opened
+
+
+def _with_material(walls: Walls, wishes: Wishes) -> Walls:
+    given = {"restitution": wishes.restitution, "tangential_restitution": wishes.tangential_restitution}
+    changes = {key: value for key, value in given.items() if value is not None}
+    if not changes:
+        return walls
+    return replace(walls, materials=tuple(replace(material, **changes) for material in walls.materials))
+
+
+def _walls_and_balls(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> tuple[Walls, Balls]:
+    """Give the balls asked for, those in the file, or one where there is most room; the walls turned if it says so."""
+    walls, balls, assumed = opened.scene.walls, opened.scene.balls, opened.assumed
+    if wishes.ball:
+        if wishes.radius is None:
+            assumed.append("radius 0: a point (--radius)")
+        velocity = _velocity(wishes, assumed)
+        return walls, Balls(np.array(wishes.ball), np.tile(velocity, (len(wishes.ball), 1)), wishes.radius or 0.0)
+    if wishes.balls is None and len(balls):
+        return walls, _changed(balls, drawn, wishes, assumed)
+    return _at_the_roomiest_spot(opened, wishes)
+
+
+def _changed(balls: Balls, drawn: Drawn | None, wishes: Wishes, assumed: list[str]) -> Balls:
+    """Let wishes say otherwise than the file, and say what the file left open."""
+    if wishes.moves:
+        velocity = np.tile(_velocity(wishes, assumed), (len(balls), 1))
+        balls = replace(balls, velocity=velocity)
+    elif drawn is not None and drawn.still:
+        assumed += [f"{SPEED:g} units/s (--speed)", f"direction {ANGLE:g} degrees (--angle)"]
+    if drawn is not None and drawn.used:
+        assumed.append(f"{len(balls)} {'ball' if len(balls) == 1 else 'balls'} drawn on the layer 'balls'")
+    return Balls(balls.position, balls.velocity, wishes.radius) if wishes.radius is not None else balls
+
+
+def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, Balls]:
+    from wallkit.scene.starting_places import roomiest, scattered
+    from wallkit.walls.orient import inside_out
+    from wallkit.walls.solid import Solid
+
+    walls, assumed = opened.scene.walls, opened.assumed
+    opened.found_place = True
+    spot = roomiest(walls)
+    decided = walls.solid is not None and walls.solid.how in ("balls", "asked")
+    if spot is None and not decided and (walls.solid is not None or "outward" not in walls.sides):
+        spot = roomiest(walls, anywhere=True)  # all that is bounded is solid: then it is meant as rooms
+        if spot is not None and walls.solid is not None:
+            why = "there is no other place for a ball"
+            walls = replace(inside_out(walls), solid=Solid(not walls.solid.room, "start", why))
+    if spot is None:
+        if wishes.may_be_empty:
+            return walls, Balls(np.empty((0, 2)), np.empty((0, 2)))
+        raise UsageError("there is no room for a ball inside these walls", code="no-room", fix="give --ball X,Y")
+    count = wishes.balls
+    radius = wishes.radius
+    if radius is None:
+        radius = _sensible_radius(spot.room) / (1 if count is None else 2)
+    if count is None:
+        assumed.append(
+            f"one ball of radius {radius:g} at the roomiest spot, ({spot.x:.6g}, {spot.y:.6g}) (--ball, --radius)"
+        )
+        return walls, Balls([[spot.x, spot.y]], [_velocity(wishes, assumed)], radius)
+    random = np.random.default_rng(wishes.seed)
+    places = scattered(walls, spot, count, radius, random)
+    assumed.append(f"{count} balls of radius {radius:g} at random places (seed {wishes.seed}) around the roomiest spot")
+    if wishes.velocity is not None or wishes.angle is not None:
+        return walls, Balls(places, np.tile(_velocity(wishes, assumed), (count, 1)), radius)
+    angle = random.uniform(0.0, math.tau, count)
+    speed = SPEED if wishes.speed is None else wishes.speed
+    return walls, Balls(places, speed * np.stack([np.cos(angle), np.sin(angle)], axis=1), radius)
+
+
+def _sensible_radius(room: float) -> float:
+    """Give a twelfth of the room, rounded to one digit, so that the ball is seen and fits through most gaps."""
+    return float(f"{room / 12:.0e}")
+
+
+def _velocity(wishes: Wishes, assumed: list[str]) -> tuple[float, float]:
+    if wishes.velocity is not None:
+        return wishes.velocity
+    speed, angle = wishes.speed, wishes.angle
+    if speed is None:
+        speed = SPEED
+        assumed.append(f"{SPEED:g} units/s (--speed)")
+    if angle is None:
+        angle = ANGLE
+        assumed.append(f"direction {ANGLE:g} degrees (--angle)")
+    return speed * math.cos(math.radians(angle)), speed * math.sin(math.radians(angle))

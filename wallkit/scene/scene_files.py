@@ -1,0 +1,406 @@
+"""Scenes in files: TOML for people, JSON for programs, the same keys in both. docs/files.md describes the format.
+
+Everything that is wrong with a file is found before anything is said, so that one look at the message is enough.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from importers.limits import check_input_size
+from wallkit.geometry.arrays import FloatArray
+from wallkit.scene.scene import Balls, Scene, SceneError
+from wallkit.walls import Material, Walls
+from wallkit.walls.import_options import ImportOptions, option_names
+from wallkit.walls.walls import WallsError
+from wallkit.walls.walls_json import from_json, load, to_json
+
+if TYPE_CHECKING:
+    from importers.drawing import Drawing
+    from wallkit.scene.drawn_scene import Drawn
+
+
+Kind = Literal["drawing", "walls", "scene"]
+
+_TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
+_PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
+
+
+@dataclass(slots=True)
+class SceneFile:
+    """A scene file, read.
+
+    Attributes:
+        scene: what is simulated; its balls may be none.
+        until: the end that the file asks for in seconds, or None.
+        bounces: the number of bounces a ball that it asks for, or None.
+        drawn: what the drawing that it names holds, or None where it names none.
+        drawing: that drawing.
+        importing: how it became walls.
+    """
+
+    scene: Scene
+    until: float | None = None
+    bounces: int | None = None
+    drawn: Drawn | None = None
+    drawing: Drawing | None = None
+    importing: ImportOptions | None = None
+
+
+def kind_of(data: bytes) -> Kind:
+    """Tell by its content whether a file holds walls, a scene or (whatever else it is) a drawing.
+
+    JSON that names its format is believed; TOML is a text whose first line that is no comment sets a key or opens
+    a table, which no drawing's does. A saved run counts as a scene: it holds the one that it was made of.
+    """
+    head = data[:4096].decode("utf-8", "replace").lstrip("\ufeff")
+    if head.lstrip().startswith("{"):
+        named = re.search(r'"format"\s*:\s*"wallkit-(walls|scene|run)"', data.decode("utf-8", "replace"))
+        return "walls" if named and named[1] == "walls" and _format_of(data) == "wallkit-walls" else "scene"
+    return "scene" if _TOML_START.match(head) else "drawing"
+
+
+def _format_of(data: bytes) -> str:
+    try:
+        return str(json.loads(data.decode("utf-8-sig")).get("format", ""))
+    except (ValueError, RecursionError, AttributeError):
+        return ""
+
+
+def load_scene(path: str | Path) -> SceneFile:
+    """Read a scene from a TOML or JSON file; names of other files in it are meant from its folder.
+
+    Raises:
+        SceneError: it cannot be read, or says what a scene cannot; the message lists every such place.
+    """
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise SceneError(f"cannot read it: {error.strerror}", code="cannot-read", file=str(path)) from error
+    return read_scene(data, file=str(path), folder=Path(path).parent)
+
+
+def read_scene(
+    data: bytes,
+    *,
+    file: str = "",
+    folder: Path | None = None,
+    importing: Mapping[str, Any] | None = None,
+    balls: FloatArray | None = None,
+) -> SceneFile:
+    """Read a scene from the bytes of a TOML or JSON file.
+
+    Args:
+        data: the file's content.
+        file: its name, for messages.
+        folder: where the files that it names are; None forbids naming any (a scene from a stranger).
+        importing: options of ``import_walls`` that go before those of the file.
+        balls: (n, 2) places of balls that go before those of the file, where these help to decide what is solid.
+
+    Raises:
+        SceneError: as :func:`load_scene`.
+    """
+    check_input_size(len(data), file)
+    table = _parsed(data, file)
+    if table.get("format") == "wallkit-run":
+        table = table.get("scene", {}) if isinstance(table.get("scene"), dict) else {}
+    reader = _Reader(file, folder, importing or {}, balls)
+    result = reader.scene_file(table)
+    reader.finish()
+    return result
+
+
+def _parsed(data: bytes, file: str) -> dict[str, Any]:
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise SceneError("it is not UTF-8 text", code="not-a-scene", file=file) from error
+    try:
+        if text.lstrip().startswith("{"):
+            return dict(json.loads(text, parse_constant=_no_constant))
+        return tomllib.loads(text)
+    except json.JSONDecodeError as error:
+        raise SceneError(error.msg, code="bad-json", file=file, line=error.lineno, column=error.colno) from error
+    except tomllib.TOMLDecodeError as error:
+        place = _PLACE.search(str(error))
+        line, column = (int(place[1]), int(place[2])) if place and place[1] else (text.count("\n") + 1, None)
+        raise SceneError(_PLACE.sub("", str(error)), code="bad-toml", file=file, line=line, column=column) from error
+    except RecursionError as error:
+        raise SceneError("it is nested too deeply", code="not-a-scene", file=file) from error
+
+
+def _no_constant(word: str) -> None:
+    raise SceneError(f"{word} is not a number of JSON", code="bad-json", fix="write finite numbers")
+
+
+class _Reader:
+    """Turns the parsed table into a scene and collects what is wrong on the way, each with its key."""
+
+    def __init__(self, file: str, folder: Path | None, importing: Mapping[str, Any], balls: FloatArray | None) -> None:
+        self.file = file
+        self.folder = folder
+        self.importing = importing
+        self.places = balls
+        self.drawing: Drawing | None = None
+        self.options: ImportOptions | None = None
+        self.wrong: list[str] = []
+
+    def finish(self) -> None:
+        if self.wrong:
+            shown = "; ".join(self.wrong[:12]) + (f"; and {len(self.wrong) - 12} more" if len(self.wrong) > 12 else "")
+            raise SceneError(shown, code="bad-scene", file=self.file, fix="docs/files.md lists the keys of a scene")
+
+    def scene_file(self, table: dict[str, Any]) -> SceneFile:
+        known = {"format", "version", "walls", "drawing", "import", "gravity", "rolling_friction", "drag", "sensors",
+                 "materials", "balls", "run", "y_axis"}  # fmt: skip
+        self.known_keys(table, known, "")
+        if table.get("format", "wallkit-scene") != "wallkit-scene":
+            self.wrong.append(f"format: {table['format']!r} is not 'wallkit-scene'")
+        if table.get("version", 1) != 1:
+            self.wrong.append(f"version: {table['version']!r} is not 1, the one that this wallkit reads")
+        balls = self.balls(table["balls"]) if "balls" in table else Balls(np.empty((0, 2)), np.empty((0, 2)))
+        walls, drawn = self.walls(table, balls)
+        if walls is None:  # the rest is still checked, on no walls
+            walls = Walls.from_polylines([])
+        if "balls" not in table and drawn is not None:
+            balls = drawn.balls
+        elif drawn is not None:
+            drawn = replace(drawn, used=False, still=False)
+        self.materials(walls, table.get("materials", []))
+        gravity = self.pair(table["gravity"], "gravity") if "gravity" in table else None
+        slowing = {key: self.number(table[key], key, least=0.0) for key in ("rolling_friction", "drag") if key in table}
+        walls, sensors = self.sensors(walls, table["sensors"]) if "sensors" in table else (walls, None)
+        run = self.table(table.get("run", {}), "run")
+        self.known_keys(run, {"until", "bounces"}, "run.")
+        until = self.number(run["until"], "run.until", least=0.0) if "until" in run else None
+        bounces = self.whole(run["bounces"], "run.bounces") if "bounces" in run else None
+        scene = Scene(walls, balls, gravity, sensors=sensors, **slowing)
+        return SceneFile(scene, until, bounces, drawn, self.drawing, self.options)
+
+    # -- values
+
+    def known_keys(self, table: dict[str, Any], known: set[str], prefix: str) -> None:
+        self.wrong.extend(f"{prefix}{key}: no such key" for key in table if key not in known)
+
+    def table(self, value: Any, key: str) -> dict[str, Any]:
+        if isinstance(value, dict):
+            return value
+        self.wrong.append(f"{key}: not a table")
+        return {}
+
+    def rows(self, value: Any, key: str) -> list[tuple[str, dict[str, Any]]]:
+        if not isinstance(value, list):
+            self.wrong.append(f"{key}: not a list of tables")
+            return []
+        return [(f"{key}[{index}]", self.table(row, f"{key}[{index}]")) for index, row in enumerate(value)]
+
+    def number(self, value: Any, key: str, least: float = -math.inf, most: float = math.inf) -> float:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+            self.wrong.append(f"{key}: {value!r} is not a finite number")
+            return max(least, 0.0)
+        if not least <= value <= most:
+            bound = f"from {least:g} to {most:g}" if math.isfinite(most) else f"at least {least:g}"
+            self.wrong.append(f"{key}: {value!r} is not {bound}")
+            return max(least, 0.0)
+        return float(value)
+
+    def whole(self, value: Any, key: str) -> int:
+        number = self.number(value, key, least=0.0)
+        if number != int(number):
+            self.wrong.append(f"{key}: {value!r} is not a whole number")
+        return int(number)
+
+    def one_of(self, value: Any, key: str, words: tuple[Any, ...]) -> Any:
+        if not any(value is word or (isinstance(value, str) and value == word) for word in words):
+            self.wrong.append(f"{key}: {value!r} is not {' or '.join(str(word).lower() for word in words)}")
+            return words[0]
+        return value
+
+    def pair(self, value: Any, key: str) -> tuple[float, float]:
+        if not isinstance(value, list) or len(value) != 2:
+            self.wrong.append(f"{key}: {value!r} is not a pair of numbers")
+            return 0.0, 0.0
+        return self.number(value[0], f"{key}[0]"), self.number(value[1], f"{key}[1]")
+
+    def text(self, value: Any, key: str) -> str:
+        if not isinstance(value, str):
+            self.wrong.append(f"{key}: {value!r} is not text")
+            return ""
+        return value
+
+    # -- parts
+
+    def walls(self, table: dict[str, Any], balls: Balls) -> tuple[Walls | None, Drawn | None]:
+        """Give the walls, and what else a drawing holds."""
+        sources = [key for key in ("walls", "drawing") if key in table]
+        if len(sources) != 1:
+            self.wrong.append("walls, drawing: give exactly one of the two")
+            return None, None
+        value = table[sources[0]]
+        if "y_axis" in table and not isinstance(value, list):
+            self.wrong.append("y_axis: only goes with walls of the scene's own; a drawing and saved walls have theirs")
+        if sources == ["drawing"]:
+            drawn = self.drawn(table, np.asarray(balls.position))
+            return None if drawn is None else drawn.walls, drawn
+        if "import" in table:
+            self.wrong.append("import: only goes with a drawing")
+        if isinstance(value, str):
+            path = self.path(value, "walls")
+            return load(path) if path else None, None
+        if isinstance(value, dict):
+            return from_json(value, self.file), None
+        walls = self.polylines(value)
+        if walls is not None:
+            walls.y_axis = self.one_of(table.get("y_axis", "up"), "y_axis", ("up", "down"))
+        return walls, None
+
+    def drawn(self, table: dict[str, Any], balls: FloatArray) -> Drawn | None:
+        path = self.path(table["drawing"], "drawing")
+        options = self.table(table.get("import", {}), "import")
+        self.known_keys(options, set(option_names()), "import.")
+        known = {key: value for key, value in options.items() if key in option_names()}
+        try:
+            self.options = ImportOptions(**{"curves": "arcs", **known, **self.importing})
+        except WallsError as error:
+            self.wrong.append(f"import.{error.message}: {error.fix}")
+            return None
+        if path is None:
+            return None
+        from importers.read import read_drawing
+        from wallkit.scene.drawn_scene import drawn_scene
+
+        self.drawing = read_drawing(path)
+        return drawn_scene(self.drawing, self.options, balls if self.places is None else self.places)
+
+    def path(self, value: Any, key: str) -> Path | None:
+        name = self.text(value, key)
+        if not name:
+            return None
+        if self.folder is None:
+            self.wrong.append(f"{key}: this scene may not name other files; put its walls into it")
+            return None
+        return self.folder / name
+
+    def polylines(self, value: Any, name: str = "walls") -> Walls | None:
+        before = len(self.wrong)
+        rows = self.rows(value, name)
+        keys = {"vertices", "bulges", "closed", "name", "layer", "sides", "material"}
+        for key, row in rows:
+            self.known_keys(row, keys, f"{key}.")
+        if len(self.wrong) > before:
+            return None
+        try:
+            return Walls.from_polylines(
+                [row.get("vertices", ()) for _, row in rows],
+                [self.one_of(row.get("closed", True), f"{key}.closed", (True, False)) for key, row in rows],
+                bulges=[row.get("bulges") for _, row in rows],
+                sides=[self.one_of(row.get("sides", "both"), f"{key}.sides", ("both", "outward")) for key, row in rows],
+                material=[self.material(row.get("material", {}), f"{key}.material") for key, row in rows],
+                names=[self.text(row.get("name", ""), f"{key}.name") for key, row in rows],
+                layers=[self.text(row.get("layer", ""), f"{key}.layer") for key, row in rows],
+            )
+        except (ValueError, TypeError):
+            self.wrong.append(f"{name}: vertices are lists of [x, y]")
+            return None
+
+    def sensors(self, walls: Walls, value: Any) -> tuple[Walls, Walls | None]:
+        """Give the walls left, and the sensors: polylines of their own, or the walls that globs name."""
+        if isinstance(value, dict):
+            return walls, from_json(value, self.file)
+        if not isinstance(value, list) or not all(isinstance(glob, str) for glob in value):
+            return walls, self.polylines(value, "sensors")
+        fits = [any(fnmatchcase(word, glob) for word in (walls.layers[index], walls.names[index]) for glob in value)
+                for index in range(len(walls))]  # fmt: skip
+        if len(walls) and not any(fits):
+            self.wrong.append(f"sensors: no wall has a name or layer like {', '.join(map(repr, value))}")
+        return _chosen(walls, [not fit for fit in fits]), _chosen(walls, fits)
+
+    def material(self, value: Any, key: str, base: Material | None = None) -> Material:
+        base = base or Material()
+        table = self.table(value, key)
+        names = ("restitution", "tangential_restitution")
+        given = {name: self.number(table[name], f"{key}.{name}", 0.0, 1.0) for name in names if name in table}
+        return Material(
+            given.get("restitution", base.restitution),
+            given.get("tangential_restitution", base.tangential_restitution),
+        )
+
+    def materials(self, walls: Walls, value: Any) -> None:
+        """Give walls their materials by globs on layer and name; where several match, the last one wins."""
+        found = list(walls.materials)
+        for key, row in self.rows(value, "materials"):
+            self.known_keys(row, {"layer", "wall", "restitution", "tangential_restitution"}, f"{key}.")
+            layer, name = (
+                self.text(row.get("layer", "*"), f"{key}.layer"),
+                self.text(row.get("wall", "*"), f"{key}.wall"),
+            )
+            numbers = {word: row[word] for word in ("restitution", "tangential_restitution") if word in row}
+            before = len(self.wrong)
+            self.material(numbers, key)
+            if len(self.wrong) > before:
+                continue
+            matched = False
+            for index in range(len(walls)):
+                if fnmatchcase(walls.layers[index], layer) and fnmatchcase(walls.names[index], name):
+                    found[index] = self.material(numbers, key, found[index])
+                    matched = True
+            if not matched and len(walls):
+                self.wrong.append(f"{key}: no wall has the name {name!r} on a layer {layer!r}")
+        walls.materials = tuple(found)
+
+    def balls(self, value: Any) -> Balls:
+        rows = self.rows(value, "balls")
+        position, velocity, radius = np.zeros((len(rows), 2)), np.zeros((len(rows), 2)), np.zeros(len(rows))
+        for index, (key, row) in enumerate(rows):
+            self.known_keys(row, {"position", "velocity", "radius"}, f"{key}.")
+            position[index] = self.pair(row.get("position"), f"{key}.position")
+            velocity[index] = self.pair(row.get("velocity", [0.0, 0.0]), f"{key}.velocity")
+            radius[index] = self.number(row.get("radius", 0.0), f"{key}.radius", least=0.0)
+        return Balls(position, velocity, radius)
+
+
+def _chosen(walls: Walls, keep: list[bool]) -> Walls:
+    """Give some of the walls, everything else about them as it was."""
+    which = [index for index, kept in enumerate(keep) if kept]
+    spans = [slice(walls.offsets[index], walls.offsets[index + 1]) for index in which]
+    part = Walls.from_polylines(
+        [walls.vertices[span] for span in spans],
+        [bool(walls.closed[index]) for index in which],
+        bulges=[walls.bulges[span] for span in spans],
+        sides=[walls.sides[index] for index in which],
+        material=[walls.materials[index] for index in which],
+        names=[walls.names[index] for index in which],
+        layers=[walls.layers[index] for index in which],
+    )
+    taken = ("vertices", "offsets", "closed", "bulges", "sides", "materials", "names", "layers")
+    return replace(walls, depth=walls.depth[which], **{name: getattr(part, name) for name in taken})
+
+
+def scene_to_json(scene: Scene, until: float | None = None, bounces: int | None = None) -> dict[str, Any]:
+    """Give a scene as the ``wallkit-scene`` format, version 1, has it, walls and materials included."""
+    position = np.asarray(scene.balls.position, dtype=np.float64).reshape(-1, 2)
+    velocity = np.asarray(scene.balls.velocity, dtype=np.float64).reshape(-1, 2)
+    radius = np.broadcast_to(np.asarray(scene.balls.radius, dtype=np.float64), len(position))
+    balls = zip(position.tolist(), velocity.tolist(), radius.tolist(), strict=True)
+    run = {key: value for key, value in (("until", until), ("bounces", bounces)) if value is not None}
+    return {
+        "format": "wallkit-scene",
+        "version": 1,
+        **({"gravity": list(scene.gravity)} if scene.gravity is not None else {}),
+        **({"rolling_friction": scene.rolling_friction} if scene.rolling_friction is not None else {}),
+        **({"drag": scene.drag} if scene.drag is not None else {}),
+        **({"sensors": to_json(scene.sensors)} if scene.sensors is not None else {}),
+        **({"run": run} if run else {}),
+        "balls": [{"position": p, "velocity": v, "radius": r} for p, v, r in balls],
+        "walls": to_json(scene.walls),
+    }

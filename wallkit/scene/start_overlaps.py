@@ -1,0 +1,173 @@
+"""Room at the start: which balls overlap a wall, by how much, and where the nearest free spot is."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ragged import spread
+from wallkit.scene.scene import Balls, Scene, SceneError
+from wallkit.walls import Walls
+
+TOUCHING = 2.0**-44
+"""An overlap of this part of the scene's size is contact, as rounded."""
+WAYS = 48
+RINGS = 60
+
+
+def check_starts(scene: Scene) -> None:
+    """Refuse discs that overlap a two-sided wall where they start; one-sided walls may be come through.
+
+    Raises:
+        SceneError: the first of them, with place, depth and wall.
+    """
+    radius = np.asarray(scene.balls.radius)
+    if not np.any(radius > 0.0):
+        return
+    position = np.asarray(scene.balls.position)
+    gap, edge = clearances(scene.walls, position, radius)
+    size = _size(scene.walls)
+    overlapping = np.flatnonzero(gap < radius - TOUCHING * size)
+    if not len(overlapping):
+        return
+    ball = int(overlapping[0])
+    wall = int(np.searchsorted(scene.walls.edge_offsets, edge[ball], side="right") - 1)
+    name = f" ({scene.walls.names[wall]})" if scene.walls.names[wall] else ""
+    more = f"; {len(overlapping) - 1} more balls overlap" if len(overlapping) > 1 else ""
+    raise SceneError(
+        f"ball {ball} at ({position[ball, 0]:g}, {position[ball, 1]:g}) overlaps wall {wall}{name} "
+        f"by {radius[ball] - gap[ball]:.6g}{more}",
+        code="overlap",
+        fix="move it, make it smaller, or let it settle on the nearest free spot (settle)",
+    )
+
+
+def settled(scene: Scene) -> Scene:
+    """Give the scene with each overlapping disc moved to the nearest free spot.
+
+    The spots looked at lie on rings about the start, ever wider, in ``WAYS`` directions; the nearest free one is
+    then drawn in by bisection until the disc touches.
+
+    Raises:
+        SceneError: there is no room for a ball within the size of the scene.
+    """
+    radius = np.asarray(scene.balls.radius)
+    position = np.array(scene.balls.position)
+    gap, _edge = clearances(scene.walls, position, radius)
+    for ball in np.flatnonzero(gap < radius):
+        position[ball] = _nearest_free(scene.walls, position[ball], float(radius[ball]))
+    return replace(scene, balls=Balls(position, scene.balls.velocity, radius))
+
+
+def clearances(walls: Walls, position: FloatArray, reach: FloatArray) -> tuple[FloatArray, IntArray]:
+    """Measure the distance from each place to the nearest two-sided wall: (distance, edge); inf and -1 beyond reach."""
+    distance = np.full(len(position), np.inf)
+    nearest = np.full(len(position), -1, dtype=np.int64)
+    sides = np.repeat([s == "both" for s in walls.sides], np.diff(walls.edge_offsets))
+    edges = np.flatnonzero(sides)
+    if not len(edges) or not len(position):
+        return distance, nearest
+    place, edge = _near_pairs(walls, edges, position, float(reach.max()))
+    d = _distances(walls, edge, position[place])
+    near = d <= reach[place]
+    place, edge, d = place[near], edge[near], d[near]
+    order = np.lexsort((-edge, -d, place))  # the nearest of each place comes last and stays
+    distance[place[order]], nearest[place[order]] = d[order], edge[order]
+    return distance, nearest
+
+
+def _near_pairs(walls: Walls, edges: IntArray, position: FloatArray, reach: float) -> tuple[IntArray, IntArray]:
+    """List pairs (place, edge) that may be within reach.
+
+    Places are sorted by rows, and along each row; the box of an edge, widened, has one range of them in each row.
+    Boxes are widened by a millionth of the places' extent too, far above the rounding of the sorted keys.
+    """
+    a, b = walls.vertices[walls.edge_starts[edges]], walls.vertices[walls.edge_ends[edges]]
+    bulge = np.abs(walls.bulges[walls.edge_starts[edges]])
+    bow = np.hypot(*(b - a).T) / 2 * np.maximum(bulge, np.minimum(1.0, bulge))
+    corner = np.array([position[:, 0].min(), position[:, 1].min()])
+    width, height = float(position[:, 0].max() - corner[0]), float(position[:, 1].max() - corner[1])
+    widened = (reach + 2.0**-20 * (width + height) + bow)[:, None]
+    low, high = np.minimum(a, b) - widened - corner, np.maximum(a, b) + widened - corner
+    beside = (high[:, 0] >= 0.0) & (low[:, 0] <= width) & (high[:, 1] >= 0.0) & (low[:, 1] <= height)
+    near = np.flatnonzero(beside)
+    low, high = np.clip(low[near], 0.0, (width, height)), np.clip(high[near], 0.0, (width, height))
+    step = max(height / math.sqrt(len(position)), 2.0 * reach) or 1.0
+    stride = 2.0 * width or 1.0
+    keys = stride * np.floor((position[:, 1] - corner[1]) / step) + (position[:, 0] - corner[0])
+    order = np.argsort(keys)
+    keys = keys[order]
+    box, row = spread(*(np.floor(side[:, 1] / step).astype(np.int64) for side in (low, high)))
+    slack = 2.0**-22 * width
+    first = np.searchsorted(keys, stride * row + low[box, 0] - slack)
+    last = np.searchsorted(keys, stride * row + high[box, 0] + slack, side="right") - 1
+    pair, rank = spread(first, last)
+    return order[rank], edges[near[box[pair]]]
+
+
+def _distances(walls: Walls, edge: IntArray, place: FloatArray) -> FloatArray:
+    """Distance of each place from the edge beside it."""
+    start = walls.edge_starts[edge]
+    a, b, bulge = walls.vertices[start], walls.vertices[walls.edge_ends[edge]], walls.bulges[start]
+    d, w = b - a, place - a
+    square = np.einsum("ij,ij->i", d, d)
+    along = np.divide(np.einsum("ij,ij->i", d, w), square, out=np.zeros(len(d)), where=square > 0.0)
+    foot = a + np.clip(along, 0.0, 1.0)[:, None] * d
+    distance: FloatArray = np.hypot(*(place - foot).T)
+    arcs = np.flatnonzero((bulge != 0.0) & (square > 0.0))
+    if len(arcs):
+        distance[arcs] = _arc_distances(a[arcs], b[arcs], bulge[arcs], place[arcs])
+    return distance
+
+
+def _arc_distances(a: FloatArray, b: FloatArray, bulge: FloatArray, place: FloatArray) -> FloatArray:
+    d = b - a
+    left = np.stack([-d[:, 1], d[:, 0]], axis=1)
+    centre = (a + b) / 2 + left * ((1 - bulge**2) / (4 * bulge))[:, None]
+    radius = np.hypot(*(a - centre).T)
+    e = place - centre
+    turn = np.sign(bulge)
+    start = np.arctan2(*(a - centre).T[::-1])
+    angle = np.remainder(turn * (np.arctan2(e[:, 1], e[:, 0]) - start), 2 * np.pi)
+    ends = np.minimum(np.hypot(*(place - a).T), np.hypot(*(place - b).T))
+    distance: FloatArray = np.where(angle <= 4 * np.arctan(np.abs(bulge)), np.abs(np.hypot(*e.T) - radius), ends)
+    return distance
+
+
+def _nearest_free(walls: Walls, place: FloatArray, radius: float) -> FloatArray:
+    size = _size(walls) + radius
+    angle = 2 * np.pi * np.arange(WAYS) / WAYS
+    ways = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    for ring in range(RINGS):
+        step = radius / 8 * 1.15**ring
+        if step > 2 * size:
+            break
+        tries = place + step * ways
+        gap, _edge = clearances(walls, tries, np.full(WAYS, radius))
+        free = ways[gap >= radius]
+        if len(free):
+            high = _drawn_in(walls, place, free, step, radius)
+            nearest: FloatArray = place + high.min() * free[high.argmin()]
+            return nearest
+    raise SceneError(
+        f"there is no room for a ball of radius {radius:g} near ({place[0]:g}, {place[1]:g})", code="no-room"
+    )
+
+
+def _drawn_in(walls: Walls, place: FloatArray, ways: FloatArray, step: float, radius: float) -> FloatArray:
+    """Bisect how far along each way a ball must go to be free; at ``step`` it is."""
+    low, high = np.zeros(len(ways)), np.full(len(ways), step)
+    for _ in range(60):
+        middle = (low + high) / 2
+        gap, _edge = clearances(walls, place + middle[:, None] * ways, np.full(len(ways), radius))
+        free = gap >= radius
+        low, high = np.where(free, low, middle), np.where(free, middle, high)
+    return high
+
+
+def _size(walls: Walls) -> float:
+    x0, y0, x1, y1 = walls.box()
+    return math.hypot(x1 - x0, y1 - y0)

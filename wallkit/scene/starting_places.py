@@ -1,0 +1,166 @@
+"""Where a ball starts when nobody says so: the roomiest spot; and many balls: at random around it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wallkit.geometry.arrays import FloatArray
+from wallkit.walls import Walls
+from wallkit.walls.checking.self_check import straight_edges
+from wallkit.walls.sample import flattened
+from wallkit.walls.solid import walls_around
+
+_FINE_STEP = math.pi / 256  # chords of arcs are then off by at most 2e-5 of the radius
+_WAYS = 64  # directions that are tried out of a face that may be open
+_FACES = 24  # so many of the largest faces are searched for the roomiest spot
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """A place with room: its centre, the distance to the nearest wall, and the face it is in (of shapely)."""
+
+    x: float
+    y: float
+    room: float
+    face: Any
+
+
+def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
+    """Find the place inside the walls that is farthest from all of them, to 1 % of the distance or better.
+
+    Inside is every bounded face that the walls make; where there are open walls, also what remains of the box
+    around them, if most ways out of it end at a wall, or if there is nothing else. Faces of less than half the
+    largest one's area do not count: a room with a wide pillar is meant, not the pillar. Nor does what ``walls.solid``
+    says is material, unless ``anywhere`` is asked for. The search is shapely's ``maximum_inscribed_circle`` (GEOS,
+    after Mapbox's polylabel).
+
+    Returns:
+        The spot, or None where no face has room.
+    """
+    import shapely
+
+    rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
+    if not rings:
+        return None
+    lines = [np.vstack([ring, ring[:1]]) if c else ring for ring, c in zip(rings, walls.closed, strict=True)]
+    noded = shapely.node(shapely.multilinestrings([shapely.linestrings(line) for line in lines]))
+    best: Spot | None = None
+    for face in _faces(walls, noded, anywhere):
+        # A circle in a face of area A has at most the radius sqrt(A / pi): smaller faces cannot win any more.
+        if best and math.sqrt(face.area / math.pi) <= best.room:
+            continue
+        spot = _spot(face, noded)
+        better = spot and (best is None or spot.room > best.room)
+        if spot and better and (anywhere or not _in_material(walls, rings, spot)):
+            best = spot
+    return best
+
+
+def _faces(walls: Walls, noded: Any, anywhere: bool) -> list[Any]:
+    """Give the faces that may be meant as rooms, the largest first."""
+    import shapely
+
+    bounded = shapely.get_parts(shapely.polygonize([*shapely.get_parts(noded)]))
+    faces = [*bounded] if anywhere else [*bounded[~_solid_faces(walls, bounded)]]
+    if not walls.closed.all() and (anywhere or walls.solid is None or not walls.solid.room):
+        around = shapely.get_parts(shapely.difference(shapely.envelope(noded), shapely.union_all(bounded)))
+        around = [part for part in around if part.geom_type == "Polygon" and not part.is_empty]
+        nearly = [part for part in sorted(around, key=shapely.area)[-4:] if _is_nearly_closed(part, noded)]
+        faces += nearly if faces or nearly else around
+    faces.sort(key=shapely.area, reverse=True)
+    if faces and any(sides == "both" for sides in walls.sides):
+        faces = [face for face in faces if face.area >= 0.5 * faces[0].area]
+    return faces[:_FACES]
+
+
+def _solid_faces(walls: Walls, faces: Any) -> Any:
+    """Mark faces that are material by what the import has decided; none where nobody has."""
+    import shapely
+
+    if walls.solid is None or not len(faces):
+        return np.zeros(len(faces), dtype=np.bool_)
+    inner = shapely.get_coordinates(shapely.point_on_surface(faces))
+    around, _ = walls_around(straight_edges(walls), inner)
+    return (np.bincount(around, minlength=len(faces)) + walls.solid.room) % 2 == 1
+
+
+def _is_nearly_closed(face: Any, noded: Any) -> bool:
+    """Tell whether most ways out of a face's roomiest spot end at a wall."""
+    import shapely
+
+    spot = _spot(face, noded)
+    if spot is None:
+        return False
+    x0, y0, x1, y1 = noded.bounds
+    angle = np.arange(_WAYS) * (math.tau / _WAYS)
+    ends = (spot.x, spot.y) + 2 * math.hypot(x1 - x0, y1 - y0) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    ways = shapely.linestrings([[(spot.x, spot.y), end] for end in ends.tolist()])
+    return int(np.count_nonzero(shapely.intersects(ways, noded))) >= 0.8 * _WAYS
+
+
+def _in_material(walls: Walls, rings: list[FloatArray], spot: Spot) -> bool:
+    """Tell whether a spot is in what only one-sided walls keep balls out of: the smallest ring around it is a solid.
+
+    Two-sided walls keep a ball in as well as out; a room given as a plain ring of numbers has its room there.
+    """
+    import shapely
+
+    if walls.solid is not None or all(sides == "both" for sides in walls.sides):
+        return False
+    around = [ring for ring, closed in zip(rings, walls.closed, strict=True)
+              if closed and len(ring) > 2 and shapely.contains_xy(shapely.polygons(ring), spot.x, spot.y)]  # fmt: skip
+    if not around:
+        return False
+    x, y = min(around, key=lambda ring: float(shapely.area(shapely.polygons(ring)))).T
+    return bool(x @ np.roll(y, -1) - y @ np.roll(x, -1) > 0)  # twice the signed area: positive is a solid
+
+
+def _spot(face: Any, walls: Any) -> Spot | None:
+    import shapely
+
+    size = math.sqrt(shapely.area(face))
+    free = face
+    inner = shapely.intersection(walls, shapely.buffer(face, -1e-6 * size))
+    if not shapely.is_empty(inner):  # open walls inside: thickened by a hair, they become holes
+        free = shapely.difference(face, shapely.buffer(inner, 1e-6 * size))
+        free = max(shapely.get_parts(free), key=shapely.area, default=face)
+    if shapely.is_empty(free):
+        return None
+    line = shapely.maximum_inscribed_circle(free, tolerance=0.005 * size)
+    room = float(shapely.length(line))
+    if not room > 0:
+        return None
+    x, y = shapely.get_coordinates(line)[0]
+    return Spot(float(x), float(y), room, free)
+
+
+def scattered(walls: Walls, spot: Spot, count: int, radius: float, random: np.random.Generator) -> FloatArray:
+    """Choose (count, 2) places at random, evenly over where a ball fits in the face of a spot.
+
+    Raises:
+        SceneError: a ball of that radius fits nowhere there.
+    """
+    import shapely
+
+    from wallkit.scene.scene import SceneError
+
+    x0, y0, x1, y1 = spot.face.bounds
+    # Around a corner a buffer of 32 chords a quarter is short by 0.03 %, and arcs bow out of the face by _FINE_STEP.
+    room = shapely.buffer(spot.face, -1.0005 * radius - 2e-5 * max(x1 - x0, y1 - y0), quad_segs=32)
+    shapely.prepare(room)
+    if shapely.is_empty(room):
+        raise SceneError(
+            f"a ball of radius {radius:g} has no room",
+            code="no-room",
+            fix=f"the roomiest spot takes {spot.room:.6g}: give a smaller --radius",
+        )
+    x0, y0, x1, y1 = room.bounds
+    places = np.empty((0, 2))
+    while len(places) < count:
+        tried = random.uniform((x0, y0), (x1, y1), (2 * count + 64, 2))
+        places = np.concatenate([places, tried[shapely.contains_xy(room, tried[:, 0], tried[:, 1])]])
+    return places[:count]

@@ -1,0 +1,319 @@
+"""The index: square cells that list what a ball in them can meet, the crowded ones divided into smaller cells.
+
+At a contact the centre is at the distance r from what it touches: on one of two lines beside an edge, or on the
+arc around a corner that lies between the normals of its edges. An entry is in every cell which that locus crosses
+or passes within a margin of (for radii from r to R: within the band between the two). The margin is far above the
+rounding of a position and of a cell's border, so a contact is always listed in the cell in which the centre is at
+that time: the walk through the cells may stop at the first cell that contains its best contact.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.kernels.index.cell_entries import ALL_WAYS, Table, describe, enter, lay_out
+from wallkit.kernels.index.empty_rectangles import clear, clear_ahead, clear_departures, ways_along
+from wallkit.kernels.intrinsics import AT_ONCE
+from wallkit.kernels.jit import compiled
+from wallkit.kernels.records import BLOCK, CELL, QUARTERS, WAYS, Block, Grid, Model, in_lists
+from wallkit.simulation.aligned_arrays import on_cache_lines
+from wallkit.simulation.grid_chains import chains_in_cells
+
+MARGIN = 2.0**-16
+"""Of the side of a cell: far above the rounding of its border, which is given by a number below 2^30 (2^-23)."""
+ROUNDING = 2.0**-39
+"""Of the largest coordinate, added to the margin: far above the rounding of a position, and four times what a point
+under gravity may be off (``FALLING_TOLERANCE``)."""
+SMALLEST = 2.0**-28
+"""Side of the smallest cells, in parts of the largest coordinate: what ROUNDING adds to them is 2^-11 of their side."""
+FINE, COARSE, PER_EDGE = 0.2, 0.6, 0.8
+"""Side of the cells before any is divided, measured: 0.8 of the mean length of an edge, so that a cell that lists
+something lists one or two. In units of sqrt(area / edges) it is at least 0.2 (25 cells an edge; more fall out of the
+cache), and at most 0.6 (where edges are long and many meet)."""
+MOST_CELLS = 2.0**18
+"""Beyond this many, which a cache may hold, there are at most two an edge: no slower to fly among, quicker to make."""
+WORTH_EIGHTHS = 0.25
+"""Part of the ways for which cells that list something must be clear, if eighths are to be told apart: half of them
+where cells are small beside discs, few where they are not. Quarters need less memory."""
+SPARSE = 0.25
+"""Part of the cells that may list something for departures to be worth making, and clearings to lie by way for long."""
+WORTH_PACKING, WORTH_PACKING_SPARSE = 2.0**17, 2.0**19
+"""Cells from which on memory is asked less often where clearings lie with their cells: earlier if many of these list
+something, for then both are read."""
+CROWDED = 16
+"""A cell with more entries is divided."""
+MOST_BITS = 7
+"""A cell is divided into at most 2^7 by 2^7: more would be empty, mostly."""
+GROWTH, AT_LEAST = 64, 1 << 12
+"""Entries there may be, in all, for each one to be entered, and at the least. Divided cells list long edges over and
+over, and cells around a vertex at which a thousand edges meet are crowded however small they are."""
+COMPILING_PAYS = 4000
+"""Edges and corners that interpreted kernels take as long to enter as compiled ones to be loaded."""
+
+
+@dataclass(eq=False)
+class _Level:
+    """Cells of blocks, and the ids that they list; ``divided`` cells are the ``parts`` of the next level."""
+
+    blocks: NDArray[Any]
+    numbers: NDArray[np.int32]
+    """(cells + 1, 4) see ``Cell``."""
+    ids: NDArray[np.uint32]
+    ways: NDArray[np.uint8]
+    """By cell, see ``Table``; for the first level alone, and not for points or where cells list one thing on average:
+    then few of them are clear in any way."""
+    divided: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    parts: NDArray[Any] = field(default_factory=lambda: np.empty(0, dtype=BLOCK))
+
+    @cached_property
+    def listing(self) -> IntArray:
+        """The cells that list something."""
+        return np.flatnonzero(np.diff(self.numbers[:, 0]))
+
+    def block_of(self, cells: IntArray) -> NDArray[Any]:
+        """Give the block that each cell is in."""
+        return self.blocks[np.searchsorted(self.blocks["first"], cells, side="right") - 1]
+
+
+def build_grid(
+    model: Model,
+    fans: NDArray[Any],
+    box: FloatArray,
+    radii: tuple[float, float],
+    extent: float,
+    *,
+    machine_code: bool = False,
+    fine: bool = False,
+) -> tuple[Grid, NDArray[Any], NDArray[np.uint32], NDArray[np.int16]]:
+    """Sort edges and corners into cells.
+
+    Args:
+        model: with one cell that lists all there is to enter.
+        fans: ``Fan`` by vertex.
+        box: (2, 2) lowest and highest corner of a box that no edge reaches beyond.
+        radii: smallest and largest distance of a centre at a contact.
+        extent: largest absolute coordinate of a centre.
+        machine_code: use compiled kernels for a small scene too; the same cells come of both.
+        fine: make small cells, where many flights are to come: there are more to make, and fewer entries to look at.
+
+    Returns:
+        The grid, its cells (``CELL``), the ids that they list, and the clearings (see ``Model``).
+    """
+    work = _Work(model, fans, radii, extent, machine_code or len(model.ids) > COMPILING_PAYS)
+    finest = SMALLEST * extent
+    level: _Level | None = _first_level(work, model, box, fine)
+    levels = []
+    while level is not None:
+        levels.append(level)
+        level = _next_level(work, level, finest)
+    top = levels[0].blocks[0]
+    unit = min(float(level.blocks["side"].min()) for level in levels)
+    shift = int(math.log2(top["side"] / unit))
+    ids = np.concatenate([*(level.ids for level in levels), np.zeros(AT_ONCE, dtype=np.uint32)])
+    size = int(top["columns"]), int(top["rows"])
+    ways, *kinds = work.ways(levels[0], fine)
+    grid = Grid(float(top["x0"]), float(top["y0"]), unit, 1.0 / unit, shift, *size, *kinds)
+    cells = _joined(work, levels, grid.packed)
+    clearings = cells.view(np.int16) if grid.packed else work.clearings(grid)
+    work.clear(grid, ways, clearings)
+    if grid.departs:
+        work.depart(model, levels[0], grid, clearings)
+    return grid, cells, ids, np.asarray(clearings, dtype=np.int16)
+
+
+def _joined(work: _Work, levels: list[_Level], packed: int) -> NDArray[Any]:
+    """Put the cells of all levels one after the other, and what divided cells say in place of where ids begin.
+
+    The ids that a divided cell listed stay where they are: nobody asks for them.
+    """
+    joined = on_cache_lines(sum(len(level.numbers) - 1 for level in levels) << packed, CELL)
+    rows, cells, ids = joined.view(np.uint32).reshape(-1, 4 << packed), 0, 0
+    farthest = max(1, sum(len(level.ids) for level in levels))
+    for level in levels:
+        part = rows[cells : cells + len(level.numbers) - 1, :4]
+        part[:] = work.cells(level, ids, farthest)
+        cells, ids = cells + len(part), ids + len(level.ids)
+        part[level.divided] = 0
+        part[level.divided, 0] = (cells + level.parts["first"]) << packed
+        part[level.divided, 1] = np.log2(level.parts["columns"]).astype(np.int64)
+    return joined
+
+
+class _Work:
+    """Kernels, compiled or not, and what they are given in every call."""
+
+    def __init__(
+        self, model: Model, fans: NDArray[Any], radii: tuple[float, float], extent: float, machine_code: bool
+    ) -> None:
+        self.machine_code = machine_code
+        self.budget = GROWTH * len(model.ids) + AT_LEAST
+        self.distance, self._spread = sum(radii) / 2, (radii[1] - radii[0]) / 2
+        self._rounding = extent * ROUNDING
+        shared = model.lines, model.arcs, model.corners, fans
+        self._shared = shared if machine_code else in_lists(shared)
+
+    def reach(self, side: Any) -> Any:
+        """How far beyond its locus an entry goes."""
+        return self._spread + side * MARGIN + self._rounding
+
+    def count(self, blocks: NDArray[Any], source: NDArray[np.uint32]) -> tuple[Any, IntArray]:
+        """Count entries: (flat numbers of the cells of blocks, entries by block)."""
+        cells = int((blocks["columns"] * blocks["rows"]).sum())
+        table = Table(self._room(4 * cells + 4, np.int32), self._room(0, np.uint8), self._room(0, np.uint32))
+        return table.numbers, self._enter(blocks, source, table)
+
+    def fill(self, blocks: NDArray[Any], source: NDArray[np.uint32], numbers: Any, top: bool) -> _Level:
+        """Write the entries that were counted."""
+        entries, cells = self._run(lay_out, numbers), len(numbers) // 4 - 1
+        ids = self._room(entries, np.uint32)
+        ways = self._room(cells if top and self.distance > 0.0 and entries < cells else 0, np.uint8)
+        self._enter(blocks, source, Table(numbers, ways, ids))
+        self._run(clear, blocks if self.machine_code else in_lists(blocks), numbers, top)
+        listed = np.asarray(numbers, dtype=np.int32).reshape(-1, 4)
+        return _Level(blocks, listed, np.asarray(ids, dtype=np.uint32), np.asarray(ways, dtype=np.uint8))
+
+    def cells(self, level: _Level, ids: int, farthest: int) -> NDArray[np.uint32]:
+        """Give (n, 4) the cells of a level as ``Cell`` has them, where so many ids come before theirs."""
+        cells, numbers = self._room(4 * (len(level.numbers) - 1), np.uint32), level.numbers.ravel()
+        self._run(describe, numbers if self.machine_code else numbers.tolist(), ids, farthest, cells)
+        return np.asarray(cells, dtype=np.uint32).reshape(-1, 4)
+
+    def ways(self, top: _Level, fine: bool) -> tuple[NDArray[np.uint8], int, int, int]:
+        """Find in which ways flights may meet something in the cells of the first level: (their bits, ways, ...).
+
+        The others are what ``Grid`` says of them. Few cells list something where walls are far apart: there flights are
+        long, and departures pay.
+        """
+        ways, count, cells, listing = top.ways, WAYS, len(top.numbers) - 1, top.listing
+        if not len(ways):
+            ways, count = np.zeros(cells, dtype=np.uint8), QUARTERS
+            ways[listing] = ALL_WAYS
+        elif np.unpackbits(ways[listing, None], axis=1).mean() > 1.0 - WORTH_EIGHTHS:
+            ways, count = ways | (ways >> np.uint8(4)), QUARTERS
+        sparse = len(listing) < SPARSE * cells
+        packed = self.machine_code and cells > (WORTH_PACKING_SPARSE if sparse else WORTH_PACKING)
+        departs = fine and sparse and not packed and self.distance == 0.0
+        return ways, count, int(departs), int(packed)
+
+    def clearings(self, grid: Grid) -> Any:
+        """Make room for clearings and departures by way."""
+        return self._room((grid.ways + WAYS * grid.departs) * grid.columns * grid.rows, np.int16)
+
+    def clear(self, grid: Grid, ways: NDArray[np.uint8], clearings: Any) -> None:
+        """Find the clearings ahead of each cell of the first level, each way."""
+        above = self._room(grid.columns, np.int16)
+        self._run(clear_ahead, ways if self.machine_code else in_lists(ways), grid, above, clearings)
+
+    def depart(self, model: Model, top: _Level, grid: Grid, clearings: Any) -> None:
+        """Find the clearings of balls that leave a wall."""
+        along = self._room(len(model.lines), np.uint8)
+        self._run(ways_along, *self._shared[:2], along)
+        chains = chains_in_cells(model, np.asarray(along, dtype=np.uint8), top.numbers, top.ids, top.listing)
+        listing_and_chains = top.listing, chains
+        if not self.machine_code:
+            listing_and_chains = in_lists(listing_and_chains)
+        self._run(clear_departures, *listing_and_chains, grid, clearings)
+
+    def _enter(self, blocks: NDArray[Any], source: NDArray[np.uint32], table: Table) -> IntArray:
+        entered = self._room(len(blocks), np.int64)
+        if not self.machine_code:
+            blocks, source = in_lists((blocks, source))
+        self._run(enter, blocks, source, *self._shared, self.distance, table, entered)
+        return np.asarray(entered)
+
+    def _room(self, size: int, kind: Any) -> Any:
+        """Give so many zeros."""
+        return np.zeros(size, dtype=kind) if self.machine_code else [0] * size
+
+    def _run(self, kernel: Callable[..., Any], *arguments: Any) -> Any:
+        return (compiled(kernel) if self.machine_code else kernel)(*arguments)
+
+
+def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Level:
+    """Enter all that the model's one cell lists; where that comes to too many entries, into larger cells."""
+    first, arcs, corners, end = model.cells[0].tolist()
+    width, height = (box[1] - box[0]).tolist()
+    side = _side(width, height, corners, _mean_length(model), fine)
+    while True:
+        beyond = work.distance + work.reach(side)
+        low, high = box[0] - beyond, box[1] + beyond
+        columns, rows = (int(n) + 1 for n in np.floor((high - low) / side))
+        span, most = (first, arcs, corners, end), work.budget // 2
+        block = Block(low[0], low[1], side, 1.0 / side, work.reach(side), columns, rows, 0, *span, most)
+        blocks = np.array([block], dtype=BLOCK)
+        numbers, entered = work.count(blocks, model.ids)
+        if entered[0] <= most:
+            work.budget -= int(entered[0])
+            return work.fill(blocks, model.ids, numbers, top=True)
+        side *= 2.0
+
+
+def _side(width: float, height: float, count: int, length: float, fine: bool) -> float:
+    longest, even = max(width, height), math.sqrt(width * height / count)
+    side = max(FINE * even, min(COARSE * even, PER_EDGE * length)) if fine else COARSE * even
+    least = math.sqrt(width * height / max(MOST_CELLS, 2.0 * count))
+    return max(side, least, longest / (4.0 * count + 64.0), longest * 2.0**-20)
+
+
+def _mean_length(model: Model) -> float:
+    """Mean length of edges, of arcs that of their chords."""
+    lengths = model.lines["length"]
+    return float(lengths.sum()) / max(int(np.count_nonzero(lengths)), 1)
+
+
+def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:
+    """Divide the crowded cells of a level, those that it helps, as far as the budget goes; None without any."""
+    counts = np.diff(level.numbers[:, 0])
+    cells = np.flatnonzero(counts > CROWDED)
+    cells = cells[level.block_of(cells)["side"] >= 2.0 * finest]
+    if not len(cells):
+        return None
+    blocks = _parts(work, level, cells, finest)
+    numbers, entered = work.count(blocks, level.ids)
+    growth = np.where(entered > blocks["most"], np.inf, entered / counts[cells])
+    order = np.argsort(growth, kind="stable")
+    fits = np.cumsum(entered[order]) <= work.budget // 2
+    kept = np.sort(order[fits & np.isfinite(growth[order])])
+    if not len(kept):
+        return None
+    if len(kept) < len(cells):
+        blocks = blocks[kept]
+        blocks["first"] = _starts(blocks["columns"] * blocks["rows"])
+        numbers, entered = work.count(blocks, level.ids)
+    work.budget -= int(entered.sum())
+    level.divided, level.parts = cells[kept], blocks
+    return work.fill(blocks, level.ids, numbers, top=False)
+
+
+def _parts(work: _Work, level: _Level, cells: IntArray, finest: float) -> NDArray[Any]:
+    """Make a block of each cell, with a quarter as many parts as it has entries, or as many."""
+    parents, numbers = level.block_of(cells), level.numbers
+    entries = numbers[cells + 1, 0] - numbers[cells, 0]
+    room = np.floor(np.log2(parents["side"] / finest))
+    bits = np.clip(np.floor(np.log2(entries) / 2), 1, np.minimum(room, MOST_BITS)).astype(np.int64)
+    row, column = np.divmod(cells - parents["first"], parents["columns"])
+    blocks = np.zeros(len(cells), dtype=BLOCK)
+    blocks["x0"], blocks["y0"] = (parents[o] + at * parents["side"] for o, at in (("x0", column), ("y0", row)))
+    blocks["side"] = np.ldexp(parents["side"], -bits)
+    blocks["per_side"] = 1.0 / blocks["side"]
+    blocks["reach"] = work.reach(blocks["side"])
+    blocks["columns"] = blocks["rows"] = 1 << bits
+    blocks["first"] = _starts(1 << 2 * bits)
+    for part, name in enumerate(("start", "arcs", "corners")):
+        blocks[name] = numbers[cells, part]
+    blocks["end"] = numbers[cells + 1, 0]
+    blocks["most"] = 2 * entries << bits
+    return blocks
+
+
+def _starts(sizes: IntArray) -> IntArray:
+    starts: IntArray = np.cumsum(sizes) - sizes
+    return starts

@@ -1,0 +1,275 @@
+"""How far a run can be trusted: a small error is carried along from contact to contact.
+
+Between contacts a small error of the state (dx, dv) grows as ``dx + dv t``; gravity is the same for both and
+drops out. At a contact with unit normal n and velocity v (v' after) the neighbour touches earlier or later by
+``dt = -dx.n / (v.n)``, at ``dx + v dt`` along the wall, where the normal is turned by ``dn = k (dx + v dt)``
+(k the curvature of the line that the ball's centre cannot cross: 0 beside a line, 1 / r about a corner,
+1 / (R + r) outside and -1 / (R - r) inside an arc). With the rule of the bounce
+``v' = T v - (T + R) (v.n) n`` and gravity g this gives the state just after, at the time of the run itself (a
+ball that begins to slide keeps what its error has along the wall):
+
+    dx' = dx + (v - v') dt
+    dv' = T w - (T + R) ((w.n) n + (v.dn) n + (v.n) dn) - g dt,      w = dv + g dt
+
+(Dellago, Posch and Hoover, Phys. Rev. E 53, 1485 (1996), here with restitution and gravity). Each contact adds
+its own new error: roundings of the state, and the wall's own displacement and turn. Their covariance is
+carried (new errors count as independent), which gives the root mean square; what is promised is
+three times that.
+
+Rolling friction and drag leave the path as it is: the errors are those of the same ball without them.
+
+Where the first order ends, trust ends: when the error reaches the distance by which the path passed a corner
+(points: the distance of a hit from a corner that turns), or the depth of a grazing hit.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.bulge_arcs import circles
+from wallkit.kernels.flight.error_growth import carry, stretch
+from wallkit.kernels.jit import compiled
+from wallkit.scene.scene import Scene
+from wallkit.simulation.damping import damping_of, on_a_free_clock
+from wallkit.simulation.near_misses import CORNER, GRAZE, Flights, near_misses
+
+Source = Literal["rounding", "drawing"]
+Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
+RMS_ROUNDING = 0.6 * 2.0**-53
+VERTEX, ENTER = (
+    1,
+    4,
+)  # kinds of contacts, see wallkit.simulation.run.Kind: bounces up to the one, sensors from the other
+COMPILED_FROM = 50_000  # contacts
+SURE = 3.0  # promised is this many times the root mean square
+
+
+@dataclass(frozen=True, slots=True)
+class Horizon:
+    """Up to where one ball's run is good to a tolerance.
+
+    Attributes:
+        tolerance: of the place of a contact, in the drawing's units.
+        bounces: so many bounces, from the first, are good to it.
+        time: of the last contact that is; the run's end where all are good.
+        whole: nothing of the run is in doubt.
+        source: what the error comes from: the rounding of the arithmetic, or the drawing's own tolerance.
+        reason: why trust ends: ``"growth"``, ``"corner"`` (it may pass a corner on the other side), ``"graze"``
+            (it may miss what it grazed), or ``""``.
+    """
+
+    tolerance: float
+    bounces: int
+    time: float
+    whole: bool
+    source: Source = "rounding"
+    reason: str = ""
+
+    def sentence(self) -> str:
+        """Say it in one line, for people."""
+        to = f"{self.tolerance:g}".replace("e-0", "e-")
+        if self.whole:
+            return f"good to {to} throughout ({self.bounces} bounces)"
+        after = {"corner": "a corner decides after that", "graze": "a grazing hit decides after that"}
+        end = after.get(self.reason, "chaos after that")
+        return f"good to {to} up to bounce {self.bounces}; {end}"
+
+
+def trusted_until(
+    scene: Scene,
+    contacts: Any,
+    ball: int = 0,
+    tolerance: float = 1e-6,
+    source: Source = "rounding",
+    end: float = math.nan,
+) -> Horizon:
+    """Say up to where a ball's contacts are good to ``tolerance``.
+
+    Args:
+        scene: what was run.
+        contacts: its contacts (the dtype ``run.CONTACT``), of all balls, in order of time for each; where a
+            slide begins and ends is part of the path, and no bounce.
+        ball: which ball.
+        tolerance: of the place of a contact, in the drawing's units; above 0.
+        source: ``"rounding"``, or ``"drawing"``: walls that are off by their ``measured_error``.
+        end: the time at which the run ended, for a run that is good throughout.
+    """
+    own = contacts[(contacts["ball"] == ball) & (contacts["kind"] < ENTER)]  # a sensor changes no flight
+    _rms, worst = predicted_errors(scene, own, ball, source)
+    bad = np.flatnonzero(~(worst <= tolerance))
+    limit = int(bad[0]) if len(bad) else len(own)
+    reason = "growth" if len(bad) else ""
+    doubt, why = _first_doubt(scene, own[:limit], ball, worst[:limit])
+    if doubt < limit:
+        limit, reason = doubt, why
+    whole = limit == len(own)
+    time = float(own["time"][limit - 1]) if limit else 0.0
+    bounces = int(np.count_nonzero(own["kind"][:limit] <= VERTEX))
+    return Horizon(tolerance, bounces, end if whole and math.isfinite(end) else time, whole, source, reason)
+
+
+def predicted_errors(
+    scene: Scene, own: Any, ball: int = 0, source: Source = "rounding"
+) -> tuple[FloatArray, FloatArray]:
+    """Predict the error of the place of each contact of one ball: root mean square, and at worst.
+
+    Args:
+        scene: what was run.
+        own: (n,) contacts of that ball alone, in order.
+        ball: which ball.
+        source: see :func:`trusted_until`.
+
+    Returns:
+        Two arrays (n,), in the drawing's units; infinite once that is no number any more.
+    """
+    course = _course(scene, own, ball)
+    fresh = _roundings(scene, own, course) if source == "rounding" else _drawing_errors(scene, own)
+    variance = np.full(len(own), np.inf)
+    _kernel(carry, len(own))(*course, fresh, variance)
+    variance[~(variance >= 0.0)] = np.inf  # overflown on the way: beyond any promise
+    rms = np.sqrt(variance)
+    return rms, SURE * rms
+
+
+def growth(scene: Scene, own: Any, ball: int = 0) -> FloatArray:
+    """Carry one small error along; its mean per time is the largest Lyapunov exponent.
+
+    Args:
+        scene: what was run.
+        own: (n,) contacts of one ball alone, in order.
+        ball: which ball.
+
+    Returns:
+        (n,) natural logarithm of the growth from each contact to the next, of ``|(dx, dv)|`` with lengths and
+        speeds in the drawing's units.
+    """
+    logs = np.zeros(len(own))
+    _kernel(stretch, len(own))(*_course(scene, own, ball), np.array([0.6, 0.3, 0.2, 0.7]), logs)
+    return logs
+
+
+def _kernel(function: Any, contacts: int) -> Any:
+    """Interpret some 20 microseconds a contact, or compile (seconds, once) where that would take longer."""
+    return compiled(function) if contacts > COMPILED_FROM else function
+
+
+def _course(scene: Scene, own: Any, ball: int) -> Course:
+    """What the kernels need of one ball's run: first velocity, path, bends, restitutions, accelerations."""
+    materials = scene.walls.materials
+    table = np.array([(m.tangential_restitution, m.restitution) for m in materials]).reshape(-1, 2)
+    path = np.stack([own[name].astype(np.float64) for name in ("time", "vx", "vy", "nx", "ny", "kind")], axis=1)
+    path[:, 5] = np.maximum(path[:, 5] - 1.0, 0.0)  # edge and vertex are bounces; slide and leave are not
+    begin, start = (np.atleast_2d(np.asarray(part))[ball] for part in (scene.balls.position, scene.balls.velocity))
+    if (damping := damping_of(scene)) is not None:
+        path[:, 0], path[:, 1:3] = on_a_free_clock(damping, np.concatenate([begin, start]), own)
+    gravity = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
+    pull = np.tile(gravity, (len(own) + 1, 1))
+    slides = path[:, 5] == 1.0
+    along = np.stack([-path[slides, 4], path[slides, 3]], axis=1)
+    pull[1:][slides] = along * (along @ gravity)[:, None]
+    return start, np.ascontiguousarray(path), _bends(scene, own, ball), table[own["wall"]], pull
+
+
+def _roundings(scene: Scene, own: Any, course: Course) -> FloatArray:
+    """(n, 4) what the arithmetic of each contact adds: see :func:`wallkit.kernels.flight.error_growth.carry`.
+
+    A rounding is at most EPS = 2^-53 of the number, and some 0.6 of that as a root mean square. Places are as
+    large as the distance from the local origin; the normal about a corner or on an arc is taken from the place,
+    so it turns by that rounding times the curvature. A wall along an axis turns one sign and rounds nothing.
+    """
+    from wallkit.simulation.modelled import local_origin
+
+    _, path, bend, keep, _ = course
+    x0, y0 = local_origin(scene.walls.vertices)
+    place = RMS_ROUNDING * np.hypot(own["x"] - x0, own["y"] - y0)
+    plain = (bend == 0) & ((path[:, 3] == 0) | (path[:, 4] == 0)) & (keep == 1).all(axis=1)
+    turn = np.where(plain, 0.0, RMS_ROUNDING + place * np.abs(bend))
+    return np.stack([place, turn, place, np.where(plain, 0.0, RMS_ROUNDING)], axis=1)
+
+
+def _drawing_errors(scene: Scene, own: Any) -> FloatArray:
+    """(n, 4) what walls that are off by their ``measured_error`` add at each contact."""
+    walls = scene.walls
+    fresh = np.zeros((len(own), 4))
+    fresh[:, 0] = walls.measured_error
+    if walls.measured_normal_error is not None:
+        fresh[:, 1] = walls.measured_normal_error
+    else:  # a chord of length c with the sagitta s is turned by at most 4 s / c from its arc
+        d = walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]
+        chord = np.maximum(np.hypot(d[:, 0], d[:, 1]), walls.measured_error or 1.0)
+        edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
+        fresh[:, 1] = 4 * walls.measured_error / chord[edge]
+    return fresh
+
+
+def _bends(scene: Scene, own: Any, ball: int) -> FloatArray:
+    """(n,) curvature at each contact of the line that the ball's centre cannot cross, positive when convex."""
+    walls = scene.walls
+    radius = _radius(scene, ball)
+    bends = np.zeros(len(own))
+    corner = own["edge"] < 0
+    if radius > 0:
+        bends[corner] = 1 / radius
+    if walls.has_arcs:
+        edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
+        start = walls.edge_starts[edge]
+        bulge = np.where(corner, 0.0, walls.bulges[start])
+        round_ = bulge != 0
+        centre, curve = circles(walls.vertices[start], walls.vertices[walls.edge_ends[edge]], bulge)
+        facing = (own["x"] - centre[:, 0]) * own["nx"] + (own["y"] - centre[:, 1]) * own["ny"]
+        with np.errstate(divide="ignore"):
+            outside, inside = 1 / (curve + radius), -1 / (curve - radius)
+        bends[round_] = np.where(facing > 0, outside, inside)[round_]
+    return bends
+
+
+def _radius(scene: Scene, ball: int) -> float:
+    radii = np.asarray(scene.balls.radius, dtype=np.float64)
+    return float(radii if radii.ndim == 0 else radii[ball])
+
+
+def _first_doubt(scene: Scene, own: Any, ball: int, worst: FloatArray) -> tuple[int, str]:
+    """Find the first contact whose flight, or hit, is so close to a corner or a graze that the error decides."""
+    if not len(own):
+        return 0, ""
+    radius = _radius(scene, ball)
+    doubts = np.zeros(len(own), dtype=np.int8)
+    grazing = _grazing_depth(scene, own, ball)
+    doubts[grazing <= worst] = GRAZE
+    for index, clear, decides in near_misses(scene, _flights(scene, own, ball), radius, float(worst.max())):
+        doubts[index[clear <= worst[index]]] = decides
+    found = np.flatnonzero(doubts)
+    if not len(found):
+        return len(own), ""
+    return int(found[0]), "corner" if doubts[found[0]] == CORNER else "graze"
+
+
+def _flights(scene: Scene, own: Any, ball: int) -> Flights:
+    first, path, _, _, pull = _course(scene, own, ball)
+    begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
+    ends = np.stack([own["x"], own["y"]], axis=1)
+    slides = np.concatenate([[False], path[:-1, 5] == 1.0])  # a ball that slides misses nothing
+    return Flights(
+        start=np.concatenate([begin[None], ends[:-1]]),
+        end=ends,
+        velocity=np.concatenate([first[None], path[:-1, 1:3]]),
+        time=np.where(slides, 0.0, np.diff(path[:, 0], prepend=0.0)),
+        pull=pull[:-1] if scene.gravity is not None else None,
+    )
+
+
+def _grazing_depth(scene: Scene, own: Any, ball: int) -> FloatArray:
+    """(n,) by how much a neighbour may be off before it misses the convex thing that was hit: rho (1 - sin)."""
+    bends = _bends(scene, own, ball)
+    speed = np.hypot(own["vx"], own["vy"])
+    cosine = np.divide(own["vx"] * own["nx"] + own["vy"] * own["ny"], speed, out=np.ones(len(own)), where=speed > 0)
+    lost = cosine**2 / (1 + np.sqrt(np.maximum(0.0, 1 - cosine**2)))
+    depth: FloatArray = np.divide(
+        lost, bends, out=np.full(len(own), np.inf), where=(bends > 0) & (own["kind"] <= VERTEX)
+    )
+    return depth

@@ -1,0 +1,193 @@
+"""From a scene to what the kernels see: local coordinates, flat arrays, an index, None for what is absent."""
+
+from __future__ import annotations
+
+import math
+from copy import copy
+from itertools import repeat
+from operator import is_
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.kernels.records import CELL, Model, in_lists
+from wallkit.scene.scene import Balls, Scene, SceneError
+from wallkit.simulation.build_grid import build_grid
+from wallkit.simulation.damping import damping_of
+from wallkit.simulation.edge_records import arcs_of, corners_of, lines_of, no_corners
+from wallkit.walls import Walls
+
+BRUTE_FORCE = 16
+"""Up to this many edges looking at all of them beats any index."""
+FAR = 2.0**20
+"""Extents from which a ball may come if there is to be an index: the rounding of its place (2^-50 of the way) is then
+below a part in 2^30 of the scene. For one from farther away all edges are asked."""
+
+
+class Modelled:
+    """A scene as the kernels see it.
+
+    Attributes:
+        model: arrays for the compiled kernels.
+        origin: (2,) added to local coordinates it gives the scene's.
+        radii: (n,) of the balls.
+        box: (x_min, y_min, x_max, y_max) that no wall reaches beyond, in the scene's coordinates.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        index: str = "auto",
+        machine_code: bool = False,
+        fine: bool = False,
+        origin: FloatArray | None = None,
+    ) -> None:
+        """Model a scene.
+
+        Args:
+            scene: walls, balls, and what acts.
+            index: ``"grid"``, ``"none"``, or ``"auto"``: a grid where there are many edges.
+            machine_code: whether flights will be compiled anyway; then the index is made by compiled kernels too.
+            fine: whether there will be many flights, see ``build_grid``.
+            origin: (2,) of the local coordinates, where they are those of other walls; None for their own.
+        """
+        self.box = _box(scene.walls)
+        self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
+        self.origin = local_origin(scene.walls.vertices) if origin is None else origin
+        self.model = self._made(scene, index, machine_code, fine)
+        self._lists: Model | None = None
+
+    def _made(self, scene: Scene, index: str, machine_code: bool, fine: bool) -> Model:
+        walls, radius = scene.walls, float(self.radii.max(initial=0.0))
+        vertices, starts, ends = walls.vertices - self.origin, walls.edge_starts, walls.edge_ends
+        lines, bulges = lines_of(vertices, starts, ends), walls.bulges[starts]
+        arcs = arcs_of(lines, bulges)
+        corners = no_corners()
+        if radius > 0.0:
+            least = float(self.radii[self.radii > 0.0].min())
+            corners = corners_of(vertices, lines, arcs, bulges, starts, ends, least)
+        is_arc = arcs["radius"] > 0.0 if arcs is not None else np.zeros(len(lines), dtype=np.bool_)
+        is_line = (lines["length"] > 0.0) & ~is_arc
+        kinds = [np.flatnonzero(which).astype(np.uint32) for which in (is_line, is_arc, corners.open)]
+        ids = np.concatenate([*kinds, np.zeros(1, dtype=np.uint32)])
+        model = Model(
+            ids=ids,
+            cells=_one_cell(*map(len, kinds)),
+            grid=None,
+            clearings=None,
+            lines=lines,
+            arcs=arcs,
+            corners=corners.records,
+            edge_wall=np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)),
+            corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)),
+            restitution=_restitution(scene),
+            one_sided=_one_sided(scene),
+            gravity=_gravity(scene),
+            damping=damping_of(scene),
+            extent=float(np.abs(vertices).max(initial=0.0)) + radius,
+        )
+        many = len(kinds[0]) + len(kinds[1]) > BRUTE_FORCE
+        if index != "grid" and not (index == "auto" and many):
+            return model
+        least = float(self.radii.min(initial=radius))
+        if model.one_sided is not None:
+            least = 0.0  # a disc may stand across a wall that it came through
+        farthest = float(np.abs(np.asarray(scene.balls.position) - self.origin).max(initial=model.extent))
+        if farthest > FAR * model.extent:
+            return model
+        box = np.array(self.box).reshape(2, 2) - self.origin
+        grid, cells, ids, clearings = build_grid(
+            model, corners.fans, box, (least, radius), farthest, machine_code=machine_code, fine=fine
+        )
+        return model._replace(ids=ids, cells=cells, grid=grid, clearings=clearings)
+
+    def with_balls(self, balls: Balls) -> Modelled | None:
+        """Give the same model with other balls; None if it must be made anew, for other radii or from farther away."""
+        radii, off = np.asarray(balls.radius), np.abs(np.asarray(balls.position) - self.origin)
+        if not (len(radii) and len(self.radii) and off.max() <= self.model.extent):
+            return None
+        if (radii.min(), radii.max()) != (self.radii.min(), self.radii.max()):
+            return None
+        other = copy(self)
+        other.radii = radii
+        return other
+
+    @property
+    def lists(self) -> Model:
+        """The model with lists of Python floats for arrays: several times faster to interpret."""
+        if self._lists is None:
+            self._lists = in_lists(self.model)
+        return self._lists
+
+    def index_of_edge(self, scene: Scene) -> tuple[IntArray, IntArray]:
+        """Give wall and edge within the wall of each edge overall."""
+        offsets = scene.walls.edge_offsets
+        wall = np.repeat(np.arange(len(scene.walls)), np.diff(offsets))
+        return wall, np.arange(len(wall)) - offsets[wall]
+
+
+def _box(walls: Walls) -> tuple[float, float, float, float]:
+    """Box around the vertices, widened by what the arcs bow at most: half a chord times the bulge, or the circle."""
+    x0, y0, x1, y1 = walls.box()
+    if not walls.has_arcs:
+        return x0, y0, x1, y1
+    chord = np.hypot(*(walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]).T)
+    bulge = np.abs(walls.bulges[walls.edge_starts])
+    bow = float((chord * bulge * np.where(bulge > 1.0, 1.0, 0.5)).max(initial=0.0))
+    return x0 - bow, y0 - bow, x1 + bow, y1 + bow
+
+
+def local_origin(vertices: FloatArray) -> FloatArray:
+    """Choose an origin near the walls: coordinates relative to it are exact, and small far from (0, 0).
+
+    It is a multiple of a power of two several times the scene's size, so that a scene shifted by a larger power
+    of two has the same local coordinates, bit for bit. Where a subtraction would round, the origin stays (0, 0).
+    """
+    origin = np.zeros(2)
+    if len(vertices) == 0:
+        return origin
+    x, y = vertices.T
+    low = np.array([x.min(), y.min()])
+    size = float(max(x.max() - low[0], y.max() - low[1]))
+    if size <= 0.0 or not math.isfinite(size):
+        return origin
+    step = 2.0 ** (math.frexp(size)[1] + 2)
+    origin = np.floor(low / step + 0.5) * step
+    local = vertices - origin
+    back = vertices - local  # with the next line Knuth's exact remainder of a subtraction
+    lost = (vertices - (local + back)) + (back - origin)
+    return origin if not np.any(lost) and np.array_equal(local + origin, vertices) else np.zeros(2)
+
+
+def _one_cell(lines: int, arcs: int, corners: int) -> NDArray[Any]:
+    """List everything in one cell."""
+    end = lines + arcs + corners
+    return np.array([(0, lines, lines + arcs, end)], dtype=CELL)
+
+
+def _restitution(scene: Scene) -> FloatArray | None:
+    materials = scene.walls.materials
+    same = bool(materials) and all(map(is_, materials, repeat(materials[0])))  # told at once, of a million too
+    different = materials[:1] if same else {id(m): m for m in materials}.values()
+    if all(m.restitution == 1.0 and m.tangential_restitution == 1.0 for m in different):
+        return None
+    pairs = np.array([(m.restitution, m.tangential_restitution) for m in materials], dtype=np.float64)
+    return np.ascontiguousarray(pairs).reshape(-1)
+
+
+def _gravity(scene: Scene) -> FloatArray | None:
+    if scene.gravity is None:
+        return None
+    gravity = np.array(scene.gravity, dtype=np.float64)
+    if gravity.shape != (2,) or not np.isfinite(gravity).all():
+        raise SceneError(f"gravity is {scene.gravity!r}", code="bad-gravity", fix="give two numbers, GX,GY")
+    return gravity if gravity.any() else None
+
+
+def _one_sided(scene: Scene) -> IntArray | None:
+    if "outward" not in scene.walls.sides:
+        return None
+    return np.array([sides == "outward" for sides in scene.walls.sides], dtype=np.int64)

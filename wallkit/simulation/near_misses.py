@@ -1,0 +1,186 @@
+"""What a path only just missed: corners and walls that a small error would have it hit, or pass on the other side.
+
+All between two contacts: a straight flight, or a parabola under gravity. A disc is the path of its centre, and what it
+misses is widened by its radius.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.bulge_arcs import circles
+from wallkit.scene.scene import Scene
+
+CORNER, GRAZE = 1, 2
+Near = tuple[NDArray[np.int64], FloatArray, int]
+"""Which flights, by how much they missed, and what: CORNER or GRAZE."""
+
+
+@dataclass(frozen=True, slots=True)
+class Flights:
+    """The flights of one ball from contact to contact.
+
+    Attributes:
+        start: (n, 2) where each begins.
+        end: (n, 2) where it ends.
+        velocity: (n, 2) at its start.
+        time: (n,) how long it takes.
+        pull: (n, 2) acceleration, or None where there is none.
+    """
+
+    start: FloatArray
+    end: FloatArray
+    velocity: FloatArray
+    time: FloatArray
+    pull: FloatArray | None
+
+    @property
+    def pulls(self) -> FloatArray:
+        """(n, 2) acceleration, zeros where there is none."""
+        return np.zeros_like(self.velocity) if self.pull is None else self.pull
+
+    def at(self, which: NDArray[np.int64], when: FloatArray) -> FloatArray:
+        """(k, 2) centres of some flights at times since their start."""
+        t = when[:, None]
+        place: FloatArray = self.start[which] + self.velocity[which] * t + 0.5 * self.pulls[which] * t * t
+        return place
+
+
+def near_misses(scene: Scene, flights: Flights, radius: float, reach: float) -> Iterator[Near]:
+    """Find what the flights pass by no more than ``reach``.
+
+    Args:
+        scene: the walls.
+        flights: of one ball.
+        radius: of it.
+        reach: the largest error that matters.
+    """
+    yield _near_corners(scene, flights, radius, reach)
+    if scene.walls.has_arcs:
+        yield _near_arcs(scene, flights, radius, reach)
+    if flights.pull is not None:
+        yield _near_lines(scene, flights, radius, reach)
+
+
+def _near_corners(scene: Scene, flights: Flights, radius: float, reach: float) -> Near:
+    """Flights that pass a corner by no more than ``reach``."""
+    corners = _turning_corners(scene)
+    found, corner = _pairs(flights, shapely.points(corners), radius + reach)
+    along, clear = _closest(flights, found, corners[corner])
+    # A disc rolls from an edge on to its corner without a jump: only a corner passed in full flight decides.
+    # For a point the hit itself counts; where it started is the last flight's end and was judged there.
+    decides = (along > 0) & ((along < 1) | (radius == 0)) & (clear - radius <= reach)
+    return found[decides], np.maximum(0.0, clear[decides] - radius), CORNER
+
+
+def _turning_corners(scene: Scene) -> FloatArray:
+    """(m, 2) vertices where a wall ends, or turns: at the others a hit to the left or right is the same."""
+    walls = scene.walls
+    start, end = walls.edge_starts, walls.edge_ends
+    d = walls.vertices[end] - walls.vertices[start]
+    chord = np.arctan2(d[:, 1], d[:, 0])
+    half = 2 * np.arctan(walls.bulges[start])  # an arc leaves its chord by half its angle
+    leaving = np.full(len(walls.vertices), np.nan)
+    arriving = np.full(len(walls.vertices), np.nan)
+    leaving[start], arriving[end] = chord - half, chord + half
+    turn = leaving - arriving
+    straight = np.abs(np.remainder(turn + math.pi, math.tau) - math.pi) < 1e-12
+    return np.asarray(walls.vertices[~straight], dtype=np.float64)
+
+
+def _near_arcs(scene: Scene, flights: Flights, radius: float, reach: float) -> Near:
+    """Flights that pass the convex side of an arc by no more than ``reach``."""
+    walls = scene.walls
+    edges = np.flatnonzero(walls.bulges[walls.edge_starts])
+    a, b = walls.vertices[walls.edge_starts[edges]], walls.vertices[walls.edge_ends[edges]]
+    bulge = walls.bulges[walls.edge_starts[edges]]
+    centre, curve = circles(a, b, bulge)
+    around = np.stack([centre - curve[:, None], centre + curve[:, None]], axis=1).reshape(-1, 4)
+    found, arc = _pairs(flights, shapely.box(*around.T), radius + reach)
+    along, distance = _closest(flights, found, centre[arc])
+    chord = b - a
+    middle = np.sign(bulge)[:, None] * np.stack([chord[:, 1], -chord[:, 0]], axis=1)
+    middle /= np.maximum(np.hypot(middle[:, 0], middle[:, 1]), 1e-300)[:, None]
+    cos_half = np.cos(2 * np.arctan(np.abs(bulge)))
+    outward = flights.at(found, along * flights.time[found]) - centre[arc]
+    beside = (outward * middle[arc]).sum(axis=1) >= cos_half[arc] * np.maximum(distance, 1e-300)
+    clear = distance - curve[arc] - radius
+    keep = beside & (along > 0) & (along < 1) & (clear >= 0) & (clear <= reach)
+    return found[keep], clear[keep], GRAZE
+
+
+def _near_lines(scene: Scene, flights: Flights, radius: float, reach: float) -> Near:
+    """Falling flights whose parabola turns round just before a line: +-d(t) - r has its least value at -vn / gn."""
+    walls = scene.walls
+    edges = np.flatnonzero(walls.bulges[walls.edge_starts] == 0)
+    a, b = walls.vertices[walls.edge_starts[edges]], walls.vertices[walls.edge_ends[edges]]
+    found, line = _pairs(flights, shapely.linestrings(np.stack([a, b], axis=1)), radius + reach)
+    along = (b - a)[line]
+    length = np.hypot(along[:, 0], along[:, 1])
+    normal = np.stack([along[:, 1], -along[:, 0]], axis=1) / np.maximum(length, 1e-300)[:, None]
+    across = (flights.velocity[found] * normal).sum(axis=1)
+    pull = (flights.pulls[found] * normal).sum(axis=1)
+    turn = np.divide(-across, pull, out=np.full(len(found), -1.0), where=pull != 0)
+    inside = np.clip(turn, 0.0, flights.time[found])
+    offset = flights.at(found, inside) - a[line]
+    side = (offset * normal).sum(axis=1)
+    clear = np.abs(side) - radius
+    foot = (offset * along).sum(axis=1)
+    nearest = (turn > 0) & (turn < flights.time[found]) & (side * pull > 0)  # not the top of a hop off the floor
+    keep = nearest & (foot >= 0) & (foot <= length * length) & (clear >= 0) & (clear <= reach)
+    return found[keep], clear[keep], GRAZE
+
+
+def _pairs(flights: Flights, things: NDArray[Any], distance: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Which flights come how near to which things: by distance, or for parabolas by the box around them."""
+    tree = shapely.STRtree(things)
+    if flights.pull is None:
+        lines = shapely.linestrings(np.stack([flights.start, flights.end], axis=1))
+        found, thing = tree.query(lines, predicate="dwithin", distance=distance)
+    else:
+        # a parabola stays within |g| t^2 / 8 of its chord
+        sag = np.hypot(flights.pulls[:, 0], flights.pulls[:, 1]) * flights.time**2 / 8 + distance
+        low, high = np.minimum(flights.start, flights.end), np.maximum(flights.start, flights.end)
+        boxes = shapely.box(low[:, 0] - sag, low[:, 1] - sag, high[:, 0] + sag, high[:, 1] + sag)
+        found, thing = tree.query(boxes, predicate="intersects")
+    return found, thing
+
+
+def _closest(flights: Flights, found: NDArray[np.int64], points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Where in its time (0 to 1) a flight is closest to a point, and how far it is from there."""
+    time = np.maximum(flights.time[found], 1e-300)
+    start, velocity = flights.start[found] - points, flights.velocity[found]
+    if flights.pull is None:
+        speed2 = np.maximum((velocity * velocity).sum(axis=1), 1e-300)
+        when = np.clip(-(start * velocity).sum(axis=1) / speed2, 0.0, time)
+    else:
+        when = _closest_of_parabola(start, velocity, flights.pulls[found], time)
+    away = flights.at(found, when) - points
+    return when / time, np.hypot(away[:, 0], away[:, 1])
+
+
+def _closest_of_parabola(start: FloatArray, velocity: FloatArray, pull: FloatArray, time: FloatArray) -> FloatArray:
+    """Least |p + v t + g t^2 / 2| for t in [0, time]: the best of 65 moments, then Newton on the derivative."""
+    parts = np.linspace(0.0, 1.0, 65)
+    when = np.zeros(len(time))
+    least = np.full(len(time), np.inf)
+    for part in parts:
+        t = (part * time)[:, None]
+        distance = ((start + velocity * t + 0.5 * pull * t * t) ** 2).sum(axis=1)
+        better = distance < least
+        when[better], least[better] = (part * time)[better], distance[better]
+    for _ in range(8):
+        t = when[:, None]
+        place, speed = start + velocity * t + 0.5 * pull * t * t, velocity + pull * t
+        slope = (place * speed).sum(axis=1)
+        bend = (speed * speed).sum(axis=1) + (place * pull).sum(axis=1)
+        when = np.clip(when - np.divide(slope, bend, out=np.zeros_like(slope), where=bend > 0), 0.0, time)
+    return when

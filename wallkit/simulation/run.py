@@ -1,0 +1,275 @@
+"""Run: every contact, the exact state in between, and how each ball ended."""
+
+from __future__ import annotations
+
+import enum
+import math
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from importers.errors import WallkitError
+from importers.pictured import Pictured
+from wallkit import arguments
+from wallkit.simulation.damping import carried_on, damping_of
+
+if TYPE_CHECKING:
+    from wallkit.scene.scene import Scene
+    from wallkit.simulation.horizon import Horizon, Source
+
+CONTACT = np.dtype(
+    [
+        ("time", np.float64),
+        ("ball", np.int32),
+        ("x", np.float64),
+        ("y", np.float64),
+        ("vx", np.float64),
+        ("vy", np.float64),
+        ("px", np.float64),
+        ("py", np.float64),
+        ("nx", np.float64),
+        ("ny", np.float64),
+        ("wall", np.int32),
+        ("edge", np.int32),
+        ("kind", np.uint8),
+    ]
+)
+"""One contact: time; ball; centre x, y; velocity vx, vy after; contact point px, py; unit normal nx, ny (towards
+the ball); wall; edge within that wall, -1 for a corner; kind, see :class:`Kind`. 88 bytes or fewer."""
+
+FINAL = np.dtype(
+    [("time", np.float64), ("x", np.float64), ("y", np.float64), ("vx", np.float64), ("vy", np.float64)],
+)
+"""Where a ball's run ended: time, centre, velocity."""
+
+
+class Kind(enum.IntEnum):
+    """What was touched."""
+
+    EDGE = 0
+    VERTEX = 1
+    SLIDE = 2
+    """From here on the ball keeps to the wall (gravity has brought it to rest against it)."""
+    LEAVE = 3
+    """The ball leaves the wall on which it slid."""
+    ENTER = 4
+    """The centre crosses a sensor against its outward normal; wall and edge are the sensor's."""
+    EXIT = 5
+    """The centre crosses a sensor along its outward normal."""
+
+    @property
+    def label(self) -> str:
+        """The word in the CSV."""
+        return self.name.lower()
+
+
+class Ending(enum.IntEnum):
+    """How a ball's run ended."""
+
+    TIME_REACHED = 0
+    BOUNCE_LIMIT = 1
+    LEFT_SCENE = 2
+    AT_REST = 3
+    COLLAPSE = 4
+    AMBIGUOUS_CORNER = 5
+    ABSORBED = 6
+
+    @property
+    def label(self) -> str:
+        """The words for people and files: "time reached", "left the scene"."""
+        return "left the scene" if self is Ending.LEFT_SCENE else self.name.lower().replace("_", " ")
+
+
+@dataclass(eq=False, repr=False)
+class Run(Pictured):
+    """What a simulation found.
+
+    Attributes:
+        scene: what was simulated.
+        contacts: (m,) of ``CONTACT``, by time over all balls; at equal times by ball, then in order.
+        final: (n,) of ``FINAL``, one a ball. A ball that left the scene has its last contact here, unless the
+            run was given an end time.
+        ending: n endings, one a ball.
+        start: (n, 4) positions and velocities at time 0.
+    """
+
+    scene: Scene
+    contacts: NDArray[Any]
+    final: NDArray[Any]
+    ending: tuple[Ending, ...]
+    start: NDArray[np.float64] = field(repr=False, default_factory=lambda: np.empty((0, 4)))
+
+    def __repr__(self) -> str:
+        counts = Counter(ending.label for ending in self.ending).most_common()
+        last = float(self.final["time"].max(initial=0.0))
+        parts = [
+            f"{len(self.final):,} ball{'' if len(self.final) == 1 else 's'}",
+            f"{int(self.bounces.sum()):,} bounces in {last:.6g} s",
+            *(f"{word} {count:,}" for word, count in counts),
+        ]
+        return f"<Run: {', '.join(parts)}>"
+
+    @property
+    def bounces(self) -> NDArray[np.int64]:
+        """(n,) bounces of each ball: its contacts with edges and corners."""
+        bounced = self.contacts["ball"][self.contacts["kind"] <= Kind.VERTEX]
+        return np.bincount(bounced, minlength=len(self.final)).astype(np.int64)
+
+    def contacts_of(self, ball: int) -> NDArray[Any]:
+        """Contacts of one ball, in order.
+
+        Raises:
+            WallkitError: there is no such ball.
+        """
+        may_be = f"a whole number from 0 to {len(self.final) - 1}"
+        arguments.whole_number(
+            ball, "ball", may_be, error=WallkitError, code="bad-ball", least=0, most=len(self.final) - 1
+        )
+        order, offsets = self._by_ball
+        return self.contacts[order[offsets[ball] : offsets[ball + 1]]]
+
+    def position(self, time: ArrayLike) -> NDArray[np.float64]:
+        """Exact centres at a time from 0, or at many at once; after a ball's end, where it ended.
+
+        Args:
+            time: one number, or an array of any shape S, in any order; infinity is after every end.
+
+        Returns:
+            S + (n, 2): for one number (n, 2), for k times (k, n, 2).
+
+        Raises:
+            WallkitError: a time is negative or no number.
+        """
+        return self._states(time)[..., 0:2]
+
+    def velocity(self, time: ArrayLike) -> NDArray[np.float64]:
+        """Velocities at one time or many, after the contact at that time; after a ball's end, its last.
+
+        Arguments, shapes and errors are those of :meth:`position`.
+        """
+        return self._states(time)[..., 2:4]
+
+    def take(self, balls: ArrayLike | slice) -> Run:
+        """Choose balls: the run that these alone would have made, since balls do not meet.
+
+        Args:
+            balls: their numbers, each once, in the order wanted; a mask of n truth values; or a slice.
+
+        Raises:
+            WallkitError: there is no such ball, one is named twice, or the mask has another length.
+        """
+        kept = arguments.chosen(balls, len(self.final), "balls", error=WallkitError, code="bad-ball")
+        number = np.full(len(self.final), -1, dtype=np.int32)
+        number[kept] = np.arange(len(kept), dtype=np.int32)
+        if np.count_nonzero(number >= 0) < len(kept):
+            raise arguments.refused("balls", balls, "each number once", WallkitError, "bad-ball")
+        contacts = self.contacts[number[self.contacts["ball"]] >= 0]
+        contacts["ball"] = number[contacts["ball"]]
+        contacts = contacts[np.lexsort((contacts["ball"], contacts["time"]))]
+        scene = replace(self.scene, balls=self.scene.balls.take(kept))
+        ending = tuple(self.ending[ball] for ball in kept.tolist())
+        return Run(scene, contacts, self.final[kept], ending, np.asarray(self.start)[kept])
+
+    def save(self, path: str | Path) -> None:
+        """Write the run as JSON, scene included; see :func:`wallkit.simulation.run_files.save`."""
+        from wallkit.simulation.run_files import save
+
+        arguments.of_type(path, "path", (str, Path), "a path", error=WallkitError, code="bad-path")
+        save(self, path)
+
+    @staticmethod
+    def load(source: str | Path | IO[bytes] | IO[str]) -> Run:
+        """Read a run that :meth:`save` wrote, the same bits; see :func:`wallkit.simulation.run_files.load`."""
+        from wallkit.simulation.run_files import load
+
+        if not isinstance(source, str | Path) and not hasattr(source, "read"):
+            raise arguments.refused("source", source, "a path or an open file", WallkitError, "bad-path")
+        return load(source)
+
+    def trusted_until(self, tolerance: float = 1e-6, source: Source = "rounding") -> list[Horizon]:
+        """Say for each ball up to which bounce, and time, its contacts are good to ``tolerance``.
+
+        The growth of a small error is carried along the contacts; see ``horizon`` for the equations.
+
+        Args:
+            tolerance: of the place of a contact, in the drawing's units.
+            source: what is wrong to begin with: ``"rounding"`` of the arithmetic, or the ``"drawing"``, whose
+                walls are off by their ``measured_error``.
+
+        Raises:
+            WallkitError: the tolerance is not above 0, or the source is none of the two.
+        """
+        from wallkit.simulation.horizon import trusted_until
+
+        arguments.number(
+            tolerance,
+            "tolerance",
+            "a finite number above 0",
+            error=WallkitError,
+            code="bad-tolerance",
+            least=arguments.ABOVE_0,
+        )
+        arguments.word(source, "source", ("rounding", "drawing"), error=WallkitError, code="bad-source")
+        ends = self.final["time"].tolist()
+        return [
+            trusted_until(self.scene, self.contacts_of(ball), ball, tolerance, source, end)
+            for ball, end in enumerate(ends)
+        ]
+
+    @cached_property
+    def _by_ball(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        order = np.argsort(self.contacts["ball"], kind="stable")
+        offsets = np.zeros(len(self.final) + 1, dtype=np.int64)
+        np.cumsum(np.bincount(self.contacts["ball"], minlength=len(self.final)), out=offsets[1:])
+        return order, offsets
+
+    def _states(self, time: ArrayLike) -> NDArray[np.float64]:
+        """S + (n, 4) states x, y, vx, vy at times of the shape S."""
+        may_be = "seconds, 0 or more, or an array of them"
+        times = arguments.floats(time, "time", may_be, error=WallkitError, code="bad-time")
+        if not (times >= 0.0).all():
+            raise arguments.refused("time", time, may_be, WallkitError, "bad-time")
+        states = np.empty((times.size, len(self.final), 4))
+        for ball in range(len(self.final)):
+            states[:, ball] = self._states_of(ball, times.ravel())
+        return states.reshape(*times.shape, len(self.final), 4)
+
+    def _states_of(self, ball: int, times: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(k, 4) states of one ball: of each time the flight that it falls into, carried on."""
+        own, end = self._turns[ball], float(self.final[ball]["time"])
+        passed, which = np.unique(np.searchsorted(own["time"], times, side="right"), return_inverse=True)
+        begun = [own[count - 1] if count else None for count in passed.tolist()]
+        first = np.asarray(self.start[ball], dtype=np.float64)
+        base = np.array([first if c is None else (c["x"], c["y"], c["vx"], c["vy"]) for c in begun]).reshape(-1, 4)
+        since = np.array([0.0 if contact is None else contact["time"] for contact in begun])[which]
+        state = base[which]
+        span = np.maximum(np.minimum(times, end) - since, 0.0)
+        if self._damping is not None:
+            rests = (times >= end) & (self.ending[ball] == Ending.AT_REST)
+            spans = np.where(rests, math.inf, span).tolist()
+            return np.array([carried_on(self._damping, *one) for one in zip(state, spans, strict=True)]).reshape(-1, 4)
+        pull = np.array([self.pull_after(contact) for contact in begun]).reshape(-1, 2)[which]
+        x, v, t = state[:, 0:2], state[:, 2:4], span[:, None]
+        return np.where(t > 0.0, np.hstack([x + t * (v + 0.5 * t * pull), v + t * pull]), state)
+
+    @cached_property
+    def _damping(self) -> NDArray[np.float64] | None:
+        return damping_of(self.scene)
+
+    @cached_property
+    def _turns(self) -> list[NDArray[Any]]:
+        """By ball the contacts that change its flight; sensors do not."""
+        return [own[own["kind"] < Kind.ENTER] for own in map(self.contacts_of, range(len(self.final)))]
+
+    def pull_after(self, contact: Any) -> NDArray[np.float64]:
+        """Acceleration after a contact (None: at the start): gravity, or the part of it along a wall that holds."""
+        pull = np.asarray(self.scene.gravity if self.scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
+        if contact is None or contact["kind"] != Kind.SLIDE:
+            return pull
+        along = np.array([-contact["ny"], contact["nx"]])
+        return along * float(along @ pull)

@@ -1,0 +1,125 @@
+"""``survey``: many balls, only totals."""
+
+from __future__ import annotations
+
+import concurrent.futures
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.arguments import of_type, whole_number
+from wallkit.geometry.arrays import FloatArray
+from wallkit.kernels.batches.lockstep import Outcome
+from wallkit.scene.scene import Scene, SceneError
+from wallkit.simulation.prepared import Prepared, prepare
+from wallkit.simulation.run import Ending
+from wallkit.simulation.simulate import limits
+from wallkit.simulation.survey_backends import LEAST, way_to_fly
+from wallkit.simulation.threads import cores, in_threads
+
+
+@dataclass(eq=False, repr=False)
+class Totals:
+    """What is left of a survey.
+
+    Attributes:
+        bounces: (n,) int64, of each ball.
+        position: (n, 2) where each ball ended.
+        velocity: (n, 2) its last velocity.
+        time: (n,) when it ended.
+        hits: (W,) int64, bounces of all balls by wall.
+        ending: (n,) uint8, see :class:`wallkit.simulation.run.Ending`.
+        crossings: (S, 2) int64, how often balls entered each sensor of the scene, and left it: crossed it against and
+            along its outward normal.
+    """
+
+    bounces: NDArray[np.int64]
+    position: FloatArray
+    velocity: FloatArray
+    time: FloatArray
+    hits: NDArray[np.int64]
+    ending: NDArray[np.uint8]
+    crossings: NDArray[np.int64]
+
+    def __repr__(self) -> str:
+        counts = np.bincount(self.ending, minlength=len(Ending))
+        parts = [
+            f"{len(self.bounces):,} ball{'' if len(self.bounces) == 1 else 's'}",
+            f"{int(self.bounces.sum()):,} bounces in {float(self.time.max(initial=0.0)):.6g} s",
+            *(f"{Ending(code).label} {counts[code]:,}" for code in np.argsort(-counts, kind="stable") if counts[code]),
+        ]
+        return f"<Totals: {', '.join(parts)}>"
+
+
+def survey(
+    scene: Scene | Prepared,
+    until: float | None = None,
+    bounces: int | None = None,
+    *,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    check: bool = True,
+) -> Totals:
+    """Fly every ball until a time, a number of bounces, or an ending of its own, and keep only totals.
+
+    Balls do not meet, so each is flown alone; the result is the same, bit for bit, for any number of threads, and
+    the same as that of :func:`wallkit.simulate`. Kernels are compiled and release the interpreter's lock.
+
+    Args:
+        scene: walls, balls, and what acts; from :func:`prepare`, it is not prepared again.
+        until: seconds; None for no end in time.
+        bounces: bounces a ball; None for the guard of ``simulate``. At least one of the two must be given.
+        threads: how many to use; None for one a core.
+        executor: threads of your own to use instead (a ``concurrent.futures.ThreadPoolExecutor``). The balls' totals
+            are written into memory that all threads share, so that processes cannot take their place.
+        check: look whether a disc overlaps a wall at the start; False where that is known, to save the time.
+
+    Raises:
+        SceneError: neither limit was given, an argument is none of what may be, or the scene cannot be simulated.
+    """
+    limit_time, limit_bounces = limits(until, bounces)
+    if threads is not None:
+        may_be = "a whole number, 1 or more, or None for one a core"
+        threads = whole_number(threads, "threads", may_be, error=SceneError, code="bad-threads", least=1)
+    _check_executor(executor)
+    of_type(
+        scene, "scene", (Scene, Prepared), "a Scene, or what prepare() made of one", error=SceneError, code="bad-scene"
+    )
+    ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
+    scene, modelled = ready.scene, ready.modelled
+    threads = max(1, min(cores() if threads is None else threads, len(modelled.radii) // LEAST))
+    outcome = _room_for(len(modelled.radii))
+    with way_to_fly(ready)(ready, limit_time, limit_bounces, outcome, threads) as work:
+        found, *others = in_threads(work, threads, executor)
+    for other in others:
+        found += other
+    hits, crossings = found[: len(scene.walls)], found[len(scene.walls) :].reshape(-1, 2)
+    return Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings)
+
+
+def _check_executor(executor: object) -> None:
+    """Refuse what does not run in this process: there the work would fill a copy of the totals, and ours stay empty.
+
+    An InterpreterPoolExecutor (Python 3.14) is a ThreadPoolExecutor by its class, and copies all the same.
+    """
+    copies = getattr(concurrent.futures, "InterpreterPoolExecutor", ())
+    if executor is None or (isinstance(executor, ThreadPoolExecutor) and not isinstance(executor, copies)):
+        return
+    kind = f"{type(executor).__module__}.{type(executor).__qualname__}"
+    raise SceneError(
+        f"executor is a {kind}, and a survey needs threads of its own process",
+        code="bad-executor",
+        fix="give a concurrent.futures.ThreadPoolExecutor, or threads=",
+    )
+
+
+def _room_for(count: int) -> Outcome:
+    return Outcome(
+        position=np.empty((count, 2)),
+        velocity=np.empty((count, 2)),
+        time=np.empty(count),
+        bounces=np.empty(count, dtype=np.int64),
+        ending=np.empty(count, dtype=np.uint8),
+    )

@@ -1,0 +1,99 @@
+"""Walls as shapely geometry: the material as polygons, open walls as lines; arcs as lines within a tolerance."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import shapely
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.rings import rings_of
+from wallkit.walls.walls import Walls
+
+
+def to_shapely(walls: Walls, tolerance: float | None = None) -> Any:
+    """Give the walls as one shapely geometry.
+
+    Args:
+        walls: any walls.
+        tolerance: the largest distance between an arc and the lines put in its place; by default the walls'
+            own tolerance, or 1e-4 of their size where that is 0.
+
+    Returns:
+        A GeometryCollection of two: the material as a MultiPolygon or Polygon (even-odd over all closed walls;
+        for a room, whose material is outside, the free space inside is what is given), and the open walls as
+        a MultiLineString.
+    """
+    vertices, offsets = straightened(walls, tolerance)
+    rings = rings_of(vertices, offsets)[walls.closed]
+    rings = rings[rings != None]  # noqa: E711  (elementwise)
+    starts, ends = offsets[:-1][~walls.closed].tolist(), offsets[1:][~walls.closed].tolist()
+    lines = [shapely.linestrings(vertices[a:b]) for a, b in zip(starts, ends, strict=True)]
+    return shapely.GeometryCollection([even_odd(rings), shapely.MultiLineString(lines)])
+
+
+def even_odd(rings: Any) -> Any:
+    """Area that an odd number of the polygons covers, each made valid first; in pairs, so that no part grows early."""
+    if not len(rings):
+        return shapely.MultiPolygon()
+    layer = np.where(shapely.is_valid(rings), rings, shapely.make_valid(rings, method="structure"))
+    while len(layer) > 1:
+        paired = shapely.symmetric_difference(layer[: len(layer) // 2 * 2 : 2], layer[1::2])
+        layer = np.concatenate([paired, layer[-1:]]) if len(layer) % 2 else paired
+    return layer[0]
+
+
+def straightened(walls: Walls, tolerance: float | None = None) -> tuple[FloatArray, IntArray]:
+    """Put lines in the place of arcs: vertices and offsets as in Walls. Line edges stay as they are."""
+    if not walls.has_arcs:
+        return walls.vertices, walls.offsets
+    counts, inner, ranks = arc_points(walls, largest_distance(walls) if tolerance is None else tolerance)
+    first = np.cumsum(counts) - counts
+    vertices = np.empty((int(counts.sum()), 2))
+    vertices[first] = walls.vertices
+    vertices[np.repeat(first, counts - 1) + ranks] = inner
+    return vertices, np.concatenate([[0], np.cumsum(counts)])[walls.offsets]
+
+
+def largest_distance(walls: Walls) -> float:
+    """Choose how far lines may be from the arcs in whose place they are put, where nobody says it."""
+    low_x, low_y, high_x, high_y = walls.box()
+    return walls.tolerance or 1e-4 * math.hypot(high_x - low_x, high_y - low_y) or 1.0
+
+
+def arc_points(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, IntArray]:
+    """Points along each arc: vertices that each vertex turns into, the new points, and their rank from 1."""
+    following = np.arange(1, len(walls.vertices) + 1)
+    full = np.diff(walls.offsets) > 0
+    following[walls.offsets[1:][full] - 1] = walls.offsets[:-1][full]
+    a, b, bulge = walls.vertices, walls.vertices[following], walls.bulges
+    angle = 4 * np.arctan(bulge)
+    half_chord = np.hypot(*(b - a).T) / 2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        radius = np.where(bulge != 0, half_chord / np.abs(np.sin(angle / 2)), 0.0)
+        step = 2 * np.arccos(np.clip(1 - tolerance / radius, math.cos(math.pi / 8), 1.0))
+        step = np.where(step > 0, step, np.sqrt(8 * tolerance / radius))
+        counts = np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1).astype(np.int64)
+    which = np.repeat(np.arange(len(counts)), counts - 1)
+    rank = np.arange(len(which)) - np.repeat(np.cumsum(counts - 1) - (counts - 1), counts - 1) + 1
+    return counts, points_on(a[which], b[which], bulge[which], rank / counts[which]), rank
+
+
+def points_on(a: FloatArray, b: FloatArray, bulge: FloatArray, part: FloatArray) -> FloatArray:
+    """Give the point of each edge at a part (0 to 1) of its angle.
+
+    With half angle h = 2 atan(bulge) and c the chord, the point at angle f = h (2 part - 1) from the middle is
+    middle + c sin f / (2 sin h) + (c turned right) (cos f - cos h) / (2 sin h), where
+    cos f - cos h = 2 sin((h + f) / 2) sin((h - f) / 2) loses no digits for a flat arc.
+    """
+    half = 2 * np.arctan(bulge)
+    turn = half * (2 * part - 1)
+    sin = np.sin(half)
+    flat = sin == 0
+    along = np.where(flat, part - 0.5, np.sin(turn) / np.where(flat, 1.0, 2 * sin))
+    across = np.where(flat, 0.0, np.sin((half + turn) / 2) * np.sin((half - turn) / 2) / np.where(flat, 1.0, sin))
+    chord = b - a
+    right = np.stack([chord[:, 1], -chord[:, 0]], axis=1)
+    return (a + b) / 2 + chord * along[:, None] + right * across[:, None]

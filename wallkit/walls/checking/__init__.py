@@ -1,0 +1,1 @@
+"""What is wrong with walls: violations, free space, leaks, narrow places."""

@@ -1,0 +1,264 @@
+"""Loose ends: open ends that were meant to meet another end or a wall, and how to mend each without bending a wall.
+
+An end is moved along its own line only: on to the first wall, back to the wall that it sticks out of, or to where its
+line crosses that of another end. Where that leads nowhere near, a straight edge is added from end to end or from the
+end to the nearest wall. What would cross a wall on its way is left alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+import shapely
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.orientation import side
+from wallkit.walls.checking.exact_widths import ComplexArray, ExactEdges
+from wallkit.walls.checking.meetings import meetings, on_edge
+from wallkit.walls.checking.open_ends import OWN, BoolArray, OpenEnds, Surroundings, in_the_way, put_on
+from wallkit.walls.checking.overshoots import Overshoots, overshoots
+from wallkit.walls.walls import Walls
+
+Kind = Literal["corner", "middle", "bridge", "extend", "foot", "trim"]
+
+_ASKEW = 3.0  # a move along the own line is taken up to so many times the distance, else an edge is added
+
+
+@dataclass(frozen=True, slots=True)
+class LooseEnd:
+    """A loose end, or two, and what mends it.
+
+    Attributes:
+        kind: ``corner`` both ends move to where their lines cross; ``middle`` both lie on one line and meet in the
+            middle; ``bridge`` an edge leads from end to end; ``extend`` the end moves on to a wall; ``foot`` an edge
+            leads to the nearest wall; ``trim`` what sticks out of a wall goes.
+        ends: one or two vertices.
+        distance: between the two, to the wall, or how far it sticks out.
+        need: how far an end moves, or how long the edge is; infinite where a wall is in the way.
+        at: where the ends meet; for a bridge the second end.
+        edge: the edge that the end is led to; -1 for pairs.
+        before: where the line comes from that is drawn on, or trimmed, or added.
+        tip: where the line ends that is drawn on or trimmed; None for an arc or an added edge.
+        sections: whole edges that are trimmed away.
+        back: where the first end moves back to before the bridge is added, if it reaches past the second.
+    """
+
+    kind: Kind
+    ends: tuple[int, ...]
+    distance: float
+    need: float
+    at: complex
+    edge: int = -1
+    before: complex = 0j
+    tip: complex | None = None
+    sections: int = 0
+    back: complex | None = None
+
+
+@dataclass(slots=True)
+class _Near:
+    """Pairs of an end (its row) and an edge within reach of it."""
+
+    end: IntArray
+    edge: IntArray
+    distance: FloatArray
+    foot: ComplexArray
+
+
+def loose_ends(walls: Walls, reach: float) -> list[LooseEnd]:
+    """Find loose ends and what mends each; each end at most once, those that need least first.
+
+    Args:
+        walls: any walls; arcs are taken as they are.
+        reach: how far ends may move, and how long an added edge may be.
+    """
+    if not len(walls.edge_starts) or walls.closed.all() or reach <= 0:
+        return []
+    scene = Surroundings.of(walls)
+    ends = scene.ends()
+    near = _near(scene, ends, reach)
+    settled = np.bincount(near.end[near.distance <= scene.there], minlength=len(ends.at)) > 0
+    _, spot, shared = np.unique(ends.at, return_inverse=True, return_counts=True)
+    settled |= shared[spot.reshape(-1)] > 1
+    loose = np.flatnonzero(~settled)
+    found = _pairs(scene, ends, loose, near, reach) + _to_walls(scene, ends, near, ~settled, reach)
+    return _chosen(found)
+
+
+def landed(walls: Walls, found: list[LooseEnd]) -> list[LooseEnd]:
+    """The same with ``at`` to the bit: on the edge that the end is led to, and not beyond it."""
+    scene = Surroundings.of(walls)
+    return [
+        loose if loose.edge < 0 else replace(loose, at=put_on(scene, loose.edge, loose.at, loose.before, loose.tip))
+        for loose in found
+    ]
+
+
+def settled_places(walls: Walls) -> ComplexArray:
+    """The open ends that lie on another wall, as complex numbers."""
+    scene = Surroundings.of(walls)
+    ends = scene.ends()
+    near = _near(scene, ends, scene.there)
+    places: ComplexArray = ends.at[np.unique(near.end[near.distance <= scene.there])]
+    return places
+
+
+def _chosen(found: list[tuple[int, LooseEnd]]) -> list[LooseEnd]:
+    """Each end once, by rank, then by need; ranks: crossed corners, pairs, moves to walls, edges to walls, blocked."""
+    used: set[int] = set()
+    chosen = []
+    for _, loose in sorted(found, key=lambda pair: (pair[0], pair[1].need, pair[1].distance, pair[1].ends)):
+        if used.isdisjoint(loose.ends):
+            used.update(loose.ends)
+            chosen.append(loose)
+    return chosen
+
+
+def _near(scene: Surroundings, ends: OpenEnds, reach: float) -> _Near:
+    x, y = ends.at.real, ends.at.imag
+    end, edge = scene.tree.query(shapely.box(x - reach, y - reach, x + reach, y + reach))
+    e = scene.edges.take(edge)
+    foot = e.nearest(ends.at[end])
+    distance = np.abs(foot - ends.at[end])
+    keep = (distance <= reach) & ~scene.own_bend(ends.take(end), edge, distance)
+    return _Near(end[keep], edge[keep], distance[keep], foot[keep])
+
+
+def _pairs(
+    scene: Surroundings, ends: OpenEnds, loose: IntArray, near: _Near, reach: float
+) -> list[tuple[int, LooseEnd]]:
+    """What mends two ends: a corner where both lines cross near by, the middle on one line, an edge else."""
+    points = shapely.points(ends.at.real[loose], ends.at.imag[loose])
+    pair = shapely.STRtree(points).query(points, predicate="dwithin", distance=2 * reach)
+    i, j = loose[pair[:, pair[0] < pair[1]]]
+    one, two = ends.take(i), ends.take(j)
+    distance = np.abs(one.at - two.at)
+    way = np.abs(scene.along[one.vertex] - scene.along[two.vertex])
+    apart = (one.wall != two.wall) | (way > OWN * distance)
+    beside = _beside(near, ends, i, j)
+    corner = _crossing(one.line, two.line)
+    with np.errstate(invalid="ignore"):
+        moves = [((corner - e.at) * e.towards.conj()).real for e in (one, two)]
+        need = np.maximum(np.abs(moves[0]), np.abs(moves[1]))
+        short = np.minimum(*[m + np.abs(e.line.b - e.line.a) for m, e in zip(moves, (one, two), strict=True)])
+        crossed = (moves[0] < 0) & (moves[1] < 0)
+        is_corner = one.straight & two.straight & (need <= reach) & (short > scene.there)
+        is_corner &= crossed | (need <= _ASKEW * np.minimum(distance, beside))
+    nearest = (distance <= reach) & (distance <= beside * (1 + 1e-9) + scene.there)
+    flat = one.straight & two.straight & _on_one_line(one, two)
+    rows = {
+        "corner": np.flatnonzero(apart & is_corner & ~flat),
+        "middle": np.flatnonzero(apart & nearest & flat),
+        "bridge": np.flatnonzero(apart & nearest & ~flat),
+    }
+    found = []
+    for kind, row in rows.items():
+        target = corner[row] if kind == "corner" else two.at[row]
+        length = need[row] if kind == "corner" else distance[row]
+        if kind == "middle":
+            target = (one.at[row] + two.at[row]) / 2
+        blocked = in_the_way(scene, one.at[row], target) | in_the_way(scene, two.at[row], target)
+        rank = np.where(blocked, 4, np.where(crossed[row] & (kind == "corner"), 0, 1))
+        for r, k, need_, at, no in zip(
+            row.tolist(), rank.tolist(), length.tolist(), target.tolist(), blocked, strict=True
+        ):
+            both = int(one.vertex[r]), int(two.vertex[r])
+            back = _back(one, two, r) if kind == "bridge" else None
+            found.append((k, LooseEnd(kind, both, float(distance[r]), np.inf if no else need_, at, back=back)))  # type: ignore[arg-type]
+    return found
+
+
+def _back(one: OpenEnds, two: OpenEnds, row: int) -> complex | None:
+    """Where to shorten the first end to, if it reaches past the second: abreast of it."""
+    past = -float(((two.at[row] - one.at[row]) * one.towards[row].conjugate()).real)
+    if not one.straight[row] or not 0 < past < abs(one.line.b[row] - one.line.a[row]):
+        return None
+    return complex(one.at[row] - past * one.towards[row])
+
+
+def _beside(near: _Near, ends: OpenEnds, i: IntArray, j: IntArray) -> FloatArray:
+    """The distance of the nearest edge to two ends, but for the edges that the two are the ends of."""
+    order = np.lexsort((near.distance, near.end))
+    edge = np.full((len(ends.at), 2), -1)
+    distance = np.full((len(ends.at), 2), np.inf)
+    rank = np.arange(len(order)) - np.searchsorted(near.end[order], near.end[order])
+    for place in (0, 1):
+        row = order[rank == place]
+        edge[near.end[row], place], distance[near.end[row], place] = near.edge[row], near.distance[row]
+    one = np.where(edge[i, 0] == ends.edge[j], distance[i, 1], distance[i, 0])
+    two = np.where(edge[j, 0] == ends.edge[i], distance[j, 1], distance[j, 0])
+    beside: FloatArray = np.minimum(one, two)
+    return beside
+
+
+def _crossing(one: ExactEdges, two: ExactEdges) -> ComplexArray:
+    """Where lines cross; with the very coordinate of a line that is level or upright."""
+    point = meetings(one, two)[:, 0]
+    for e in (one, two):
+        point.real = np.where(e.a.real == e.b.real, e.a.real, point.real)
+        point.imag = np.where(e.a.imag == e.b.imag, e.a.imag, point.imag)
+    return point
+
+
+def _on_one_line(one: OpenEnds, two: OpenEnds) -> BoolArray:
+    """Both lines are one, exactly."""
+    a, b, c, d = (np.stack([z.real, z.imag], axis=1) for z in (one.line.a, one.line.b, two.line.a, two.line.b))
+    flat: BoolArray = (side(a, b, c) == 0) & (side(a, b, d) == 0)
+    return flat
+
+
+def _to_walls(
+    scene: Surroundings, ends: OpenEnds, near: _Near, loose: BoolArray, reach: float
+) -> list[tuple[int, LooseEnd]]:
+    """What mends an end at a wall: back to the wall that it sticks out of, on to the first wall, an edge else."""
+    keep = loose[near.end]
+    end, edge, distance, foot = near.end[keep], near.edge[keep], near.distance[keep], near.foot[keep]
+    mine = ends.take(end)
+    ahead = _ahead(scene, mine, edge)
+    out = overshoots(scene, ends, np.flatnonzero(loose), reach)
+    order = np.lexsort((distance, end))
+    first = order[np.unique(end[order], return_index=True)[1]] if len(order) else order
+    on = np.full(len(ends.at), -1)
+    forward = np.full(len(ends.at), np.inf)
+    np.minimum.at(forward, end, ahead)
+    rows = np.flatnonzero(ahead == forward[end])
+    on[end[rows]] = edge[rows]
+    trims = (out.length > 0) & (out.length <= forward)
+    found = [(2, _trim(scene, ends, out, row)) for row in np.flatnonzero(trims).tolist()]
+    first = first[~trims[end[first]]]
+    blocked = in_the_way(scene, mine.at[first], foot[first])
+    for row, no in zip(first.tolist(), blocked.tolist(), strict=True):
+        vertex, far, short = int(mine.vertex[row]), float(forward[end[row]]), float(distance[row])
+        tip = complex(mine.at[row])
+        if far <= min(reach, _ASKEW * short):
+            at, before = tip + far * complex(mine.towards[row]), complex(mine.line.a[row])
+            found.append((2, LooseEnd("extend", (vertex,), short, far, at, int(on[end[row]]), before, tip)))
+        else:
+            need = np.inf if no else short
+            at = complex(foot[row])
+            found.append((4 if no else 3, LooseEnd("foot", (vertex,), short, need, at, int(edge[row]), tip)))
+    return found
+
+
+def _trim(scene: Surroundings, ends: OpenEnds, out: Overshoots, row: int) -> LooseEnd:
+    vertex, step, sections = int(ends.vertex[row]), int(ends.step[row]), int(out.sections[row])
+    tip, before = (complex(*scene.walls.vertices[vertex + (sections + k) * step]) for k in (0, 1))
+    straight = scene.edges.radius[int(ends.edge[row]) + sections * step] == 0
+    length = float(out.length[row])
+    at, edge = complex(out.at[row]), int(out.edge[row])
+    return LooseEnd("trim", (vertex,), length, length, at, edge, before, tip if straight else None, sections)
+
+
+def _ahead(scene: Surroundings, mine: OpenEnds, edge: IntArray) -> FloatArray:
+    """How far ahead of each end its line meets an edge; infinite where it does not, and for ends of arcs."""
+    f = scene.edges.take(edge)
+    met = meetings(mine.line, f)
+    best = np.full(len(edge), np.inf)
+    for point in met.T:
+        with np.errstate(invalid="ignore"):
+            t = ((point - mine.at) * mine.towards.conj()).real
+            good = mine.straight & on_edge(f, point) & (t > scene.there)
+        best = np.where(good, np.minimum(best, np.where(good, t, np.inf)), best)
+    return best

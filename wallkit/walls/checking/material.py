@@ -1,0 +1,84 @@
+"""Where material is: which places the closed walls' winding makes solid, whatever balls are drawn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.rings import signed_areas
+from wallkit.walls.edge_tree import Edges
+from wallkit.walls.walls import Walls
+
+_POINTS = 2_000
+
+
+@dataclass(frozen=True, slots=True)
+class Solids:
+    """Closed walls as solids (counter-clockwise) and rooms or holes (clockwise), as the contract of Walls says.
+
+    A place is counted once up for every solid around it and once down for every room or hole (inside by even-odd, so
+    that a ring that crosses itself counts once). Above 0 is material, below 0 is free. At 0 it is as it is outside
+    the outermost ring around: free outside a solid, material outside a room.
+
+    Attributes:
+        edges: the straight edges of the walls.
+        sign: (W,) 1 for a solid, -1 for a room or hole, 0 for an open wall.
+        size: (W,) area of each ring.
+        around: everything outside all walls is material.
+    """
+
+    edges: Edges
+    sign: IntArray
+    size: FloatArray
+    around: bool
+
+    @classmethod
+    def of(cls, walls: Walls, edges: Edges) -> Solids:
+        """Take the winding of walls; a ring without signed area (a bow-tie) goes by its depth."""
+        area = signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets)
+        sign = np.where(area == 0, 1 - 2 * (walls.depth % 2), np.sign(area)).astype(np.int64)
+        sign[~walls.closed] = 0
+        size = np.where(walls.closed, np.abs(area), -1.0)
+        return cls(edges, sign, size, bool(len(sign) and sign[size.argmax()] < 0))
+
+    def contain(self, points: FloatArray) -> NDArray[np.bool_]:
+        """Tell which of (n, 2) points lie in material."""
+        result = np.empty(len(points), dtype=np.bool_)
+        for begin in range(0, len(points), _POINTS):  # in portions, which bounds the memory for pairs
+            some = points[begin : begin + _POINTS]
+            source, wall = self._around(some)
+            level = np.bincount(source, self.sign[wall], len(some))
+            order = np.lexsort((self.size[wall], source))
+            outermost = np.full(len(some), -1)
+            outermost[source[order]] = wall[order]  # the last written is the largest
+            beyond = np.where(outermost >= 0, self.sign[outermost] < 0, self.around)
+            result[begin : begin + _POINTS] = np.where(level == 0, beyond, level > 0)
+        return result
+
+    def innermost(self, points: FloatArray) -> IntArray:
+        """The smallest closed wall around each of (n, 2) points; -1 where there is none."""
+        source, wall = self._around(points)
+        order = np.lexsort((-self.size[wall], source))
+        result = np.full(len(points), -1, dtype=np.int64)
+        result[source[order]] = wall[order]  # the last written is the smallest
+        return result
+
+    def _around(self, points: FloatArray) -> tuple[IntArray, IntArray]:
+        """All pairs of a point and a ring around it: the ring is met an odd number of times straight above."""
+        edges = self.edges
+        top = float(edges.vertices[:, 1].max()) + 1
+        x, y = points.T
+        source, edge = edges.tree.query(shapely.box(x, y, x, np.maximum(y, top)))
+        p, a, b = points[source], edges.a[edge], edges.b[edge]
+        spans = (np.minimum(a[:, 0], b[:, 0]) <= p[:, 0]) & (p[:, 0] < np.maximum(a[:, 0], b[:, 0]))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            height = a[:, 1] + (p[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1]) / (b[:, 0] - a[:, 0])
+        above = spans & (height > p[:, 1]) & edges.closed[edges.wall[edge]]
+        count = len(edges.closed)
+        pair, times = np.unique(source[above] * count + edges.wall[edge[above]], return_counts=True)
+        odd = pair[times % 2 == 1]
+        return odd // count, odd % count

@@ -1,0 +1,102 @@
+"""Where vertices come close to the middle of walls: feet, to be vertices of the triangulation too.
+
+The narrowest spot between two walls leads from a vertex to a vertex or to the foot on an edge, and the circle over it
+is empty. With all such feet among its points a Delaunay triangulation has every such spot among its edges, and what a
+disc gets through is told by lengths of edges alone (H. Edelsbrunner, The union of balls and its dual shape, 1995).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.conforming_delaunay import Triangulation, cut_further
+
+_DEEPEST = 40  # edges looked over: with more between two walls, their vertices are as dense as feet would be
+
+
+def narrow_feet(mesh: Triangulation) -> tuple[IntArray, FloatArray]:
+    """Find feet of given vertices on the inside of pieces of walls, with nothing in the circle between the two.
+
+    A segment to such a foot crosses only edges which have a foot of the vertex inside, since their ends are out of the
+    circle; so feet are looked for over such edges alone. The middle of the segment is nearest to the vertex, hence
+    in its Voronoi cell, and no farther from it than the circles around its triangles are large.
+
+    Args:
+        mesh: triangles with the walls among their edges.
+
+    Returns:
+        (n,) the edges that the feet are on, and (n, 2) the feet; both empty where there are none.
+    """
+    row = np.flatnonzero(mesh.corners.ravel() < mesh.given)
+    edge, through = mesh.edge.ravel()[row], row // 3
+    corner = mesh.corners.ravel()
+    reach = _reach(mesh)
+    edges, feet, vertices = [np.empty(0, dtype=np.int64)], [np.empty((0, 2))], [np.empty((0, 2))]
+    for _ in range(_DEEPEST):
+        p, q = (mesh.points[mesh.ends[edge, k]] for k in (0, 1))
+        vertex = corner[row]
+        foot = _foot(mesh.points[vertex], p, q)
+        inner = (foot != p).any(axis=1) & (foot != q).any(axis=1)
+        inner &= np.hypot(*(mesh.points[vertex] - foot).T) <= reach[vertex]
+        met = inner & mesh.wall[edge]
+        edges.append(edge[met])
+        feet.append(foot[met])
+        vertices.append(mesh.points[vertex[met]])
+        going = np.flatnonzero(inner & ~mesh.wall[edge] & ~mesh.outer[edge])
+        row, edge, through = _across(mesh, row, edge, through, going)
+    result = np.concatenate(feet)
+    empty = _empty(mesh, np.concatenate(vertices), result)
+    return np.concatenate(edges)[empty], result[empty]
+
+
+def with_feet(mesh: Triangulation) -> Triangulation:
+    """Triangulate walls once more, with :func:`narrow_feet` among the points; not those that came to no end."""
+    if not mesh.complete:
+        return mesh
+    edge, feet = narrow_feet(mesh)
+    return cut_further(mesh, edge, feet) if len(edge) else mesh
+
+
+def _reach(mesh: Triangulation) -> FloatArray:
+    """How far from each vertex feet may be: the diameter of the largest circle around one of its triangles."""
+    p, q, r = (mesh.points[mesh.corners[:, k]] for k in range(3))
+    sides = np.hypot(*np.stack([q - r, r - p, p - q]).transpose(2, 0, 1))
+    (ux, uy), (vx, vy) = (q - p).T, (r - p).T
+    diameter = sides.prod(axis=0) / np.maximum(np.abs(ux * vy - uy * vx), 1e-300)
+    reach = np.zeros(len(mesh.points))
+    np.maximum.at(reach, mesh.corners.ravel(), np.repeat(diameter * (1 + 1e-9), 3))  # rounded up, to look too far
+    return reach
+
+
+def _empty(mesh: Triangulation, vertex: FloatArray, foot: FloatArray) -> NDArray[np.bool_]:
+    """Whether no vertex is in the circles from vertices to their feet."""
+    from scipy.spatial import cKDTree
+
+    if not len(foot):
+        return np.zeros(0, dtype=np.bool_)
+    nearest, _ = cKDTree(mesh.points).query((vertex + foot) / 2)
+    half = np.hypot(*(vertex - foot).T) / 2
+    empty: NDArray[np.bool_] = (half > 0) & (nearest >= half * (1 - 1e-9))
+    return empty
+
+
+def _across(
+    mesh: Triangulation, row: IntArray, edge: IntArray, through: IntArray, going: IntArray
+) -> tuple[IntArray, IntArray, IntArray]:
+    """Step over edges into the next triangles: their two other edges."""
+    row, edge, through = row[going], edge[going], through[going]
+    side = (mesh.edge[through] == edge[:, None]).argmax(axis=1)
+    beyond = mesh.neighbours[through, side]
+    entry = (mesh.edge[beyond] == edge[:, None]).argmax(axis=1)
+    following = np.concatenate([mesh.edge[beyond, (entry + 1) % 3], mesh.edge[beyond, (entry + 2) % 3]])
+    return np.tile(row, 2), following, np.tile(beyond, 2)
+
+
+def _foot(point: FloatArray, p: FloatArray, q: FloatArray) -> FloatArray:
+    """The nearest point of each segment."""
+    d = q - p
+    part = np.clip(((point - p) * d).sum(axis=1) / np.maximum((d * d).sum(axis=1), 1e-300), 0.0, 1.0)
+    foot: FloatArray = p + d * part[:, None]
+    return foot

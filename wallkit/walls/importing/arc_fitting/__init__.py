@@ -1,0 +1,1 @@
+"""Curves as circular arcs within a tolerance."""

@@ -1,0 +1,260 @@
+"""Biarcs: two circular arcs from one point and direction to another, and how far a curve is from them.
+
+Between the points P0 and P1 with unit tangents T0 and T1, v = P1 - P0, the arm d of equal length at both ends
+solves 2 (1 - T0 . T1) d^2 + 2 d v . (T0 + T1) = |v|^2; the arcs meet at J = (P0 + P1 + d (T0 - T1)) / 2 with the
+direction of v - d (T0 + T1). (The construction is Bolton's, Computer-Aided Design 7, 1975.) Where both arcs lie on
+one circle they are one edge.
+
+Distances. Let Q be a point's place relative to J, n the arcs' left normal at J and k an arc's curvature. With
+f = k |Q|^2 / 2 - Q . n the distance to the circle is 2 f / (1 + sqrt(1 + 2 k f)), which holds without loss of
+digits from tight arcs to straight lines (k = 0). A point of the curve belongs to the arc on its side of the
+normal line through J. As long as curve and arcs differ in direction by less than a right angle, that match runs
+along both in order, so that the largest distance over it bounds the distance both ways (it is a Frechet distance).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.walls.importing.arc_fitting.curves import ComplexArray, cross, dot, unit
+from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
+
+BoolArray = NDArray[np.bool_]
+
+# Directions that are equal within this make the two arcs one. The kink that is left in the middle of nowhere,
+# at the piece's ends, is half of it: an order below the 1e-9 that is promised for joints.
+_SAME = 2e-10
+# A whole segment may become one arc that leaves its ends by up to this (radians), if it stays within the
+# tolerance: the natural arc of a circle that some program wrote with a few decimals. A quarter circle written as
+# a cubic differs in direction from its circle by as much anyway.
+_NEARLY_SAME = 1e-3
+# Below this a bulge means no more than the rounding of its end points: the edge is a line.
+_STRAIGHT = 1e-12
+# Pieces whose direction differs by more from their arcs are cut further, so that arcs never take short cuts
+# through a loop, however large the tolerance.
+_LARGEST_TURN = 0.5
+
+
+@dataclass(slots=True)
+class Spans:
+    """Pieces of chains, all arrays of one length; points relative to the first point of their chain.
+
+    Attributes:
+        ids: the chain.
+        stretch: the smooth stretch, between two cusps or ends, that each is a part of.
+        low: parameter of the start.
+        high: parameter of the end.
+        p0: start point.
+        p1: end point.
+        t0: direction at the start.
+        t1: direction at the end.
+    """
+
+    ids: IntArray
+    stretch: IntArray
+    low: FloatArray
+    high: FloatArray
+    p0: ComplexArray
+    p1: ComplexArray
+    t0: ComplexArray
+    t1: ComplexArray
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def take(self, index: NDArray[np.generic]) -> Spans:
+        """Give those at ``index``."""
+        return Spans(*(getattr(self, part.name)[index] for part in fields(self)))
+
+    @staticmethod
+    def joined(parts: list[Spans]) -> Spans:
+        """String several together."""
+        names = [part.name for part in fields(Spans)]
+        return Spans(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+
+    def cut(self, chains: Chains, counts: IntArray, at: FloatArray) -> Spans:
+        """Cut each into ``counts`` (>= 1) at the parameters ``at``, one after the other."""
+        result = self.take(np.repeat(np.arange(len(self)), counts))
+        first = np.zeros(len(result), dtype=np.bool_)
+        first[np.cumsum(counts) - counts] = True
+        later, earlier = np.flatnonzero(~first), np.flatnonzero(~first) - 1
+        point, direction = chains.at(result.ids[later], at)
+        result.low[later], result.high[earlier] = at, at
+        result.p0[later], result.p1[earlier] = point, point
+        result.t0[later], result.t1[earlier] = direction, direction
+        return result
+
+
+@dataclass(slots=True)
+class Biarcs:
+    """The arcs of spans, arrays of one length.
+
+    Attributes:
+        joint: J, where the arcs meet; a point of the arc where they are one.
+        along: direction at J.
+        bend0: curvature of the first arc, positive when it turns left.
+        bend1: curvature of the second arc.
+        bulge0: bulge of the first arc, or of the one.
+        bulge1: bulge of the second arc.
+        single: both are one.
+        sound: each arc is at most a half circle, and J is between the ends.
+    """
+
+    joint: ComplexArray
+    along: ComplexArray
+    bend0: FloatArray
+    bend1: FloatArray
+    bulge0: FloatArray
+    bulge1: FloatArray
+    single: BoolArray
+    sound: BoolArray
+
+
+def biarcs(spans: Spans, loose: BoolArray | None = None) -> Biarcs:
+    """Join the ends of each span by arcs.
+
+    Args:
+        spans: the pieces; where the chord runs against the directions there is no arc of at most a half
+            circle, and ``sound`` is false.
+        loose: where one arc is taken even if it leaves the ends a little off the directions there.
+    """
+    v, both = spans.p1 - spans.p0, spans.t0 + spans.t1
+    ahead, apart = dot(v, both), np.abs(spans.t1 - spans.t0) ** 2
+    square = v.real**2 + v.imag**2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        arm = square / (ahead + np.sqrt(ahead**2 + apart * square))  # apart = 2 (1 - T0 . T1)
+    sound = (ahead > 0) & np.isfinite(arm)
+    arm = np.where(sound, arm, 0.0)
+    joint = (spans.p0 + spans.p1 + arm * (spans.t0 - spans.t1)) / 2
+    along = unit(v - arm * both)
+    bend0, bulge0 = _from(spans.t0, joint - spans.p0)
+    bend1, bulge1 = _from(along, spans.p1 - joint)
+    single = _one_arc(spans, v, sound, loose) | (v == 0)
+    if single.any():
+        # the mean of the two half angles is that of an arc between the end points
+        half = np.where(v == 0, 0.0, (np.angle(v * spans.t0.conj()) + np.angle(spans.t1 * v.conj())) / 2)
+        bulge = np.tan(half / 2)
+        middle = (spans.p0 + spans.p1) / 2 - 0.5j * v * bulge
+        bend = np.divide(2 * np.sin(half), np.abs(v), out=np.zeros_like(half), where=v != 0)
+        joint, along = np.where(single, middle, joint), np.where(single, unit(v), along)
+        bend0, bend1 = np.where(single, bend, bend0), np.where(single, bend, bend1)
+        bulge0, bulge1 = np.where(single, bulge, bulge0), np.where(single, 0.0, bulge1)
+    sound &= (np.abs(bulge0) <= 1) & (np.abs(bulge1) <= 1)
+    return Biarcs(joint, along, bend0, bend1, _rounded(bulge0), _rounded(bulge1), single, sound)
+
+
+def _from(direction: ComplexArray, chord: ComplexArray) -> tuple[FloatArray, FloatArray]:
+    """Curvature and bulge of the arc that starts in a direction and has a chord."""
+    side, ahead, length = cross(direction, chord), dot(direction, chord), np.abs(chord)
+    there = length > 0
+    bend = np.divide(2 * side, length**2, out=np.zeros_like(side), where=there)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bulge = side / (length + ahead)  # tan(h / 2) = sin h / (1 + cos h), h the angle from direction to chord
+    return bend, np.where(there & np.isfinite(bulge), bulge, 0.0)
+
+
+def _one_arc(spans: Spans, v: ComplexArray, sound: BoolArray, loose: BoolArray | None) -> BoolArray:
+    start, end = unit(v) * spans.t0.conj(), spans.t1 * unit(v).conj()
+    limit = _SAME if loose is None else np.where(loose, _NEARLY_SAME, _SAME)
+    same: BoolArray = sound & (np.abs(start - end) <= limit)
+    return same
+
+
+def _rounded(bulge: FloatArray) -> FloatArray:
+    return np.where(np.abs(bulge) < _STRAIGHT, 0.0, bulge)
+
+
+@dataclass(slots=True)
+class Fit:
+    """How arcs fit their spans.
+
+    Attributes:
+        distance: (n,) largest measured distance.
+        turn: (n,) largest measured angle between the directions (so between the normals).
+        sound: (n,) the arcs may be used at all.
+    """
+
+    distance: FloatArray
+    turn: FloatArray
+    sound: BoolArray
+
+    def take(self, index: NDArray[np.generic]) -> Fit:
+        """Give those at ``index``."""
+        return Fit(self.distance[index], self.turn[index], self.sound[index])
+
+    @staticmethod
+    def joined(parts: list[Fit]) -> Fit:
+        """String several together."""
+        return Fit(*(np.concatenate([getattr(part, name.name) for part in parts]) for name in fields(Fit)))
+
+
+CHUNK = 1 << 15  # sections measured at once, so that the working memory stays near 50 MB
+
+
+def measure(chains: Chains, spans: Spans, arcs: Biarcs, fractions: FloatArray) -> Fit:
+    """Measure at fixed fractions of the parameter range of each part of a span that is in one curve."""
+    sections = chains.sections(spans.ids, spans.low, spans.high)
+    distance, turn = np.zeros(len(sections)), np.zeros(len(sections))
+    for first in range(0, len(sections), CHUNK):
+        rows = slice(first, first + CHUNK)
+        low = sections.low[rows, None]
+        t = low + (sections.high[rows, None] - low) * fractions
+        off, angle = offsets(chains, sections, rows, t, arcs)
+        distance[rows], turn[rows] = np.abs(off).max(axis=1), angle.max(axis=1)
+    return largest(sections, distance, turn, arcs)
+
+
+def largest(sections: Sections, distance: FloatArray, turn: FloatArray, arcs: Biarcs) -> Fit:
+    """Give the largest distance and turn of each span from those of its sections."""
+    first = np.flatnonzero(sections.begins)
+    if len(first) < len(sections):
+        distance, turn = np.maximum.reduceat(distance, first), np.maximum.reduceat(turn, first)
+    sound: BoolArray = arcs.sound & (turn <= _LARGEST_TURN)
+    return Fit(distance, turn, sound)
+
+
+def deviations(
+    chains: Chains, spans: Spans, arcs: Biarcs, fractions: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Signed distances of curve points from the arcs, at fixed fractions of the parameter range.
+
+    Returns:
+        The distances (n, k), left of the arcs positive; where on the chord, as a part of it, each point is
+        (n, k); the lengths of the chords (n, 1).
+    """
+    width = (spans.high - spans.low)[:, None]
+    u = spans.low[:, None] + width * fractions
+    place = chains.at(np.repeat(spans.ids, len(fractions)), u.ravel())[0].reshape(u.shape)
+    distance = _offset((place - arcs.joint[:, None]) * arcs.along[:, None].conj(), arcs.bend0, arcs.bend1)[0]
+    chord = (spans.p1 - spans.p0)[:, None]
+    length = np.abs(chord)
+    square = np.where(length > 0, length**2, 1.0)
+    return distance, dot(place - spans.p0[:, None], chord) / square, length
+
+
+def offsets(
+    chains: Chains, sections: Sections, rows: slice, t: FloatArray, arcs: Biarcs
+) -> tuple[FloatArray, FloatArray]:
+    """Signed distances (left is positive) and angles between directions of curve points at t: (n, k) each."""
+    curve, span = sections.curves[rows], sections.rows[rows]
+    place, velocity = chains.curves.motion(curve, t)
+    joint, along = arcs.joint[span], arcs.along[span].conj()[:, None]
+    # in axes with the origin at J and x along the arcs: x + i y
+    turned = (place + (chains.shifts[curve] - joint)[:, None]) * along
+    velocity = velocity * along
+    distance, bend = _offset(turned, arcs.bend0[span], arcs.bend1[span])
+    # The arc's direction at the foot is i times its normal there, n - k Q, so 1 - k y + i k x in these axes.
+    fx, fy, vx, vy = 1 - bend * turned.imag, bend * turned.real, velocity.real, velocity.imag
+    return distance, np.abs(np.arctan2(fx * vy - fy * vx, fx * vx + fy * vy))
+
+
+def _offset(turned: ComplexArray, bend0: FloatArray, bend1: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Signed distances of points (n, k) in axes at J along the arcs, and the curvature of the arc on their side."""
+    x, y = turned.real, turned.imag
+    bend = np.where(x < 0, bend0[:, None], bend1[:, None])
+    f = bend * (x * x + y * y) / 2 - y
+    return -2 * f / (1 + np.sqrt(np.maximum(1 + 2 * bend * f, 0.0))), bend

@@ -1,0 +1,165 @@
+"""Arcs: curves become circular arcs that join without a kink, as few as the tolerance allows, with errors measured.
+
+Every curve is cut at its cusps; what is left between is smooth and gets biarcs (``biarcs``) that start
+and end on the curve, as long as the tolerance allows (``cuts``). Where curves of a subpath run on
+smoothly into each other, biarcs run over the joints (``smooth_chains``), unless
+
+- something else touches the joint: it stays a vertex, so that what meets in the drawing meets in the walls;
+- the curvature jumps there by much: a biarc across would have to be short.
+
+Circles are kept: an elliptic arc with equal radii becomes arcs of that very circle. So does a cubic whose biarc
+comes out as one arc within the tolerance, as for a circle written as four cubics.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.walls.importing.arc_fitting.biarcs import BoolArray, Fit, Spans
+from wallkit.walls.importing.arc_fitting.curves import Cubics, Curves, Ellipses, as_complex, cross
+from wallkit.walls.importing.arc_fitting.cuts import (
+    between_cusps,
+    even_out,
+    fitted,
+    halve,
+    run_together,
+    settle,
+    strung,
+)
+from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, runs_on
+from wallkit.walls.importing.curves_to_lines import Pieces
+from wallkit.walls.importing.segments import ARC, CUBIC, LINE, Arcs, Strokes
+
+# A curve that is one arc by itself stays that where it turns by more (radians): it was drawn as an arc, and is no
+# short piece of something else.
+_LEAST_TURN = 0.35
+# Times the tolerance: how much the curvature may jump at a joint without a cut, times the square of a span's length.
+# 8 to 64 need the same number of arcs within some percent. With much less every joint is a cut, with much more the
+# spans around jumps get many and short.
+_LARGEST_JUMP = 32.0
+_SAME_RADII = 1e-9  # relative; a circle after a turn and a scale differs by rounding, 1e-15
+
+
+@dataclass(slots=True)
+class _Edges:
+    """Edges of one kind of segments: segment (rising), end point and bulge of each, and the largest errors."""
+
+    segments: IntArray
+    ends: FloatArray
+    bulges: FloatArray
+    distance: float = 0.0
+    turn: float = 0.0
+
+
+def fit_arcs(strokes: Strokes, tolerance: float) -> Pieces:
+    """Turn every segment into lines and arcs within ``tolerance`` (> 0).
+
+    Arcs are at most half circles (|bulge| <= 1) and join with equal directions inside of segments, and where
+    segments that are curves join smoothly. Lines, and curves that are straight, become lines. End points of
+    segments stay bit for bit, but for smooth joints that arcs run over.
+
+    Returns:
+        Pieces with the largest distance and normal error as measured: at 19 places of every piece (and of each
+        part of it that is in one segment) and once more at the top of the parabola through the worst, which
+        falls short of the true maximum by less than 1e-3 of it; pieces are held to 0.999 of the tolerance for
+        that. All edges of smoothly joined segments count as the last one's.
+
+    Raises:
+        LimitError: the result would have more than 2,000,000 vertices.
+    """
+    cubic_at, arc_at = np.flatnonzero(strokes.kinds == CUBIC), np.flatnonzero(strokes.kinds == ARC)
+    round_ = _is_circle(strokes.arcs)
+    lines = np.flatnonzero(strokes.kinds == LINE)
+    parts = [
+        _Edges(lines, strokes.ends[lines], np.zeros(len(lines))),
+        _fit(Cubics.of(strokes.cubics), strokes, cubic_at, tolerance),
+        _circles(strokes.arcs.take(round_), arc_at[round_]),
+        _fit(Ellipses(strokes.arcs.take(~round_)), strokes, arc_at[~round_], tolerance),
+    ]
+    segments = np.concatenate([part.segments for part in parts])
+    order = np.argsort(segments, kind="stable")
+    counts = np.bincount(segments, minlength=len(strokes.kinds)).astype(np.int64)
+    ends = np.concatenate([part.ends for part in parts])[order]
+    drawn = counts > 0
+    ends[np.cumsum(counts)[drawn] - 1] = strokes.ends[drawn]
+    bulges = np.concatenate([part.bulges for part in parts])[order]
+    return Pieces(counts, ends, bulges, max(p.distance for p in parts), max(p.turn for p in parts))
+
+
+def _is_circle(arcs: Arcs) -> BoolArray:
+    first, second = arcs.radii
+    result: BoolArray = (np.abs(first - second) <= _SAME_RADII * first) | (arcs.turn == 0)
+    return result
+
+
+def _circles(arcs: Arcs, at: IntArray) -> _Edges:
+    """Cut circular arcs into equal parts of at most a half turn; a half turn within rounding is one."""
+    counts = np.maximum(np.ceil(np.abs(arcs.turn) / math.pi - 1e-9), 1).astype(np.int64)
+    which = np.repeat(np.arange(len(counts)), counts)
+    rank = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts) + 1
+    part = arcs.take(which)
+    ends = part.points(part.start + part.turn * (rank / counts[which]))
+    angle = part.turn / counts[which]
+    half_turn = np.abs(np.abs(angle) - math.pi) <= 1e-12  # tan of it comes out as 1 - 1e-16
+    bulges = np.where(half_turn, np.sign(angle), np.clip(np.tan(angle / 4), -1.0, 1.0))
+    return _Edges(at[which], ends, bulges)
+
+
+def _fit(curves: Curves, strokes: Strokes, at: IntArray, tolerance: float) -> _Edges:
+    """Fit curves of one kind, whose segments are ``at``; the edges of a chain count as its last segment's."""
+    if not len(curves):
+        return _Edges(at, np.empty((0, 2)), np.empty(0))
+    origins = as_complex(strokes.begins[at])
+    chains = Chains.of(curves, origins, np.zeros(len(curves), dtype=np.bool_))
+    whole = between_cusps(chains)
+    spans, fit = halve(chains, whole, tolerance)
+    joined = runs_on(curves, strokes, at, _arcs_by_themselves(chains, spans))
+    joined &= _bends_on(curves, spans, fit, tolerance)
+    if joined.any():
+        chains = Chains.of(curves, origins, joined)
+        stretch = np.cumsum(~(joined[whole.ids] & (whole.low == 0))) - 1
+        spans = strung(chains, spans, stretch)
+        whole = run_together(strung(chains, whole, stretch))
+    spans = even_out(chains, spans, fit, whole, tolerance)
+    spans, arcs, fit = settle(chains, spans, whole, tolerance)
+    edge_counts = np.where(arcs.single, 1, 2)
+    last = np.cumsum(edge_counts) - 1
+    z, bulges = np.empty(last[-1] + 1, dtype=np.complex128), np.empty(last[-1] + 1)
+    z[last], bulges[last] = spans.p1, np.where(arcs.single, arcs.bulge0, arcs.bulge1)
+    two = ~arcs.single
+    z[last[two] - 1], bulges[last[two] - 1] = arcs.joint[two], arcs.bulge0[two]
+    ids = np.repeat(spans.ids, edge_counts)
+    ends = strokes.begins[at[chains.offsets[ids]]] + np.stack([z.real, z.imag], axis=1)
+    segments = at[chains.offsets[ids + 1] - 1]
+    return _Edges(segments, ends, bulges, float(fit.distance.max()), float(fit.turn.max()))
+
+
+def _arcs_by_themselves(chains: Chains, spans: Spans) -> BoolArray:
+    """Tell which curves, a chain each, are one arc or one line that must not be mixed with their neighbours."""
+    arcs = fitted(chains, spans)
+    keep = arcs.single & (spans.low == 0) & (spans.high == 1)
+    keep &= (arcs.bulge0 == 0) | (4 * np.arctan(np.abs(arcs.bulge0)) >= _LEAST_TURN)
+    result = np.zeros(len(chains), dtype=np.bool_)
+    result[spans.ids[keep]] = True
+    return result
+
+
+def _bends_on(curves: Curves, spans: Spans, fit: Fit, tolerance: float) -> BoolArray:
+    """Tell which curves go on from the one before with a curvature so much the same that a cut there is of no use.
+
+    A jump J of the curvature amid a span of length h adds up to about J h^2 / 128 to how far it is off.
+    """
+    first = np.flatnonzero(np.diff(spans.ids, prepend=-1))
+    last = np.append(first[1:], len(spans)) - 1
+    reach = np.abs(spans.p1 - spans.p0) / np.maximum(np.cbrt(fit.distance / tolerance), 0.1)
+    ids, ends = np.arange(len(curves)), np.broadcast_to(np.array([0.0, 1.0]), (len(curves), 2))
+    velocity = curves.motion(ids, ends)[1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = cross(velocity, curves.accelerations(ids, ends)) / np.abs(velocity) ** 3
+        jump = np.abs(bend[1:, 0] - bend[:-1, 1])
+        even = jump * np.minimum(reach[first[1:]], reach[last[:-1]]) ** 2 <= _LARGEST_JUMP * tolerance
+    return np.concatenate([[False], even])

@@ -1,0 +1,297 @@
+"""Where to cut: as few spans of smooth curves as their biarcs allow, all off by about the same.
+
+Cuts are first found by halving each curve, which always ends. Then the same number or fewer are placed over whole
+chains so that all spans are off by the same: the needed share of spans of a piece that is off by e is
+(e / tolerance)^(1/3), and new cuts take equal shares. Each round runs over all curves at once.
+
+The directions at the new cuts lean (``joint_directions``); where a stretch ends they are those of the curve.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ragged import numbered
+from wallkit.walls.importing.arc_fitting.biarcs import (
+    CHUNK,
+    Biarcs,
+    BoolArray,
+    Fit,
+    Spans,
+    biarcs,
+    largest,
+    measure,
+    offsets,
+)
+from wallkit.walls.importing.arc_fitting.curves import unit
+from wallkit.walls.importing.arc_fitting.joint_directions import lean
+from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
+from wallkit.walls.importing.curves_to_lines import within_limit
+
+# Fractions of a span that are looked at while cutting. The error of a biarc is largest near 1/3 and 2/3, with
+# directions that lean near 0.1, 0.4, 0.6 and 0.9.
+_LOOK = np.array([0.1, 0.25, 1 / 3, 0.4, 0.6, 2 / 3, 0.75, 0.9])
+_SAFE = 0.99  # of the tolerance; what looking at 8 places may miss
+_EVEN = np.arange(19) / 18  # from 1/20 of a span to 19/20
+_SURE = 0.999  # the same for the close look at 19 places and the highest between
+_DEEPEST = 48  # halvings: the parameter's own rounding is reached
+_ROUNDS = 8
+_ROUGH = 2.0  # times the tolerance: cuts that leave a span as far off after three rounds will not even out
+_CUT_ANEW = 2  # rounds of the close look that do so; then halving, which always ends
+_GENTLE = 1.2  # times the tolerance: errors up to it come down by a few more spans evenly spread
+_ROUNDING = 1e-14  # of a chain's size: a span as short has no direction to speak of
+_LEANING = 0.8  # what leaning makes of the number of spans, 0.69, and some for the ends of stretches
+
+
+def between_cusps(chains: Chains) -> Spans:
+    """Cut every curve at its cusps; there the direction comes in against the acceleration and leaves along it."""
+    curves = chains.curves
+    which, t = curves.cusps()
+    n = len(curves)
+    first, last = curves.end_tangents()
+    back = unit(curves.accelerations(which, t[:, None])[:, 0])
+    point = curves.motion(which, t[:, None])[0][:, 0]
+    ids = np.concatenate([np.arange(n), which])
+    order = np.lexsort((np.concatenate([np.zeros(n), t]), ids))
+    low = np.concatenate([np.zeros(n), t])[order]
+    p0 = np.concatenate([np.zeros(n, dtype=np.complex128), point])[order]
+    t0 = np.concatenate([first, back])[order]
+    order = np.lexsort((np.concatenate([np.ones(n), t]), ids))
+    high = np.concatenate([np.ones(n), t])[order]
+    p1 = np.concatenate([curves.last, point])[order]
+    t1 = np.concatenate([last, -back])[order]
+    return Spans(ids[order], np.arange(len(ids)), low, high, p0, p1, t0, t1)
+
+
+def strung(chains: Chains, spans: Spans, stretch: IntArray) -> Spans:
+    """Give spans of single curves as spans of the chains that these are in now.
+
+    Args:
+        chains: the chains.
+        spans: spans of chains of one curve each.
+        stretch: for each of their stretches, that which it is a part of now.
+    """
+    curve = spans.ids
+    start, stop, shift = chains.starts[curve], chains.stops[curve], chains.shifts[curve]
+    result = Spans(
+        np.searchsorted(chains.offsets, curve, side="right") - 1,
+        stretch[spans.stretch],
+        np.where(spans.low == 0, start, start + spans.low * (stop - start)),
+        np.where(spans.high == 1, stop, start + spans.high * (stop - start)),
+        spans.p0 + shift,
+        spans.p1 + shift,
+        spans.t0,
+        spans.t1.copy(),
+    )
+    inner = np.flatnonzero(result.stretch[1:] == result.stretch[:-1])
+    result.p1[inner], result.t1[inner] = result.p0[inner + 1], result.t0[inner + 1]
+    return result
+
+
+def run_together(stretches: Spans) -> Spans:
+    """Give one span for each stretch, from its first part's start to its last part's end."""
+    first = np.flatnonzero(np.diff(stretches.stretch, prepend=-1))
+    last = np.append(first[1:], len(stretches)) - 1
+    result, end = stretches.take(first), stretches.take(last)
+    result.high, result.p1, result.t1 = end.high, end.p1, end.t1
+    return result
+
+
+def fitted(chains: Chains, spans: Spans) -> Biarcs:
+    """Give the arcs of spans; a curve that is a chain and a span by itself may become one arc more easily."""
+    alone = (spans.low == 0) & (spans.high == chains.lengths[spans.ids])
+    return biarcs(spans, alone & (np.diff(chains.offsets)[spans.ids] == 1))
+
+
+def _look(chains: Chains, spans: Spans) -> Fit:
+    return measure(chains, spans, fitted(chains, spans), _LOOK)
+
+
+def _wrong(chains: Chains, fit: Fit, spans: Spans, tolerance: float) -> BoolArray:
+    """Tell which spans must be cut further: not within the tolerance, unless there is nothing left to cut."""
+    still = spans.t0 == 0  # the curve is a point
+    short = np.abs(spans.p1 - spans.p0) <= _ROUNDING * chains.sizes[spans.ids]  # or comes back to its start
+    narrow = spans.high - spans.low < 1e-6 * chains.lengths[spans.ids]
+    wrong: BoolArray = ~(fit.sound & (fit.distance <= tolerance)) & ~still & ~(short & narrow)
+    return wrong
+
+
+def halve(chains: Chains, spans: Spans, tolerance: float) -> tuple[Spans, Fit]:
+    """Halve until every span fits; in order of chain and parameter."""
+    done: list[tuple[Spans, Fit]] = []
+    total = 0
+    for depth in range(_DEEPEST):
+        fit = _look(chains, spans)
+        wrong = _wrong(chains, fit, spans, _SAFE * tolerance) & (depth < _DEEPEST - 1)
+        done.append((spans.take(~wrong), fit.take(~wrong)))
+        if not wrong.any():
+            break
+        total += len(done[-1][0])
+        spans = _halved(chains, spans.take(wrong))
+        within_limit(total + len(spans))
+    return _in_order(done)
+
+
+def _halved(chains: Chains, spans: Spans) -> Spans:
+    """Cut each in two at the middle parameter; the two halves stand next to each other."""
+    return spans.cut(chains, np.full(len(spans), 2), (spans.low + spans.high) / 2)
+
+
+def even_out(chains: Chains, best: Spans, fit: Fit, whole: Spans, tolerance: float) -> Spans:
+    """Place fewer cuts by equal shares of the error, stretch by stretch where that works.
+
+    A stretch may be left with a few spans that do not fit yet: halving those costs one more span each, and a
+    new division is taken only where it is the better one with that counted in.
+    """
+    count = len(whole)
+    cost = np.bincount(best.stretch, minlength=count)
+    trial, failed = best, np.zeros(count, dtype=np.int64)
+    open_ = cost > 1
+    for round_ in range(_ROUNDS):
+        share = _share(fit, tolerance)
+        needed = np.bincount(trial.stretch, share, minlength=count)
+        # the first shares are of directions that do not lean yet, and at the two ends they never do
+        needed = needed if round_ else np.minimum(needed, _LEANING * needed + 0.5)
+        wanted = np.maximum(np.ceil(needed - 0.02), 1).astype(np.int64)
+        # every number has a second chance, with the better shares; then it is one more, or 2 % of many
+        wanted = np.maximum(wanted, failed + (1 + failed // 50) * (round_ % 2 == 0))
+        open_ &= wanted < cost
+        if not open_.any():
+            break
+        trial = lean(chains, _recut(chains, trial, share, whole, wanted, open_))
+        fit = _look(chains, trial)
+        wrong = np.bincount(trial.stretch[_wrong(chains, fit, trial, _SAFE * tolerance)], minlength=count)
+        better = open_ & (wanted + wrong < cost)
+        best = _replaced(best, trial, better)
+        cost = np.where(better, wanted + wrong, cost)
+        failed = np.where(wrong > 0, wanted, 0)
+        if round_ > 1:
+            open_[trial.stretch[fit.distance > _ROUGH * tolerance]] = False
+    return best
+
+
+def _share(fit: Fit, tolerance: float) -> FloatArray:
+    """How many spans within the tolerance each takes.
+
+    In steps of 2^-20, so that sums are exact and the cuts of a curve do not depend on the curves before it.
+    """
+    share = np.clip(np.cbrt(fit.distance / tolerance), 0.01, 1e3)
+    return _exact(np.where(fit.sound, share, np.maximum(share, 1.5)))
+
+
+def _exact(share: FloatArray) -> FloatArray:
+    return np.rint(share * 2.0**20) / 2.0**20
+
+
+def _recut(chains: Chains, old: Spans, share: FloatArray, whole: Spans, wanted: IntArray, open_: BoolArray) -> Spans:
+    """Cut the open stretches into ``wanted`` spans of equal shares; within an old span shares grow evenly."""
+    rows = np.flatnonzero(open_)
+    keep = open_[old.stretch]
+    old, share = old.take(keep), share[keep]
+    which = np.searchsorted(rows, old.stretch)
+    sums = np.bincount(which, share, minlength=len(rows))
+    ends = np.cumsum(share)  # of shares, over all stretches end to end
+    before = np.cumsum(sums) - sums
+    count = wanted[rows]
+    row, rank = numbered(count - 1)
+    target = before[row] + _exact(sums[row] * (rank + 1) / count[row])
+    first = np.searchsorted(which, np.arange(len(rows)))
+    last = np.searchsorted(which, np.arange(len(rows)), side="right") - 1
+    at = np.clip(np.searchsorted(ends, target), first[row], last[row])
+    part = np.clip(1 - (ends[at] - target) / share[at], 0.0, 1.0)
+    return whole.take(rows).cut(chains, count, old.low[at] + part * (old.high[at] - old.low[at]))
+
+
+def _replaced(best: Spans, trial: Spans, passed: BoolArray) -> Spans:
+    joined = Spans.joined([best.take(~passed[best.stretch]), trial.take(passed[trial.stretch])])
+    return joined.take(np.lexsort((joined.low, joined.ids)))
+
+
+def settle(chains: Chains, spans: Spans, whole: Spans, tolerance: float) -> tuple[Spans, Biarcs, Fit]:
+    """Measure closely, cut more finely what turns out wrong after all, and give the final arcs with their errors."""
+    settled: list[tuple[Spans, Fit]] = []
+    for depth in range(_DEEPEST):
+        fit = _close_look(chains, spans, fitted(chains, spans))
+        wrong = _wrong(chains, fit, spans, _SURE * tolerance) & (depth < _DEEPEST - 1)
+        open_ = wrong
+        if depth < _CUT_ANEW:  # the directions around what is cut have to be found anew
+            open_ = np.isin(spans.stretch, spans.stretch[wrong])
+        settled.append((spans.take(~open_), fit.take(~open_)))
+        if not wrong.any():
+            break
+        if depth < _CUT_ANEW:
+            spans = _cut_anew(chains, spans.take(open_), fit.take(open_), wrong[open_], whole, tolerance)
+        else:
+            spans = _halved(chains, spans.take(wrong))
+    spans, fit = _in_order(settled)
+    return spans, fitted(chains, spans), replace(fit, turn=np.maximum(fit.turn, _turned(chains, spans)))
+
+
+def _turned(chains: Chains, spans: Spans) -> FloatArray:
+    """The angles between the directions at the ends of spans and those of the curve, of which the look sees nothing."""
+    left = np.flatnonzero(spans.stretch[1:] == spans.stretch[:-1])
+    ids, u, direction = spans.ids[left], spans.high[left], spans.t1[left].conj()
+    turn = np.zeros(len(spans))
+    for curve in (chains.before(ids, u), chains.at(ids, u)[1]):
+        turn[left] = np.maximum(turn[left], np.abs(np.angle(curve * direction)))
+    return turn
+
+
+def _cut_anew(chains: Chains, spans: Spans, fit: Fit, wrong: BoolArray, whole: Spans, tolerance: float) -> Spans:
+    """Share stretches out among one span more, or 2 % of many, where that will do; halve what is wrong elsewhere."""
+    count = np.bincount(spans.stretch, minlength=len(whole))
+    gentle = count > 0
+    gentle[spans.stretch[fit.distance > _GENTLE * tolerance]] = False
+    rest = ~gentle[spans.stretch]
+    middle = (spans.low + spans.high) / 2
+    parts = [spans.take(rest).cut(chains, 1 + wrong[rest], middle[rest & wrong])]
+    if gentle.any():
+        wanted = count + np.maximum(count // 50, 1)
+        parts.append(_recut(chains, spans, _share(fit, tolerance), whole, wanted, gentle))
+    result = Spans.joined(parts)
+    return lean(chains, result.take(np.lexsort((result.low, result.ids))))
+
+
+def _in_order(parts: list[tuple[Spans, Fit]]) -> tuple[Spans, Fit]:
+    """String spans and their fits together, by chain and parameter."""
+    spans, fit = Spans.joined([part for part, _ in parts]), Fit.joined([part for _, part in parts])
+    order = np.lexsort((spans.low, spans.ids))
+    return spans.take(order), fit.take(order)
+
+
+def _close_look(chains: Chains, spans: Spans, arcs: Biarcs) -> Fit:
+    """Measure at even places, then once more at the top of the parabola through the worst place and its neighbours."""
+    sections = chains.sections(spans.ids, spans.low, spans.high)
+    worst = np.zeros(len(sections)), np.zeros(len(sections))
+    for first in range(0, len(sections), CHUNK):
+        rows = slice(first, first + CHUNK)
+        low, high = _inside(sections, rows)
+        seen = offsets(chains, sections, rows, low + (high - low) * _EVEN, arcs)
+        for kind, most in enumerate(worst):
+            values = np.abs(seen[kind])
+            place = np.clip(low + (high - low) * _peak(values)[:, None], *_inside(sections, rows, 1 / 80))
+            top = offsets(chains, sections, rows, place, arcs)[kind]
+            most[rows] = np.maximum(values.max(axis=1), np.abs(top[:, 0]))
+    turn = np.where(spans.t0[sections.rows] == 0, 0.0, worst[1])  # a curve that is a point has no direction
+    return largest(sections, worst[0], turn, arcs)
+
+
+def _inside(sections: Sections, rows: slice, margin: float = 1 / 20) -> tuple[FloatArray, FloatArray]:
+    """Columns of where to look first and last: a margin away from the span's own ends, but at joints of curves."""
+    low, high = sections.low[rows, None], sections.high[rows, None]
+    away = (high - low) * margin
+    return low + away * sections.begins[rows, None], high - away * sections.ends[rows, None]
+
+
+def _peak(values: FloatArray) -> FloatArray:
+    """Where, 0 for the first column and 1 for the last, the parabola through the largest and its neighbours peaks."""
+    at = np.clip(values.argmax(axis=1), 1, values.shape[1] - 2)
+    row = np.arange(len(values))
+    before, middle, after = values[row, at - 1], values[row, at], values[row, at + 1]
+    bow = before - 2 * middle + after
+    shift = np.divide(before - after, 2 * bow, out=np.zeros_like(bow), where=bow < 0)
+    result: FloatArray = _EVEN[at] + np.clip(shift, -1, 1) * _EVEN[1]
+    return result

@@ -1,0 +1,129 @@
+"""Outlines: the chosen subpaths as polylines, with what the file says about each; the stage before Walls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from importers.drawing import DrawnPath
+from importers.problems import Problem, Severity
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.walls.importing.curves_to_lines import Pieces
+from wallkit.walls.importing.segments import Strokes
+from wallkit.walls.walls import Material, Sides, Walls
+
+
+@dataclass(slots=True)
+class Outlines:
+    """Polylines on their way to walls; arrays as in Walls (a closed one does not repeat its first vertex).
+
+    Attributes:
+        vertices: (V, 2).
+        bulges: (V,).
+        offsets: (W + 1,).
+        closed: (W,) bool.
+        owner: (W,) index into ``paths``.
+        paths: the drawn paths.
+        problems: what was found so far.
+    """
+
+    vertices: FloatArray
+    bulges: FloatArray
+    offsets: IntArray
+    closed: NDArray[np.bool_]
+    owner: IntArray
+    paths: list[DrawnPath]
+    problems: list[Problem] = field(default_factory=list)
+
+    def __len__(self) -> int:
+        return len(self.closed)
+
+    def keep(self, wanted: NDArray[np.bool_]) -> Outlines:
+        """Give the outlines where ``wanted`` is true."""
+        counts = np.diff(self.offsets)
+        rows = np.repeat(wanted, counts)
+        return replace(
+            self,
+            vertices=self.vertices[rows],
+            bulges=self.bulges[rows],
+            offsets=np.concatenate([[0], np.cumsum(counts[wanted])]),
+            closed=self.closed[wanted],
+            owner=self.owner[wanted],
+        )
+
+    def problem(
+        self, index: int, code: str, severity: Severity, message: str, fix: str, at: FloatArray | None = None
+    ) -> Problem:
+        """Make a problem of outline ``index``, at its first vertex if no place is given."""
+        path = self.paths[self.owner[index]]
+        place = self.vertices[self.offsets[index]] if at is None else at
+        return Problem(
+            code=code,
+            severity=severity,
+            message=message,
+            fix=fix,
+            layer=path.layer,
+            name=path.name,
+            line=path.line,
+            x=float(place[0]),
+            y=float(place[1]),
+        )
+
+    def to_walls(self, sides: Sides) -> Walls:
+        """Make walls of them, in this order."""
+        walls = Walls.from_polylines([])
+        count = len(self)
+        return replace(
+            walls,
+            vertices=np.ascontiguousarray(self.vertices),
+            bulges=np.ascontiguousarray(self.bulges),
+            offsets=self.offsets.astype(np.int64),
+            closed=self.closed,
+            depth=np.zeros(count, dtype=np.int64),
+            sides=tuple(sides if closed else "both" for closed in self.closed.tolist()),
+            materials=(Material(),) * count,
+            names=tuple(self.paths[i].name for i in self.owner.tolist()),
+            layers=tuple(self.paths[i].layer for i in self.owner.tolist()),
+        )
+
+
+def assemble(strokes: Strokes, pieces: Pieces, paths: list[DrawnPath]) -> Outlines:
+    """String the edges of all subpaths together: start points, edge ends, and what closes.
+
+    An outline is closed when the file closes it or when it is drawn back to its very start (the same bits).
+    """
+    subpaths = [sub for path in paths for sub in path.subpaths]
+    owner = np.repeat(np.arange(len(paths)), [len(path.subpaths) for path in paths])
+    edges = _sums(pieces.counts, strokes.offsets)
+    counts = edges + 1
+    offsets = np.concatenate([[0], np.cumsum(counts)])
+    vertices, bulges = np.empty((offsets[-1], 2)), np.zeros(offsets[-1])
+    first = np.zeros(offsets[-1], dtype=np.bool_)
+    first[offsets[:-1]] = True
+    vertices[first], vertices[~first] = strokes.starts, pieces.ends
+    last = np.zeros(offsets[-1], dtype=np.bool_)
+    last[offsets[1:] - 1] = True
+    bulges[~last] = pieces.bulges
+    returns = (vertices[offsets[:-1]] == vertices[offsets[1:] - 1]).all(axis=1) & (counts > 2)
+    closed = np.array([sub.closed for sub in subpaths], dtype=np.bool_) | returns
+    outlines = Outlines(vertices, bulges, offsets, closed, owner, paths)
+    drop = np.zeros(offsets[-1], dtype=np.bool_)
+    drop[(offsets[1:] - 1)[returns]] = True
+    return without_vertices(outlines, drop)
+
+
+def _sums(values: IntArray, offsets: IntArray) -> IntArray:
+    return np.diff(np.concatenate([[0], np.cumsum(values)])[offsets])
+
+
+def without_vertices(outlines: Outlines, drop: NDArray[np.bool_]) -> Outlines:
+    """Take vertices away; the edge before one then ends where its own edge did."""
+    gone = np.concatenate([[0], np.cumsum(drop)])
+    return replace(
+        outlines,
+        vertices=outlines.vertices[~drop],
+        bulges=outlines.bulges[~drop],
+        offsets=outlines.offsets - gone[outlines.offsets],
+    )

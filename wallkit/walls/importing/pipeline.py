@@ -1,0 +1,186 @@
+"""From a drawing to walls: choose paths, make edges of curves, clean, nest, orient, report."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import IO, Literal, Unpack
+
+import numpy as np
+
+from importers.drawing import Drawing, DrawnPath
+from importers.problems import Problem
+from wallkit.geometry.arrays import FloatArray
+from wallkit.walls.checking.self_check import straight_edges, validate
+from wallkit.walls.crossings import find_contacts
+from wallkit.walls.import_options import ImportOptions, ImportWishes
+from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_arcs
+from wallkit.walls.importing.choose_paths import choose
+from wallkit.walls.importing.clean import clean
+from wallkit.walls.importing.curves_to_lines import flatten
+from wallkit.walls.importing.drawn_balls import drawn_balls
+from wallkit.walls.importing.fill_rule import material_rings
+from wallkit.walls.importing.outlines import Outlines, assemble
+from wallkit.walls.importing.segments import Strokes, gather
+from wallkit.walls.nesting import depths
+from wallkit.walls.orient import turned_to
+from wallkit.walls.repairing.passes import repair
+from wallkit.walls.solid import Nested, decide
+from wallkit.walls.walls import Walls, WallsError
+
+Source = str | Path | IO[bytes] | IO[str] | Drawing
+
+
+def import_walls(source: Source, options: ImportOptions | None = None, /, **wishes: Unpack[ImportWishes]) -> Walls:
+    """Turn a drawing into walls.
+
+    Args:
+        source: a path, a file object, or a Drawing.
+        options: all options in one value; or else
+        **wishes: the same as keywords, such as ``tolerance=0.05, curves="arcs", snap=0.5``; see
+            :class:`wallkit.walls.import_options.ImportOptions` for all of them. ``repairs`` takes a ``Repairs``.
+
+    Returns:
+        Walls with everything noticed in ``problems``; nothing is left out without one. ``solid`` says which side of
+        the outermost walls is material, and why: paint and the balls that are drawn decide, unless an option does.
+
+    Raises:
+        DrawingError: the source is not a drawing.
+        WallsError: an option is out of range, or a glob fits nothing.
+        LimitError: more than 2,000,000 vertices.
+    """
+    if options is not None and wishes:
+        raise WallsError("options come in one value or as keywords", code="bad-option", fix="give one of the two")
+    chosen = ImportOptions.of(**wishes) if options is None else options
+    return build_walls(source if isinstance(source, Drawing) else _read(source), chosen)
+
+
+def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | None = None) -> Walls:
+    """Turn a drawing into walls, with balls that are not drawn.
+
+    Args:
+        drawing: as read.
+        options: how.
+        balls: (n, 2) centres in the units of the result; where none are drawn they help to decide what is solid.
+    """
+    scale, flip_y = options.scale, options.flip_y
+    drawn, _ = drawn_balls(drawing)
+    if drawn or balls is None:
+        balls = np.array([(ball.x, ball.y) for ball in drawn]).reshape(-1, 2) * (scale, -scale if flip_y else scale)
+    chosen, problems = choose(drawing, options, drawn)
+    chosen, pointless = _with_segments(chosen)
+    if options.outline_strokes:
+        chosen, outlined = _outlined(chosen, options.tolerance)
+        pointless += outlined
+    strokes = gather((sub for path in chosen for sub in path.subpaths), scale, flip_y)
+    within = default_tolerance(strokes) if options.tolerance is None else options.tolerance * scale
+    pieces = fit_arcs(strokes, within) if options.curves == "arcs" else flatten(strokes, within)
+    walls = nested(clean(assemble(strokes, pieces, chosen)), options, within, balls)
+    found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *problems, *pointless)]
+    return replace(
+        walls,
+        units=drawing.units if scale == 1 else "",
+        y_axis=_flipped(drawing.y_axis) if flip_y else drawing.y_axis,
+        tolerance=within,
+        measured_error=walls.measured_error + pieces.error,
+        measured_normal_error=pieces.normal_error,
+        source_file=drawing.file,
+        source_sha256=drawing.sha256,
+        problems=found + walls.problems,
+    )
+
+
+def _read(source: str | Path | IO[bytes] | IO[str]) -> Drawing:
+    from importers.read import read_drawing  # late: it brings the readers of all formats
+
+    drawing: Drawing = read_drawing(source)
+    return drawing
+
+
+def _outlined(paths: list[DrawnPath], tolerance: float | None) -> tuple[list[DrawnPath], list[Problem]]:
+    from wallkit.walls.importing.stroke_areas import outline_strokes
+
+    within = (
+        default_tolerance(gather(sub for path in paths for sub in path.subpaths)) if tolerance is None else tolerance
+    )
+    return outline_strokes(paths, within)
+
+
+def default_tolerance(strokes: Strokes) -> float:
+    """0.1 % of the diagonal of the box of all end and control points, at most 0.1."""
+    points = np.concatenate([strokes.starts, strokes.ends, strokes.cubics.reshape(-1, 2)])
+    if not len(points):
+        return 0.1
+    diagonal = float(np.hypot(*(points.max(axis=0) - points.min(axis=0))))
+    return min(0.1, diagonal / 1000) or 0.1
+
+
+def _with_segments(paths: list[DrawnPath]) -> tuple[list[DrawnPath], list[Problem]]:
+    """Take away subpaths that only move the pen; each is a path of one point and reported as such."""
+    kept: list[DrawnPath] = []
+    problems: list[Problem] = []
+    for path in paths:
+        drawn = [sub for sub in path.subpaths if len(sub.segments) > 1]
+        points = (sub.segments[0] for sub in path.subpaths if len(sub.segments) == 1)
+        problems.extend(_one_point(path, x, y) for _, x, y in points)
+        if drawn:
+            kept.append(path if len(drawn) == len(path.subpaths) else replace(path, subpaths=drawn))
+    return kept, problems
+
+
+def _one_point(path: DrawnPath, x: float, y: float) -> Problem:
+    return Problem(
+        code="one-point-path",
+        severity="warning",
+        message="a path of a single point has no wall",
+        fix="delete the stray point, or draw a small circle if a ball should hit it",
+        layer=path.layer,
+        name=path.name,
+        line=path.line,
+        x=x,
+        y=y,
+    )
+
+
+def nested(outlines: Outlines, options: ImportOptions, tolerance: float, balls: FloatArray) -> Walls:
+    """Find out which rings are edges of paint, nest them, decide what is solid, repair if asked to, turn, and check."""
+    plain = replace(outlines.to_walls(options.sides), tolerance=tolerance)
+    edges = straight_edges(plain)
+    contacts = find_contacts(edges)
+    keep, dropped = material_rings(outlines, edges, contacts.crossing_walls)
+    problems = outlines.problems + dropped
+    if not keep.all():
+        outlines = outlines.keep(keep)
+        plain = replace(outlines.to_walls(options.sides), tolerance=tolerance)
+        edges = straight_edges(plain)
+        contacts = find_contacts(edges)
+    owners = [outlines.paths[owner] for owner in outlines.owner.tolist()]
+    lines = [path.line for path in owners]
+    depth, parent = depths(edges, contacts.crossing_walls)
+    solid = decide(Nested(edges, depth, parent, owners), options, balls)
+    repairs = options.repairs
+    if repairs is not None:
+        even_odd = [path.fill is not None and path.fill_rule == "evenodd" for path in owners]
+        done = repair(plain, repairs, arena=solid.room, even_odd=even_odd, file_lines=lines)
+        problems = problems + [change.to_problem() for change in done.changes] + done.violations
+        return replace(done.walls, solid=solid, problems=_still_true(problems, done.walls))
+    walls = turned_to(plain, depth, solid.room)
+    found = validate(plain, lines=lines, edges=edges, contacts=contacts)
+    return replace(walls, solid=solid, problems=problems + found)
+
+
+def _still_true(problems: list[Problem], walls: Walls) -> list[Problem]:
+    """Leave out open paths that repair has closed: their reported end is no open end any more."""
+    first, last = walls.offsets[:-1][~walls.closed], walls.offsets[1:][~walls.closed] - 1
+    ends = {tuple(point) for point in walls.vertices[np.concatenate([first, last])].tolist()}
+    return [problem for problem in problems if problem.code != "open-path" or (problem.x, problem.y) in ends]
+
+
+def _flipped(axis: Literal["up", "down"]) -> Literal["up", "down"]:
+    return "down" if axis == "up" else "up"
+
+
+def _moved(problem: Problem, scale: float, flip_y: bool) -> Problem:
+    if problem.x is None or problem.y is None or (scale == 1 and not flip_y):
+        return problem
+    return replace(problem, x=problem.x * scale, y=problem.y * scale * (-1 if flip_y else 1))

@@ -1,0 +1,1 @@
+"""Passes that mend walls: loose ends, overlaps, slivers."""
