@@ -335,11 +335,10 @@ class Reader:
         if hidden and self.aside:  # what is not displayed counts for no box
             return
         lengths = Lengths(attributes, declared, around.viewport, style.font)
-        shape = self._shape(tag, element, attributes, lengths)
+        shape = self._shape(tag, element, attributes, lengths, bool(around.chain))
         matrix = around.matrix
-        own = [segment for sub in shape.subpaths for segment in sub.segments]
         if has_transform(declared):
-            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: box_of_segments(own)))
+            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: _own_box(shape)))
         name = name_of(element, attributes, self.illustrator) or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
             note_shape(tag, element, shape, lengths, around.layer, name, matrix, self.notes)
@@ -373,21 +372,25 @@ class Reader:
         )
         self.drawing.paths.append(drawn)
         if drawn.visible and not self.aside:
-            clip = self._clip(declared, around, matrix, lambda: box_of_segments(own))
+            clip = around.clip
+            if "clip-path" in declared or "mask" in declared:
+                clip = self._clip(declared, around, matrix, lambda: _own_box(shape))
             note_unseen(tag, element, drawn, around.page, clip, self.notes)
 
     def _tags(self, attributes: Attributes, around: Around) -> dict[str, str]:
-        self.work.charge("tags", 4 * len(around.tags or ()))
+        if around.tags:
+            self.work.charge("tags", 4 * len(around.tags))
         return tags_of(attributes, around.tags or {})
 
-    def _shape(self, tag: str, element: Any, attributes: Attributes, lengths: Lengths) -> Shape:
-        """Give what a shape draws; lists of points and path data are read once, however often they are shown."""
+    def _shape(self, tag: str, element: Any, attributes: Attributes, lengths: Lengths, copied: bool) -> Shape:
+        """Give what a shape draws; lists of points and path data that are copied are read once."""
         data = "d" if tag == "path" else "points"
-        own = data in attributes and data not in lengths.declared
+        own = copied and data in attributes and data not in lengths.declared
         shape = self.shapes.get(element) if own else None
         if shape is None:
-            text = lengths.declared.get("d") if data == "d" and not own else attributes.get(data)
-            self.work.charge("path data", len(text or "") // LETTERS_OF_A_STEP)
+            text = lengths.declared.get(data) or attributes.get(data)
+            if text:
+                self.work.charge("path data", len(text) // LETTERS_OF_A_STEP)
             shape = make_shape(tag, attributes, lengths)
             if own:
                 self.shapes[element] = shape
@@ -403,6 +406,10 @@ class Reader:
         if width <= 0:
             return None, None
         return stroke, width if width <= MAX_COORDINATE else None
+
+
+def _own_box(shape: Shape) -> Box | None:
+    return box_of_segments(segment for sub in shape.subpaths for segment in sub.segments)
 
 
 def _without_opacity(declared: Declared) -> bool:
