@@ -94,6 +94,7 @@ class Work:
         file: the file's name, for messages.
         letters: of the file; LETTERS_OF_A_STEP of them pay for one step.
         elements: of the file; each pays for STEPS_OF_AN_ELEMENT.
+        most: the steps that may be done.
         spent: the steps done so far, by what they were spent on.
         done: all of them together.
     """
@@ -101,13 +102,12 @@ class Work:
     file: str = ""
     letters: int = 0
     elements: int = 0
+    most: int = field(init=False)
     spent: dict[str, int] = field(default_factory=dict)
     done: int = 0
 
-    @property
-    def most(self) -> int:
-        """The steps that may be done."""
-        return MAX_STEPS + self.letters // LETTERS_OF_A_STEP + STEPS_OF_AN_ELEMENT * self.elements
+    def __post_init__(self) -> None:
+        self.most = MAX_STEPS + self.letters // LETTERS_OF_A_STEP + STEPS_OF_AN_ELEMENT * self.elements
 
     def charge(self, what: str, steps: int) -> None:
         """Count steps that are about to be done.

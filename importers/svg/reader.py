@@ -6,8 +6,7 @@ The walk keeps its own stack, so no depth of groups or chain of references can e
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from importers.boxes import Box, box_of, box_of_segments
 from importers.drawing import Drawing, DrawnPath, Layer, Subpath
@@ -42,8 +41,7 @@ _STEPS_OF_A_USE = 25
 _MAX_ASIDE = 8
 
 
-@dataclass(frozen=True, slots=True)
-class Around:
+class Around(NamedTuple):
     """What an element has from what is around it."""
 
     matrix: Matrix
@@ -148,7 +146,7 @@ class Reader:
         self.drawing.page = page
         region = ALL if page is None else Region(page)
         around = Around(matrix, style, viewport, page=region, hidden=hidden, unseen=_without_opacity(declared), tags={})
-        around = replace(around, clip=self._clip(declared, around, matrix, lambda: None))
+        around = around._replace(clip=self._clip(declared, around, matrix, lambda: None))
         self._push_children(root, around)
 
     def _push_children(self, element: Any, around: Around) -> None:
@@ -220,8 +218,7 @@ class Reader:
         else:
             groups = (*groups, name)
         tags = self._tags(attributes, around)
-        return replace(
-            around,
+        return around._replace(
             matrix=matrix,
             style=style,
             layer=layer,
@@ -242,7 +239,7 @@ class Reader:
                 fix = "write the transform without transform-box"
                 self.notes.count("box-in-box", "error", "transform-box in transform-box is too deep", element, fix=fix)
                 return None
-            inside = replace(around, matrix=IDENTITY, style=style, depth=around.depth + 1)
+            inside = around._replace(matrix=IDENTITY, style=style, depth=around.depth + 1)
             if tag == "use":
                 paths = self._aside(lambda: self._use(element, attributes, {}, inside))
             else:
@@ -295,7 +292,7 @@ class Reader:
         x, y = lengths.get("x") or 0.0, lengths.get("y") or 0.0
         matrix = multiply(inside.matrix, translation(x, y))
         name = name_of(element, attributes, self.illustrator)
-        inside = replace(inside, matrix=matrix, chain=(*inside.chain, target), outline=name or inside.outline)
+        inside = inside._replace(matrix=matrix, chain=(*inside.chain, target), outline=name or inside.outline)
         tag = target.tag[len(self.prefix) :]
         if inside.depth > MAX_DEPTH:
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file)
@@ -322,14 +319,14 @@ class Reader:
         placed = nested_viewport(element, lengths, size)
         if placed is None:
             self.notes.count("nothing-drawn", "info", "<svg> or <symbol> without a size draws nothing", element)
-            self._push_children(element, replace(inside, hidden=True))
+            self._push_children(element, inside._replace(hidden=True))
             return
         matrix, viewport, box = placed
         page = inside.page
         if declared.get("overflow") not in ("visible", "auto"):
             page = Region(box).through(inside.matrix).within(page)
         matrix = multiply(inside.matrix, matrix)
-        self._push_children(element, replace(inside, matrix=matrix, viewport=viewport, page=page))
+        self._push_children(element, inside._replace(matrix=matrix, viewport=viewport, page=page))
 
     def _draw(self, tag: str, element: Any, attributes: Attributes, around: Around) -> None:
         declared = self.cascade.declared(element, attributes, around.style, around.chain)
@@ -338,11 +335,10 @@ class Reader:
         if hidden and self.aside:  # what is not displayed counts for no box
             return
         lengths = Lengths(attributes, declared, around.viewport, style.font)
-        shape = self._shape(tag, element, attributes, lengths)
+        shape = self._shape(tag, element, attributes, lengths, bool(around.chain))
         matrix = around.matrix
-        own = [segment for sub in shape.subpaths for segment in sub.segments]
         if has_transform(declared):
-            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: box_of_segments(own)))
+            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: _own_box(shape)))
         name = name_of(element, attributes, self.illustrator) or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
             note_shape(tag, element, shape, lengths, around.layer, name, matrix, self.notes)
@@ -376,21 +372,25 @@ class Reader:
         )
         self.drawing.paths.append(drawn)
         if drawn.visible and not self.aside:
-            clip = self._clip(declared, around, matrix, lambda: box_of_segments(own))
+            clip = around.clip
+            if "clip-path" in declared or "mask" in declared:
+                clip = self._clip(declared, around, matrix, lambda: _own_box(shape))
             note_unseen(tag, element, drawn, around.page, clip, self.notes)
 
     def _tags(self, attributes: Attributes, around: Around) -> dict[str, str]:
-        self.work.charge("tags", 4 * len(around.tags or ()))
+        if around.tags:
+            self.work.charge("tags", 4 * len(around.tags))
         return tags_of(attributes, around.tags or {})
 
-    def _shape(self, tag: str, element: Any, attributes: Attributes, lengths: Lengths) -> Shape:
-        """Give what a shape draws; lists of points and path data are read once, however often they are shown."""
+    def _shape(self, tag: str, element: Any, attributes: Attributes, lengths: Lengths, copied: bool) -> Shape:
+        """Give what a shape draws; lists of points and path data that are copied are read once."""
         data = "d" if tag == "path" else "points"
-        own = data in attributes and data not in lengths.declared
+        own = copied and data in attributes and data not in lengths.declared
         shape = self.shapes.get(element) if own else None
         if shape is None:
-            text = lengths.declared.get("d") if data == "d" and not own else attributes.get(data)
-            self.work.charge("path data", len(text or "") // LETTERS_OF_A_STEP)
+            text = lengths.declared.get(data) or attributes.get(data)
+            if text:
+                self.work.charge("path data", len(text) // LETTERS_OF_A_STEP)
             shape = make_shape(tag, attributes, lengths)
             if own:
                 self.shapes[element] = shape
@@ -406,6 +406,10 @@ class Reader:
         if width <= 0:
             return None, None
         return stroke, width if width <= MAX_COORDINATE else None
+
+
+def _own_box(shape: Shape) -> Box | None:
+    return box_of_segments(segment for sub in shape.subpaths for segment in sub.segments)
 
 
 def _without_opacity(declared: Declared) -> bool:

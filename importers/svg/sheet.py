@@ -69,7 +69,7 @@ class _Element(cssselect2.ElementWrapper):  # type: ignore[misc]
     def start(self, work: Work) -> None:
         """Take a budget, and charge it for this element."""
         self.work = work
-        self.work.charge("selectors", 4)
+        self.work.charge("selectors", 8)
         self.etree_element = _Counted(self.raw, work)
 
     @property

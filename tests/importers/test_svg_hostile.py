@@ -96,7 +96,7 @@ HOSTILE = {
         "SVG + '<style>' + 'a{fill:red}' * 10**5 + '</style>' + SHAPE * 100 + '</svg>'",
         "1,000,000",
     ),
-    "many faults": ("SVG + '<path d=\"M0 0L#\"/>' * 60_000 + '</svg>'", ""),
+    "many faults": ("SVG + '<path d=\"M0 0L#\"/>' * 30_000 + '</svg>'", ""),
     "boxes in boxes": (
         "SVG + '<g style=\"transform:scale(2);transform-box:fill-box\">' * 200 + SHAPE * 100 + '</g>' * 200 + '</svg>'",
         "",
