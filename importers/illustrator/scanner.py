@@ -15,13 +15,15 @@ NUMBERS_AND_OPERATOR = re.compile(
 )
 WHITE = re.compile(rb"[\s\x00]+")
 WORD = re.compile(rb"[^\s\x00()<>\[\]{}/%]+")
-NUMBER = re.compile(rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+NUMBER = re.compile(rb"[-+]?+(?:\d++\.?+\d*+|\.\d++)(?:[eE][-+]?+\d++)?+")
 COMMENT = re.compile(rb"%[^\r\n]*")
 # Lines of dictionaries hidden from PostScript, of which some files have a million; none names an object or ends one.
-DULL_LINES = re.compile(rb"(?:%_(?!/XMLUID|%%BeginData)(?![^\r\n]*\(AIArtName\))(?:[^\r\n]*[,;:)\d])?[\r\n]+){1,5000}")
+DULL_LINES = re.compile(
+    rb"(?:%_(?!/XMLUID|%%BeginData)(?![^\r\n]*\(AIArtName\))(?:[^\r\n]*[,;:)\d])?[\r\n]++){1,5000}+"
+)
 LINE_END = re.compile(rb"\r\n|\r|\n")
 BRACE = re.compile(rb"[{}%(]")
-BEGIN_DATA = re.compile(rb"%(?:_%)?%BeginData:\s*(\d{1,12})\s*(\w*)\s*(\w*)")
+BEGIN_DATA = re.compile(rb"%(?:_%)?%BeginData:\s*+(\d{1,12})\s*+(\w*+)\s*+(\w*+)")
 END_DATA = b"%%EndData"
 # Blocks that hold no art wherever they stand: definitions, other people's files, PostScript programs.
 BEGIN_BLOCK = re.compile(

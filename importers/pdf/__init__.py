@@ -12,7 +12,7 @@ from importers.findings import Findings
 from importers.illustrator import findings as common
 from importers.illustrator import kind_of, read_operators, scanner
 from importers.limits import MAX_STREAM_BYTES, check_input_size, good_coordinate, limit_error
-from importers.pages import PageChoice, check_page, keep_artboard, no_such_page
+from importers.page_choice import PageChoice, check_page, keep_artboard, no_such_page
 from importers.pdf import findings
 from importers.pdf.annotations import shown_annotations
 from importers.pdf.content import PageReader

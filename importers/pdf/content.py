@@ -25,7 +25,7 @@ _OPERATOR = re.compile(
 )
 _WHITE = re.compile(rb"[\s\x00]+")
 _WORD = re.compile(rb"[^\s\x00()<>\[\]{}/%]+")
-_NUMBER = re.compile(rb"[-+]?(?:\d+\.?\d*|\.\d+)")
+_NUMBER = re.compile(rb"[-+]?+(?:\d++\.?+\d*+|\.\d++)")
 _LINE = re.compile(rb"[^\r\n]*")
 _HEX = re.compile(rb"<[^<>]*>")
 _NAME_ESCAPE = re.compile(rb"#([0-9A-Fa-f]{2})")
