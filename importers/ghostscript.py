@@ -18,7 +18,7 @@ from importers.drawing import Drawing
 from importers.errors import DrawingError
 from importers.illustrator.scanner import postscript_part
 from importers.limits import MAX_INPUT_BYTES, limit_error
-from importers.pages import PageChoice
+from importers.page_choice import PageChoice
 
 _PROGRAMS = ("gs", "gswin64c", "gswin32c")
 _SECONDS = 20

@@ -12,7 +12,7 @@ from importers.drawing import Drawing
 from importers.errors import DrawingError
 from importers.limits import MAX_INPUT_BYTES, Unpacker, check_input_size
 from importers.page_background import note_background
-from importers.pages import PageChoice, check_page, keep_artboard
+from importers.page_choice import PageChoice, check_page, keep_artboard
 
 _GZIP = b"\x1f\x8b"
 _SAVE = "save it as SVG or as Illustrator 8 from your drawing program"

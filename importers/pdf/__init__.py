@@ -12,7 +12,7 @@ from importers.findings import Findings
 from importers.illustrator import findings as common
 from importers.illustrator import kind_of, read_operators, scanner
 from importers.limits import MAX_STREAM_BYTES, check_input_size, good_coordinate, limit_error
-from importers.pages import PageChoice, check_page, keep_artboard, no_such_page
+from importers.page_choice import PageChoice, check_page, keep_artboard, no_such_page
 from importers.pdf import findings
 from importers.pdf.annotations import shown_annotations
 from importers.pdf.content import PageReader
@@ -139,6 +139,9 @@ def _read_content(document: Document, pages: list[Page], why: str, origin: Origi
     problems = reader.findings.problems(Source(b"", has_lines=False))
     drawing = Drawing("pt", "up", layers.layers, reader.paths, problems)
     drawing.artboards = artboards if len(artboards) > 1 else []
+    if len(artboards) == 1:
+        only = artboards[0]
+        drawing.page = only.x_min, only.y_min, only.x_max, only.y_max
     return drawing
 
 

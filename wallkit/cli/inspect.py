@@ -30,7 +30,7 @@ def inspect(
     via: Annotated[str, typer.Option("--via", help="ghostscript: let it run a PostScript program.")] = "",
 ) -> None:
     """Show what FILE holds: layers, paths, boxes, units, and what is left out and why."""
-    from importers.pages import page_choice
+    from importers.page_choice import page_choice
     from importers.read import read_drawing
 
     drawing = read_drawing(file, page=page_choice(page, file), via=via)

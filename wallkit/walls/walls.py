@@ -108,6 +108,8 @@ class Walls(Pictured):
     solid: Solid | None = None
 
     def __setattr__(self, name: str, value: Any) -> None:
+        if name == "solid" and not (value is None or isinstance(value, Solid)):
+            raise wrong("solid", value, "a Solid, or None")
         object.__setattr__(self, name, CHECKS[name](value) if name in CHECKS else value)
 
     def __post_init__(self) -> None:
