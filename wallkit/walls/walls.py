@@ -288,6 +288,7 @@ class Walls(Pictured):
         """Write the walls as a level for an engine or editor, see :func:`wallkit.export.export`."""
         from wallkit.export import export
 
+        arguments.of_type(path, "path", (str, Path), "a path", error=WallsError, code="bad-path")
         return export(self, path, format, **options)
 
     def to_shapely(self, tolerance: float | None = None) -> Any:
