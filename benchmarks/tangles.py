@@ -1,7 +1,7 @@
 """Time and memory of tangles by size, beside another build: ``python benchmarks/tangles.py COMMIT [NAME...]``.
 
 Each figure is one process of its own: processor seconds of the import (or check) alone, and the most memory of the
-process. COMMIT is checked out into a temporary git worktree, and the same inputs are given to both. The exponent is that
+process. COMMIT is checked out into a temporary git worktree; both get the same inputs. The exponent is that
 of time between the last two sizes. What takes more than a minute is ended and shown as ``-``.
 """
 

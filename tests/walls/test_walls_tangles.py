@@ -43,7 +43,7 @@ TURN = "np.arange(401) * 200 * 2 * np.pi / 401"
 @pytest.mark.parametrize(
     ("walls", "told"),
     [
-        (f"Walls.from_polylines([rng.uniform(0, 1000, (400, 2)), np.array({SQUARE})])", "False False"),
+        (f"Walls.from_polylines([rng.uniform(0, 1000, (400, 2)), np.array({SQUARE})])", "True False"),
         ("Walls.from_polylines(list(rng.uniform(0, 1000, (20, 150, 2))))", "False True"),
         ("Walls.from_polylines(list(rng.uniform(0, 1000, (500, 40, 2))), closed=False)", "False True"),
         ("Walls.from_polylines(list(rng.uniform(0, 1000, (7000, 2, 2))), closed=False)", "False True"),
