@@ -1,8 +1,8 @@
 """Time and memory of tangles by size, beside another build: ``python benchmarks/tangles.py COMMIT [NAME...]``.
 
 Each figure is one process of its own: processor seconds of the import (or check) alone, and the most memory of the
-process. COMMIT is checked out into a temporary git worktree; both get the same inputs. The exponent is that
-of time between the last two sizes. What takes more than a minute is ended and shown as ``-``.
+process. COMMIT is checked out into a temporary git worktree, and the same inputs are given to both. The exponent is
+that of time between the last two sizes. What takes more than a minute is ended and shown as ``-``.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ CHILD = """
 import json, resource, sys, time
 import numpy as np
 import importers.drawing as d
-from wallkit.walls.importing.pipeline import import_walls
-from wallkit.walls.checking.free_space import free_space
+from wallkit.walls.build import import_walls
+from wallkit.walls.free_space import free_space
 n, looks, code = int(sys.argv[1]), sys.argv[2] == "True", sys.argv[3]
 rng = np.random.default_rng(1)
 SQUARE = [(-300, -300), (300, -300), (300, 300), (-300, 300)]
@@ -59,7 +59,12 @@ def measured(build: Path, n: int, looks: bool, code: str) -> tuple[float, float]
     command = [sys.executable, "-c", CHILD, str(n), str(looks), code]
     try:
         done = subprocess.run(
-            command, capture_output=True, text=True, timeout=MOST_SECONDS, env=os.environ | {"PYTHONPATH": str(build)}
+            command,
+            capture_output=True,
+            text=True,
+            timeout=MOST_SECONDS,
+            cwd=build,
+            env=os.environ | {"PYTHONPATH": str(build)},
         )
     except subprocess.TimeoutExpired:
         return None
