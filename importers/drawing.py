@@ -169,6 +169,7 @@ class Drawing(Pictured):
         file: its name as given; ``"-"`` for standard input, ``""`` for text.
         sha256: hex digest of the bytes that were read.
         artboards: where the file names them (Illustrator CS4 and later).
+        page: the box (x_min, y_min, x_max, y_max) of the page or picture that is read; None where there is none.
     """
 
     units: str
@@ -180,6 +181,7 @@ class Drawing(Pictured):
     file: str = ""
     sha256: str = ""
     artboards: list[Artboard] = field(default_factory=list)
+    page: tuple[float, float, float, float] | None = None
 
     def __repr__(self) -> str:
         parts = [
