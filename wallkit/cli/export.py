@@ -58,15 +58,17 @@ def export_level(
 ) -> None:
     """Write walls where the level is made: Tiled, Godot, Box2D and planck, pymunk, Phaser, DXF, SVG, GeoJSON..."""
     from wallkit.cli.messages import show_problems
-    from wallkit.cli.scene_input import opened
+    from wallkit.cli.scene_input import opened, read_input
     from wallkit.export.formats import find_format
     from wallkit.scene.opening import Wishes
+    from wallkit.scene.scene_files import kind_of
 
     chosen = find_format(out, format)
     asked = options.options_of(importing or {})
-    if not chosen.arcs:  # lines within the tolerance of the curve, rather than of arcs that are near it
+    data = read_input(file)
+    if not chosen.arcs and kind_of(data) == "drawing":  # lines near the curves themselves, not near arcs near them
         asked = replace(asked, curves="lines")
-    found = opened(file, Wishes(importing=asked, may_be_empty=True))
+    found = opened(file, Wishes(importing=asked, may_be_empty=True), data)
     walls = found.scene.walls
     page = None if found.drawing is None else page_of(found.drawing, asked.scale, asked.flip_y)
     wanted: dict[str, Any] = {"scale": target_scale, "origin": origin, "page": page, "grid": grid}
