@@ -19,6 +19,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from wallkit.arguments import ABOVE_0, number, of_type
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.conforming_delaunay import SHORTEST, Triangulation, triangulate
 from wallkit.walls.as_shapely import straightened
@@ -30,7 +31,7 @@ from wallkit.walls.checking.room_circles import larger_circles
 from wallkit.walls.checking.self_check import diagonal
 from wallkit.walls.crossings import find_contacts
 from wallkit.walls.edge_tree import Edges
-from wallkit.walls.walls import Walls
+from wallkit.walls.walls import Walls, WallsError
 
 MOST_EDGES = 200_000
 MOST_CROSSINGS = 20_000
@@ -104,7 +105,13 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
             are then made exact.
         narrow: an opening is a gap up to this part of the width of the room behind it. Rooms narrower than the
             tolerance are none, nor are gaps below 4e-7 of the drawing's diagonal.
+
+    Raises:
+        WallsError: these are no walls, or ``narrow`` is no number above 0 and at most 1.
     """
+    of_type(walls, "walls", Walls, "Walls", error=WallsError, code="bad-walls")
+    may_be = "a number above 0, at most 1"
+    number(narrow, "narrow", may_be, error=WallsError, code="bad-argument", least=ABOVE_0, most=1.0)
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
     edges = Edges(vertices, offsets, walls.closed)
     nothing = not len(edges) or diagonal(vertices) == 0
