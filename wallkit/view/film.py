@@ -107,8 +107,8 @@ class _Frames:
         times = contacts["time"]
         trails: list[deque[tuple[float, float, float]]] = [deque() for _ in self.run.ending[:_TRAILS]]
         passed = 0
-        for number in range(self.count):
-            time = number / self.fps * self.speedup
+        for frame in range(self.count):
+            time = frame / self.fps * self.speedup
             upto = int(np.searchsorted(times, time, side="right"))
             for contact in contacts[passed:upto] if len(self.run.ending) <= _TRAILS else ():
                 place = self.frame.point(float(contact["x"]), float(contact["y"]))
@@ -117,7 +117,7 @@ class _Frames:
             balls = self.frame.points(self.run.position(time))
             yield self._frame(time, balls, trails, contacts[max(0, upto - 200) : upto])
             if self.progress:
-                self.progress((number + 1) / self.count)
+                self.progress((frame + 1) / self.count)
 
     def _frame(
         self, time: float, balls: FloatArray, trails: list[deque[tuple[float, float, float]]], recent: NDArray[Any]
