@@ -7,6 +7,7 @@ from typing import Any
 from importers.drawing import Level, LevelKind
 from importers.ids import decode_id
 
+SVG_NS = "http://www.w3.org/2000/svg"
 INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
 SODIPODI = "{http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd}"
 

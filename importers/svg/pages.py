@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from importers.boxes import Box
 from importers.drawing import Artboard
 from importers.limits import good_coordinate
 from importers.svg.matrix import Matrix, transform
@@ -25,10 +26,10 @@ def pages_of(root: Any, matrix: Matrix) -> list[Artboard]:
     return [page for page in pages if page is not None] if len(found) > 1 else []
 
 
-def sheet_of(root: Any, width: float, height: float) -> Artboard | None:
-    """Give the sheet in px, as large as the outermost viewport; None where the file says no size."""
+def sheet_of(root: Any, viewport: Box | None) -> Artboard | None:
+    """Give the sheet in px: the box of the outermost viewport; None where the file says no size, or none above 0."""
     said = any(root.get(name) is not None for name in ("viewBox", "width", "height"))
-    return Artboard("page", 0.0, 0.0, width, height) if said and width > 0 and height > 0 else None
+    return Artboard("page", *viewport) if said and viewport is not None else None
 
 
 def _page(name: str, element: Any, matrix: Matrix) -> Artboard | None:

@@ -160,7 +160,9 @@ def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach,
     summarise(walls, sys.stdout)
     ball = "any ball" if reach.radius is None else f"a ball of radius {reach.radius:g}"
     leaks, shut = reach.leaks, reach.shut
-    if leaks:
+    if not space.complete:
+        print(f"whether {ball} leaks is not known")
+    elif leaks:
         print(f"leaks for {ball}: {len(leaks)}, the narrowest gap {leaks[0].width:.6g} wide")
     else:
         print(f"no leak for {ball}")

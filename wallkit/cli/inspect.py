@@ -26,11 +26,14 @@ def register(app: typer.Typer) -> None:
 def inspect(
     file: Annotated[str, typer.Argument(help="A drawing (Illustrator, EPS, PDF, SVG, pasted text); - is stdin.")],
     as_json: Annotated[bool, typer.Option("--json", help="Write the whole drawing as JSON to stdout.")] = False,
+    page: Annotated[str, typer.Option("--page", help="Page or artboard to read, from 1, or all.")] = "",
+    via: Annotated[str, typer.Option("--via", help="ghostscript: let it run a PostScript program.")] = "",
 ) -> None:
     """Show what FILE holds: layers, paths, boxes, units, and what is left out and why."""
+    from importers.page_choice import page_choice
     from importers.read import read_drawing
 
-    drawing = read_drawing(file)
+    drawing = read_drawing(file, page=page_choice(page, file), via=via)
     if as_json:
         json.dump(drawing.to_json(), sys.stdout, ensure_ascii=False, allow_nan=False)
         sys.stdout.write("\n")

@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from importers.drawing import Drawing
 from importers.errors import WallkitError
 from importers.problems import Problem
+from wallkit import arguments
 from wallkit.scene.ball_findings import ball_findings
 from wallkit.scene.drawn_scene import ANGLE, SPEED, Drawn, apart, drawn_scene
 from wallkit.scene.scene import Balls, Scene
@@ -76,10 +78,11 @@ class Wishes:
     may_be_empty: bool = False
 
     def __post_init__(self) -> None:
+        for name, check in _WISHES.items():
+            if (value := getattr(self, name)) is not None:
+                object.__setattr__(self, name, check(value, as_option(name)))
         if self.ball and self.balls is not None:
             raise UsageError("--ball and --balls do not go together", code="usage", fix="give places or a number")
-        if self.balls is not None and self.balls < 1:
-            raise UsageError(f"--balls is {self.balls}", code="usage", fix="give 1 or more")
         if self.velocity is not None and (self.speed is not None or self.angle is not None):
             raise UsageError("--velocity and --speed or --angle do not go together", code="usage", fix="give one way")
 
@@ -87,6 +90,58 @@ class Wishes:
     def moves(self) -> bool:
         """A velocity is asked for, or a part of one."""
         return not (self.velocity is None and self.speed is None and self.angle is None)
+
+
+def _number(least: float = -math.inf, most: float = math.inf) -> Callable[[Any, str], float]:
+    above = "" if least == -math.inf else f" from {least:g}"
+    may_be = f"a finite number{above}" + ("" if most == math.inf else f" to {most:g}")
+    return lambda value, name: arguments.number(
+        value, name, may_be, error=UsageError, code="usage", least=least, most=most
+    )
+
+
+def _whole(least: int) -> Callable[[Any, str], int]:
+    may_be = f"a whole number, {least} or more"
+    return lambda value, name: arguments.whole_number(value, name, may_be, error=UsageError, code="usage", least=least)
+
+
+def _pair(value: Any, name: str) -> tuple[float, float]:
+    may_be = "two finite numbers"
+    pair = arguments.floats(value, name, may_be, error=UsageError, code="usage")
+    if pair.shape != (2,) or not np.isfinite(pair).all():
+        raise arguments.refused(name, value, may_be, UsageError, "usage")
+    return float(pair[0]), float(pair[1])
+
+
+def _places(value: Any, name: str) -> tuple[tuple[float, float], ...]:
+    arguments.of_type(value, name, (tuple, list, np.ndarray), "a list of (x, y)", error=UsageError, code="usage")
+    return tuple(_pair(place, name) for place in value)
+
+
+def _importing(value: Any, name: str) -> ImportOptions:
+    arguments.of_type(value, name, ImportOptions, "ImportOptions", error=UsageError, code="usage")
+    options: ImportOptions = value
+    return options
+
+
+_WISHES: dict[str, Callable[[Any, str], Any]] = {
+    "ball": _places,
+    "velocity": _pair,
+    "speed": _number(),
+    "angle": _number(),
+    "radius": _number(least=0.0),
+    "balls": _whole(1),
+    "seed": _whole(0),
+    "gravity": _pair,
+    "restitution": _number(0.0, 1.0),
+    "tangential_restitution": _number(0.0, 1.0),
+    "friction": _number(least=0.0),
+    "drag": _number(least=0.0),
+    "until": _number(least=0.0),
+    "bounces": _whole(0),
+    "importing": _importing,
+    "may_be_empty": lambda value, name: arguments.flag(value, name, error=UsageError, code="usage"),
+}
 
 
 @dataclass(slots=True)
@@ -132,6 +187,11 @@ def open_scene(
     Raises:
         WallkitError: it cannot be read, a wish cannot be met, or there is no room for a ball.
     """
+    may_be = "a path, bytes or a Drawing"
+    arguments.of_type(source, "source", (str, Path, bytes, Drawing), may_be, error=UsageError, code="usage")
+    arguments.of_type(wishes, "wishes", (Wishes, type(None)), "Wishes or None", error=UsageError, code="usage")
+    arguments.text(name, "name", error=UsageError, code="usage")
+    arguments.of_type(folder, "folder", (Path, type(None)), "a pathlib.Path or None", error=UsageError, code="usage")
     wishes = wishes or Wishes()
     if isinstance(source, Drawing):
         return _of_drawing(source, wishes)

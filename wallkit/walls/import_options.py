@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal, TypedDict, get_args
 
-from importers.pages import PageChoice
+from importers.page_choice import PageChoice
 from wallkit.walls.repairing.passes import Repairs
 from wallkit.walls.walls import Sides, WallsError
 

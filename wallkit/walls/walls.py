@@ -122,6 +122,8 @@ class Walls(Pictured):
     sensors: Walls | None = None
 
     def __setattr__(self, name: str, value: Any) -> None:
+        if name == "solid" and not (value is None or isinstance(value, Solid)):
+            raise wrong("solid", value, "a Solid, or None")
         object.__setattr__(self, name, CHECKS[name](value) if name in CHECKS else value)
 
     def __post_init__(self) -> None:
@@ -311,6 +313,7 @@ class Walls(Pictured):
         """Write the walls as a level for an engine or editor, see :func:`wallkit.export.export`."""
         from wallkit.export import export
 
+        arguments.of_type(path, "path", (str, Path), "a path", error=WallsError, code="bad-path")
         return export(self, path, format, **options)
 
     def to_shapely(self, tolerance: float | None = None) -> Any:

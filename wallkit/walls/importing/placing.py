@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from importers.boxes import Box, box_of
 from importers.drawing import Artboard, Drawing, DrawnPath, Segment, Subpath
-from importers.pages import keep_artboard
+from importers.page_choice import keep_artboard
 from importers.problems import Problem
 from wallkit.walls.import_options import ImportOptions, point_of
 from wallkit.walls.walls import WallsError
