@@ -65,7 +65,7 @@ def bulges_of(bulges: ArrayLike | None, length: int, index: int) -> FloatArray:
         raise WallsError(
             f"bulges of polyline {index} have the shape {array.shape}", code="bad-bulges", fix=f"give {may_be}"
         )
-    return array
+    return array + 0.0  # a line has the bulge 0, not -0: files leave the bulges of lines away
 
 
 def each(value: Any, count: int, name: str) -> list[Any]:

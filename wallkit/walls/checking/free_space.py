@@ -107,11 +107,11 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
             tolerance are none, nor are gaps below 4e-7 of the drawing's diagonal.
 
     Raises:
-        WallsError: these are no walls, or ``narrow`` is no number above 0 and at most 1.
+        WallsError: these are no walls, or ``narrow`` is no number above 0.
     """
     of_type(walls, "walls", Walls, "Walls", error=WallsError, code="bad-walls")
-    may_be = "a number above 0, at most 1"
-    number(narrow, "narrow", may_be, error=WallsError, code="bad-argument", least=ABOVE_0, most=1.0)
+    may_be = "a number above 0"
+    number(narrow, "narrow", may_be, error=WallsError, code="bad-argument", least=ABOVE_0)
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
     edges = Edges(vertices, offsets, walls.closed)
     nothing = not len(edges) or diagonal(vertices) == 0
