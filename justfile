@@ -20,6 +20,12 @@ lint:
     .venv/bin/mypy
     .venv/bin/lint-imports
 
+# The documentation, into site/; the pages that the code writes are renewed first.
+docs:
+    {{python}} docs/make_api.py
+    {{python}} docs/make_cli.py
+    NO_MKDOCS_2_WARNING=1 {{python}} -m mkdocs build --strict
+
 # Speed, as ratios within one run.
 bench:
     {{python}} -m pytest -q benchmarks

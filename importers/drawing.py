@@ -37,6 +37,26 @@ class Subpath:
     closed: bool
 
 
+LevelKind = Literal["layer", "group", "object"]
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """What one object, or a group or layer around it, says about a path, in the words of its author.
+
+    Attributes:
+        kind: what it is; a clone of something is an object.
+        name: its label or id, decoded, or ``""``.
+        tags: its own ``data-*`` attributes without that prefix.
+        note: its description, or ``""``.
+    """
+
+    kind: LevelKind
+    name: str = ""
+    tags: dict[str, str] = field(default_factory=dict)
+    note: str = ""
+
+
 @dataclass(slots=True, repr=False)
 class DrawnPath:
     """One painted object of the file: its subpaths share fill, stroke and marks.
@@ -58,6 +78,9 @@ class DrawnPath:
         fill_rule: ``"nonzero"`` or ``"evenodd"``.
         line: line in the file where it begins, from 1; None where lines mean nothing.
         tags: free words the file carries for it (``data-*`` attributes, notes), by name.
+        title: what the file calls it to people who look at it (SVG's ``title``), or ``""``.
+        levels: what each of its layers and groups, itself, and the clones that show it say, the nearest last;
+            ``()`` where a reader knows no more than ``layer``, ``groups``, ``name`` and ``tags``.
     """
 
     subpaths: list[Subpath]
@@ -74,6 +97,8 @@ class DrawnPath:
     fill_rule: FillRule = "nonzero"
     line: int | None = None
     tags: dict[str, str] = field(default_factory=dict)
+    title: str = ""
+    levels: tuple[Level, ...] = ()
 
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
@@ -100,6 +125,7 @@ class DrawnPath:
             ],
             "line": self.line,
             "tags": dict(self.tags),
+            **({"title": self.title} if self.title else {}),
         }
 
 
@@ -168,7 +194,9 @@ class Drawing(Pictured):
         kind: what the file turned out to be, for people, such as ``"Illustrator 8"`` or ``"SVG"``.
         file: its name as given; ``"-"`` for standard input, ``""`` for text.
         sha256: hex digest of the bytes that were read.
-        artboards: where the file names them (Illustrator CS4 and later).
+        artboards: where the file names them (Illustrator CS4 and later, Inkscape 1.2 and later).
+        sheet: the page that it lies on, where it is known: SVG's viewport, a PDF's page, the artboard that was chosen.
+        page: number of the page or artboard that was chosen, from 1; None for all that was read without a choice.
     """
 
     units: str
@@ -180,6 +208,8 @@ class Drawing(Pictured):
     file: str = ""
     sha256: str = ""
     artboards: list[Artboard] = field(default_factory=list)
+    sheet: Artboard | None = None
+    page: int | None = None
 
     def __repr__(self) -> str:
         parts = [
@@ -202,6 +232,7 @@ class Drawing(Pictured):
             "units": self.units,
             "y_axis": self.y_axis,
             "artboards": [artboard.to_json() for artboard in self.artboards],
+            **({"sheet": self.sheet.to_json()} if self.sheet is not None else {}),
             "layers": [layer.to_json() for layer in self.layers],
             "paths": [path.to_json() for path in self.paths],
             "problems": [problem.to_json() for problem in self.problems],

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from importers.errors import LimitError
@@ -27,6 +27,13 @@ MAX_ENTITY_BYTES = 1024  # of one entity's replacement text
 
 MAX_STREAM_BYTES = 75_000_000  # decoded, of one compressed stream
 MAX_DECODED_BYTES = 256_000_000  # decoded, of all streams of a file together
+
+# A step of work is about a microsecond of Python. What a file asks for beyond reading each of its parts once
+# (copies, style sheets matched to elements, values worked out again) draws on MAX_STEPS; reading each part once is
+# paid for by the parts themselves, so a large drawing is not refused for being large.
+MAX_STEPS = 3_000_000
+STEPS_OF_AN_ELEMENT = 60
+LETTERS_OF_A_STEP = 4
 
 Packing = Literal["zlib", "gzip", "zstd"]
 
@@ -71,6 +78,52 @@ def check_input_size(size: int, file: str = "") -> None:
 def good_coordinate(value: float) -> bool:
     """Tell whether a coordinate is finite and within MAX_COORDINATE."""
     return math.isfinite(value) and abs(value) <= MAX_COORDINATE
+
+
+@dataclass(slots=True)
+class Work:
+    """The budget of work of one file: every loop over what the file holds draws on it, by what it does.
+
+    Example:
+        >>> work = Work("a.svg", letters=400, elements=2)
+        >>> work.charge("copies", 1_000)
+        >>> work.done, work.most
+        (1000, 3000220)
+
+    Attributes:
+        file: the file's name, for messages.
+        letters: of the file; LETTERS_OF_A_STEP of them pay for one step.
+        elements: of the file; each pays for STEPS_OF_AN_ELEMENT.
+        most: the steps that may be done.
+        spent: the steps done so far, by what they were spent on.
+        done: all of them together.
+    """
+
+    file: str = ""
+    letters: int = 0
+    elements: int = 0
+    most: int = field(init=False)
+    spent: dict[str, int] = field(default_factory=dict)
+    done: int = 0
+
+    def __post_init__(self) -> None:
+        self.most = MAX_STEPS + self.letters // LETTERS_OF_A_STEP + STEPS_OF_AN_ELEMENT * self.elements
+
+    def charge(self, what: str, steps: int) -> None:
+        """Count steps that are about to be done.
+
+        Args:
+            what: they are spent on, for the error.
+            steps: their number.
+
+        Raises:
+            LimitError: they are more than are left.
+        """
+        self.done += steps
+        self.spent[what] = self.spent.get(what, 0) + steps
+        if self.done > self.most:
+            most = max(self.spent, key=self.spent.__getitem__)
+            raise limit_error(f"steps of work, most of them on {most}", f"{self.most:,}", file=self.file)
 
 
 class Unpacked(NamedTuple):

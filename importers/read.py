@@ -11,7 +11,8 @@ from typing import IO, Any
 from importers.drawing import Drawing
 from importers.errors import DrawingError
 from importers.limits import MAX_INPUT_BYTES, Unpacker, check_input_size
-from importers.pages import PageChoice, check_page, keep_artboard
+from importers.page_background import note_background
+from importers.page_choice import PageChoice, check_page, keep_artboard
 
 _GZIP = b"\x1f\x8b"
 _SAVE = "save it as SVG or as Illustrator 8 from your drawing program"
@@ -41,13 +42,15 @@ _OTHERS: tuple[tuple[bytes, str, str], ...] = (
 )
 
 
-def read_drawing(source: str | os.PathLike[str] | IO[Any], *, page: PageChoice = None) -> Drawing:
+def read_drawing(source: str | os.PathLike[str] | IO[Any], *, page: PageChoice = None, via: str = "") -> Drawing:
     """Read a drawing: pasted Illustrator text, Illustrator of any version, EPS, PDF or SVG.
 
     Args:
         source: a path, ``"-"`` for standard input, or a file object, text or binary.
         page: which page or artboard, from 1, or ``"all"``: pages of a PDF then stand side by side. None takes the
             first page of a PDF, and what lies on all artboards of anything else.
+        via: ``"ghostscript"`` lets Ghostscript, which must be installed, run PostScript and gives what it draws; it
+            is bounded in time and memory and sees no other file. ``""`` runs no program.
 
     Raises:
         DrawingError: it is not there, cannot be read, has no such page, or is no drawing; the message says what
@@ -57,21 +60,23 @@ def read_drawing(source: str | os.PathLike[str] | IO[Any], *, page: PageChoice =
     if isinstance(source, str | os.PathLike):
         name = os.fspath(source)
         data = _read_stream(sys.stdin, "-") if name == "-" else _read_path(name)
-        return read_drawing_text(data, name, page=page)
+        return read_drawing_text(data, name, page=page, via=via)
     if not hasattr(source, "read"):
         fix = "give a path or an open file; a text goes to read_drawing_text"
         raise DrawingError(f"source is a {type(source).__name__}", code="unreadable", fix=fix)
     name = getattr(source, "name", "")
-    return read_drawing_text(_read_stream(source, name), name if isinstance(name, str) else "", page=page)
+    name = name if isinstance(name, str) else ""
+    return read_drawing_text(_read_stream(source, name), name, page=page, via=via)
 
 
-def read_drawing_text(text: str | bytes, file: str = "", *, page: PageChoice = None) -> Drawing:
+def read_drawing_text(text: str | bytes, file: str = "", *, page: PageChoice = None, via: str = "") -> Drawing:
     """Read a drawing that is at hand as text or bytes.
 
     Args:
         text: the drawing.
         file: what to call it in messages.
         page: which page or artboard, as for :func:`read_drawing`.
+        via: by which program it is read, as for :func:`read_drawing`.
 
     Raises:
         DrawingError: it is no drawing; the message says what it looks like.
@@ -84,10 +89,26 @@ def read_drawing_text(text: str | bytes, file: str = "", *, page: PageChoice = N
         text = _to_bytes(text.removeprefix("\ufeff"))
     check_input_size(len(text), file)
     check_page(page, file)
-    drawing = _read_by_content(text, file, page)
+    drawing = _read_via(via, text, file, page) if via else _read_by_any(text, file, page)
     drawing.file = file
+    note_background(drawing)
     drawing.sha256 = hashlib.sha256(text).hexdigest()
     return drawing
+
+
+def _read_by_any(data: bytes, file: str, page: PageChoice) -> Drawing:
+    """Read by one of our readers, or where none fits by one of another package."""
+    try:
+        return _read_by_content(data, file, page)
+    except DrawingError as error:
+        if error.code != "not-a-drawing":
+            raise
+        from importers.other_packages import read_by_other_packages
+
+        drawing = read_by_other_packages(data, file)
+        if drawing is None:
+            raise
+        return drawing
 
 
 def _to_bytes(text: str) -> bytes:
@@ -124,6 +145,16 @@ def _read_by_content(data: bytes, file: str, page: PageChoice) -> Drawing:
     raise _unknown(data, file)
 
 
+def _read_via(via: str, data: bytes, file: str, page: PageChoice) -> Drawing:
+    """Read by way of another program."""
+    if via != "ghostscript":
+        fix = "give ghostscript, or nothing"
+        raise DrawingError(f"no reader is called {via!r}", code="no-such-reader", fix=fix, file=file)
+    from importers.ghostscript import read_through_ghostscript
+
+    return read_through_ghostscript(data, file, page)
+
+
 def _only(drawing: Drawing, page: PageChoice) -> Drawing:
     """Give what lies on one artboard of a drawing, when one is asked for."""
     if isinstance(page, int):
@@ -136,8 +167,9 @@ def _unknown(data: bytes, file: str) -> DrawingError:
     head = data[:4096].lstrip(b"\xef\xbb\xbf \t\r\n")
     words = head.split()
     if head.startswith(b"%!"):
-        fix = "convert it to SVG, for example with: pstoedit -f plot-svg in.ps out.svg"
-        return _not_a_drawing("a PostScript program, and no program is run to find out what it draws", fix, file)
+        from importers.illustrator.programs import refusal
+
+        return refusal("no program is run to find out what it draws", file)
     if words[:2] == [b"0", b"SECTION"] or words[:1] == [b"999"]:
         return _not_a_drawing("a DXF drawing", _SAVE, file)
     if head[:14].lower() == b"<!doctype html" or head[:5].lower() == b"<html":

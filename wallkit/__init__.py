@@ -26,29 +26,45 @@ if TYPE_CHECKING:
     from importers.problems import Problem
     from importers.read import read_drawing, read_drawing_text
     from importers.svg.svgpathtools_paths import drawing_from_svgpathtools
+    from wallkit.accuracy.reference import Reference, sure_events
     from wallkit.scene.opening import OpenedScene, Wishes, open_scene
     from wallkit.scene.scene import Balls, Scene, SceneError
+    from wallkit.simulation.horizon import Horizon
     from wallkit.simulation.prepared import Prepared, prepare
-    from wallkit.simulation.run import Ending, Kind, Run
+    from wallkit.simulation.run import CONTACT, FINAL, Ending, Kind, Run
     from wallkit.simulation.simulate import simulate
+    from wallkit.simulation.streams import RandomBalls, survey_stream
     from wallkit.simulation.survey import Totals, survey
     from wallkit.simulation.world import World
+    from wallkit.view.film import film
+    from wallkit.view.replay import replay_html
     from wallkit.walls import Material, Wall, Walls
+    from wallkit.walls.checking.free_space import FreeSpace, Gap, free_space
     from wallkit.walls.import_options import ImportOptions
     from wallkit.walls.importing.pipeline import import_walls
+    from wallkit.walls.repairing.passes import Repairs
+    from wallkit.walls.walls import WallsError
 
 _HOMES = {
     "importers.drawing": ("Drawing", "DrawnPath", "Layer", "Subpath"),
     "importers.problems": ("Problem",),
     "importers.read": ("read_drawing", "read_drawing_text"),
     "importers.svg.svgpathtools_paths": ("drawing_from_svgpathtools",),
+    "wallkit.accuracy.reference": ("Reference", "sure_events"),
     "wallkit.scene.opening": ("OpenedScene", "Wishes", "open_scene"),
-    "wallkit.simulation.run": ("Ending", "Kind", "Run"),
+    "wallkit.simulation.horizon": ("Horizon",),
+    "wallkit.simulation.run": ("CONTACT", "FINAL", "Ending", "Kind", "Run"),
+    "wallkit.simulation.streams": ("RandomBalls", "survey_stream"),
+    "wallkit.view.film": ("film",),
+    "wallkit.view.replay": ("replay_html",),
+    "wallkit.walls.checking.free_space": ("FreeSpace", "Gap", "free_space"),
+    "wallkit.walls.repairing.passes": ("Repairs",),
     "wallkit.scene.scene": ("Balls", "Scene", "SceneError"),
     "wallkit.simulation.simulate": ("simulate",),
     "wallkit.simulation.prepared": ("Prepared", "prepare"),
     "wallkit.simulation.survey": ("Totals", "survey"),
     "wallkit.walls": ("Material", "Wall", "Walls"),
+    "wallkit.walls.walls": ("WallsError",),
     "wallkit.walls.importing.pipeline": ("import_walls",),
     "wallkit.walls.import_options": ("ImportOptions",),
     "wallkit.simulation.world": ("World",),
@@ -56,11 +72,16 @@ _HOMES = {
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
 
 __all__ = [
+    "CONTACT",
+    "FINAL",
     "Balls",
     "Drawing",
     "DrawingError",
     "DrawnPath",
     "Ending",
+    "FreeSpace",
+    "Gap",
+    "Horizon",
     "ImportOptions",
     "Kind",
     "Layer",
@@ -69,6 +90,9 @@ __all__ = [
     "OpenedScene",
     "Prepared",
     "Problem",
+    "RandomBalls",
+    "Reference",
+    "Repairs",
     "Run",
     "Scene",
     "SceneError",
@@ -77,17 +101,23 @@ __all__ = [
     "Wall",
     "WallkitError",
     "Walls",
+    "WallsError",
     "Wishes",
     "World",
     "__version__",
     "drawing_from_svgpathtools",
+    "film",
+    "free_space",
     "import_walls",
     "open_scene",
     "prepare",
     "read_drawing",
     "read_drawing_text",
+    "replay_html",
     "simulate",
+    "sure_events",
     "survey",
+    "survey_stream",
 ]
 
 
@@ -99,8 +129,8 @@ def __getattr__(name: str) -> Any:
     return value
 
 
-def _paint(thing: object) -> str | None:
-    svg: str | None = importlib.import_module("wallkit.view.notebook").svg_of(thing)
+def _paint(thing: object, options: dict[str, Any]) -> str | None:
+    svg: str | None = importlib.import_module("wallkit.view.notebook").svg_of(thing, **options)
     return svg
 
 
@@ -108,4 +138,4 @@ paint_with(_paint)
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_HOME})
+    return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

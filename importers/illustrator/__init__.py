@@ -8,7 +8,7 @@ import re
 from importers.drawing import Drawing
 from importers.errors import DrawingError
 from importers.findings import Findings
-from importers.illustrator import findings, scanner
+from importers.illustrator import findings, programs, scanner
 from importers.illustrator.artboards import find_artboards
 from importers.illustrator.private import PrivatePart, find_private
 from importers.illustrator.reader import ArtReader
@@ -41,7 +41,7 @@ def read_illustrator(data: bytes, file: str = "") -> Drawing:
         file: its name, for messages.
 
     Raises:
-        DrawingError: it is not Illustrator's text.
+        DrawingError: it is not Illustrator's text, or a PostScript program with names or axes of its own.
         LimitError: it is larger or deeper than `importers.limits` allows.
     """
     check_input_size(len(data), file)
@@ -57,7 +57,11 @@ def read_illustrator(data: bytes, file: str = "") -> Drawing:
     start, stop = scanner.postscript_part(data)
     private = find_private(data, start, stop, file)
     if private is None:
-        drawing = read_operators(Source(data), scanner.art_start(data, start, stop), stop, file)
+        definitions = programs.find_definitions(data, start, stop, file)
+        if definitions.foreign:
+            raise programs.refusal(f"it defines {definitions.foreign} in a way of its own, and no program is run", file)
+        art_start = scanner.art_start(data, start, stop)
+        drawing = read_operators(Source(data), art_start, stop, file, definitions.movers)
         drawing.kind = kind_of(data, start)
     else:
         drawing = _read_private(private, file)
@@ -78,21 +82,25 @@ def _read_private(private: PrivatePart, file: str) -> Drawing:
     return drawing
 
 
-def read_operators(source: Source, start: int, stop: int, file: str) -> Drawing:
+def read_operators(source: Source, start: int, stop: int, file: str, movers: frozenset[bytes] = frozenset()) -> Drawing:
     """Read the operators between two positions into a Drawing.
 
+    Args:
+        source: the file.
+        start: where they begin.
+        stop: where they end.
+        file: its name, for messages.
+        movers: names that the file defines for what moves the axes.
+
     Raises:
-        DrawingError: there are operators, but nothing is drawn with Illustrator's.
+        DrawingError: there are operators, but nothing is drawn with Illustrator's, or what is drawn is moved.
         LimitError: as for :func:`read_illustrator`.
     """
-    art = ArtReader(source, start, stop, file).read()
+    art = ArtReader(source, start, stop, file, movers).read()
+    if art.moved_by:
+        raise programs.refusal(f"it moves, scales or turns what it draws ({art.moved_by}), and no program is run", file)
     if art.drew_nothing():
-        raise DrawingError(
-            "the file is a PostScript program without Illustrator's own drawing in it",
-            code="postscript-program",
-            fix="save it with Illustrator's editing capabilities, or convert it: pstoedit -f plot-svg in.eps out.svg",
-            file=file,
-        )
+        raise programs.refusal("it has no drawing by Illustrator's own operators in it, and no program is run", file)
     scale = _LARGE_CANVAS.search(source.data, 0, min(start, _HEADER))
     if scale and scale.group(1) != b"1":
         art.findings.add(findings.LARGE_CANVAS, scale.start(), what=scale.group(1).decode())

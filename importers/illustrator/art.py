@@ -6,21 +6,18 @@ Illustrator adds (groups, layers, locks, hidden objects, notes, names after the 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any
 
-from importers.drawing import DrawnPath, FillRule, Layer, Segment, Subpath
-from importers.findings import Findings, Kind
+from importers.drawing import DrawnPath, Segment, Subpath
 from importers.illustrator import findings
-from importers.illustrator.state import Group, Paint, colour_of
-from importers.illustrator.text import decode
-from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, MAX_OPERATORS, good_coordinate, limit_error
+from importers.illustrator.objects import Handler, Objects, Operands, Text
+from importers.illustrator.programs import MOVERS
+from importers.illustrator.state import Group
+from importers.limits import MAX_COORDINATE, MAX_ELEMENTS, MAX_OPERATORS, good_coordinate, limit_error
 from importers.sources import Source
 
-Operands = list[Any]  # numbers as bytes or float, texts and names as Text
-Handler = Callable[[Operands], None]
+__all__ = ["Art", "Operands", "Text"]
 
 # How many numbers each path operator takes.
 PATH_OPERANDS = {
@@ -32,17 +29,10 @@ PATH_OPERANDS = {
 _WITHOUT_GEOMETRY = (
     b"O R D d i j J M Ap Ar An AE Ae As Xd XD XW Xy XT Xt Xs XS Np Xz XZ XN Xn Bn Bd BD Bm Bc Bh Bs Pb PB Pc "
     b"Pn Xm XP Tr Tf Tz Tt TA TC TW Ti Ta Tq Tl Tx TX TV Tv TK TS Tk TG Tg Th Ts TY Xb XB XQ TE TZ Tj TI Tb "
-    b"Td z a e o r t Z E TP XF XG XH Xh Xi Xq Xg Xr Xv XV LB2 Lc X= X+ X# , / showpage gsave grestore "
-    b"annotatepage def bind load store begin end pop get put exec dict save restore initialize terminate "
+    b"Td z a e o r t Z E TP XF XG XH Xh Xi Xq Xg Xr Xv XV LB2 Lc X= X+ X# , / showpage "
+    b"annotatepage def bind load store begin end pop get put exec dict initialize terminate "
     b"userdict systemdict dup exch clear cleartomark mark currentdict cvx cvn closefile true false null "
 ).split()
-
-
-@dataclass(frozen=True, slots=True)
-class Text:
-    """A string operand (its bytes with escapes resolved), or a literal name."""
-
-    raw: bytes
 
 
 @dataclass(slots=True)
@@ -58,48 +48,32 @@ class Compound:
     guide: bool = False
 
 
-class Art:
+class Art(Objects):
     """What the operators of one file have drawn so far.
 
     Attributes:
-        layers: in the file's order.
         paths: in the file's order; their groups are filled in by :meth:`finish`.
-        findings: what was left out or could not be read.
-        position: byte position of the operator at hand; its reader sets it.
-        named: what a name that follows in the file belongs to.
-        note: the note that the next objects carry.
         handlers: what each operator does.
+
+    Args:
+        source: the file.
+        encoding: the alphabet of its names.
+        file: its name, for messages.
+        movers: names of its own for what moves, scales or turns what follows.
     """
 
-    def __init__(self, source: Source, encoding: str, file: str = "") -> None:
-        self.source = source
-        self.encoding = encoding
-        self.file = file
-        self.layers: list[Layer] = []
+    def __init__(self, source: Source, encoding: str, file: str = "", movers: frozenset[bytes] = frozenset()) -> None:
+        super().__init__(source, encoding, file)
         self.paths: list[DrawnPath] = []
-        self.findings = Findings()
-        self.position = 0
-        self.named: DrawnPath | Group | None = None
-        self.note = ""
-        self._segments: list[Segment] = []  # of the subpath that is being drawn
-        self._subpaths: list[Subpath] = []  # of its path, without that one
+        self._movers = movers
+        self._subpaths: list[Subpath] = []  # of the path that is being drawn, without the subpath that is
         self._begin = 0  # position of that path's first point
         self._reopen: Segment | None = None  # where drawing goes on after `h`
         self._cut = False  # the rest of the subpath is skipped: one of its operators could not be read
         self._spoiled = False  # a coordinate of the path is none
         self._clip = False
-        self._paint = Paint()
-        self._fill_rule: FillRule = "nonzero"  # no part of what `q` keeps: PostScript has no such thing
-        self._gradient = False
-        self._hidden = False
-        self._locked = False
-        self._text = False
-        self._objects = 0  # depth in `/Kind : ... ;`
         self._compound: Compound | None = None
-        self._group = Group("root")
-        self._bare_layer = ""  # a layer's name that came without `Lb`
         self._grouped: list[Group] = []  # the group of each path, since groups get their names last
-        self._count = 0
         self.handlers: dict[bytes, Handler] = self._make_handlers()
 
     def _make_handlers(self) -> dict[bytes, Handler]:
@@ -123,7 +97,10 @@ class Art:
         handlers.update({b"To": self._begin_text, b"Tp": self._ignore, b"TO": self._end_text, b"T": self._old_text})
         handlers.update({b"XI": partial(self._leave_out, findings.RASTER), b"`": self._placed, b"~": self._ignore})
         handlers.update({b":": self._begin_object, b";": self._end_object, b"X!": self._mesh})
-        handlers.update(dict.fromkeys((b"translate", b"scale", b"rotate", b"concat", b"cm"), self._moved))
+        handlers.update(
+            {b"gsave": self._save, b"save": self._save, b"grestore": self._restore, b"restore": self._restore}
+        )
+        handlers.update({name: partial(self._move_axes, name) for name in (*MOVERS, *self._movers)})
         return handlers
 
     # --- what the reader calls --------------------------------------------------------------------------
@@ -135,10 +112,6 @@ class Art:
             self._stop_at("segments, paths and groups of a drawing", MAX_ELEMENTS)
         if operators > MAX_OPERATORS:
             self._stop_at("operators of a drawing", MAX_OPERATORS)
-
-    def _stop_at(self, limit: str, figure: int) -> None:
-        """Raise LimitError for what was hit at the operator at hand."""
-        raise limit_error(limit, f"{figure:,}", file=self.file, line=self.source.line(self.position))
 
     def failed(self, operator: bytes, operands: Operands) -> None:
         """Deal with operands that an operator could not take."""
@@ -168,13 +141,7 @@ class Art:
         if operator.startswith(b"Adobe_"):
             return  # a set of procedures, which files name whether they hold it or not
         what = operator[:24].decode("latin-1")
-        self.findings.add(findings.UNKNOWN, self.position, what=what, layer=self._group.layer)
-
-    def find(self, kind: Kind, *, what: str = "", position: int | None = None) -> None:
-        """Note a finding at the operator at hand, or at `position`."""
-        point = self._segments[-1][-2:] if self._segments else None
-        place = self.position if position is None else position
-        self.findings.add(kind, place, what=what, layer=self._group.layer, at=point)
+        self.findings.add(findings.UNKNOWN, self.position, what=what, apart=True, layer=self._group.layer)
 
     def set_name(self, name: str) -> None:
         """Name the object that just ended."""
@@ -215,9 +182,6 @@ class Art:
             path.groups = found
 
     # --- drawing ----------------------------------------------------------------------------------------
-
-    def _ignore(self, _operands: Operands) -> None:
-        """Do nothing: no geometry depends on it."""
 
     def _move(self, operands: Operands) -> None:
         x, y = map(float, operands)
@@ -328,6 +292,8 @@ class Art:
         group, paint, kind = self._group, self._paint, operator.lower()
         fills, strokes = kind in "fb", kind in "sb"
         framed = self._text or self._objects > 0
+        if self._moved_in >= 0 and not framed:
+            self.moved_by = self.moved_by or self._mover
         path = DrawnPath(
             subpaths,
             layer=group.layer or self._bare_layer,
@@ -389,172 +355,3 @@ class Art:
             self._add_path(compound.hidden, compound.operator, compound.begin, hidden=True, **marks)
         if compound.shown:
             self._add_path(compound.shown, compound.operator, compound.begin, hidden=False, **marks)
-
-    # --- paint ------------------------------------------------------------------------------------------
-
-    def _set_fill(self, operator: str, operands: Operands) -> None:
-        colour = colour_of(operator, [float(operand) for operand in operands if not isinstance(operand, Text)])
-        self._paint.fill = colour or self._paint.fill
-
-    def _set_stroke(self, operator: str, operands: Operands) -> None:
-        colour = colour_of(operator, [float(operand) for operand in operands if not isinstance(operand, Text)])
-        self._paint.stroke = colour or self._paint.stroke
-
-    def _fill_pattern(self, _operands: Operands) -> None:
-        self._paint.fill = "pattern"
-
-    def _stroke_pattern(self, _operands: Operands) -> None:
-        self._paint.stroke = "pattern"
-
-    def _set_width(self, operands: Operands) -> None:
-        (width,) = map(float, operands[-1:])
-        if not 0.0 <= width <= MAX_COORDINATE:
-            raise ValueError(width)
-        self._paint.width = width
-
-    def _set_fill_rule(self, operands: Operands) -> None:
-        self._fill_rule = "evenodd" if operands and float(operands[-1]) == 1 else "nonzero"
-
-    def _begin_gradient(self, _operands: Operands) -> None:
-        self._gradient = True
-
-    def _end_gradient(self, operands: Operands) -> None:
-        """``BB``: 1 strokes what the gradient filled, 2 closes and strokes it."""
-        self._gradient = False
-        if operands and float(operands[-1]) in (1, 2) and isinstance(self.named, DrawnPath):
-            self.named.stroke, self.named.stroke_width = self._paint.stroke, self._paint.width
-
-    # --- marks, groups, layers --------------------------------------------------------------------------
-
-    def _set_locked(self, operands: Operands) -> None:
-        self._locked = bool(operands) and float(operands[-1]) == 1
-
-    def _set_hidden(self, operands: Operands) -> None:
-        self._hidden = bool(operands) and float(operands[-1]) == 1
-
-    def _open(self, group: Group) -> None:
-        """Go into a group, clip group or layer."""
-        self._flush()
-        if group.depth > MAX_DEPTH:
-            self._stop_at("groups and layers in each other", MAX_DEPTH)
-        self._group = group
-        self._count += 1
-        self.named = None
-
-    def _begin_group(self, _operands: Operands) -> None:
-        outer = self._group
-        hidden, locked = outer.hidden or self._hidden, outer.locked or self._locked
-        self._open(Group("u", outer, "", hidden, locked, outer.layer, outer.depth + 1))
-
-    def _begin_clip(self, _operands: Operands) -> None:
-        outer = self._group
-        hidden, locked = outer.hidden or self._hidden, outer.locked or self._locked
-        self._open(Group("q", outer, "", hidden, locked, outer.layer, outer.depth + 1, self._paint.copy()))
-
-    def _end_group(self, _operands: Operands) -> None:
-        self._leave("u", "U")
-
-    def _end_clip(self, _operands: Operands) -> None:
-        self._leave("q", "Q")
-
-    def _leave(self, kind: str, operator: str) -> None:
-        """Go out of the innermost group of a kind, and of what was left open in it."""
-        self._flush()
-        group: Group | None = self._group
-        while group is not None and group.kind != kind:
-            # A layer is closed by its own operator only.
-            group = group.outer if group.kind != "layer" else None
-        if group is None or group.outer is None:
-            self.find(findings.UNBALANCED, what=operator)
-            return
-        self._group = group.outer
-        self.named = group
-        if group.paint is not None:
-            self._paint = group.paint
-
-    def _begin_layer(self, operands: Operands) -> None:
-        """``Lb``: visible preview enabled printing ...; later versions add arguments at the end."""
-        flags = [float(operand) != 0 for operand in operands[:4] if not isinstance(operand, Text)]
-        visible, _preview, enabled, printing = (*flags, True, True, True, True)[:4]
-        record = Layer("", visible=visible, locked=not enabled, printing=printing)
-        self.layers.append(record)
-        outer = self._group
-        hidden, locked = outer.hidden or not visible, outer.locked or not enabled
-        self._open(Group("layer", outer, "", hidden, locked, "", outer.depth + 1, record=record))
-        self._hidden = self._locked = False
-
-    def _name_layer(self, operands: Operands) -> None:
-        """``(name) Ln``: names the layer that `Lb` opened, or one that nothing else says anything of."""
-        self._flush()
-        texts = [operand for operand in operands if isinstance(operand, Text)]
-        name = decode(texts[-1].raw, self.encoding) if texts else ""
-        group = self._group
-        if group.kind == "layer" and group.record is not None and not group.name:
-            group.name = group.layer = group.record.name = name
-        elif name != self._bare_layer:
-            self._bare_layer = name
-            self.layers.append(Layer(name))
-            self._count += 1
-
-    def _end_layer(self, _operands: Operands) -> None:
-        self._flush()
-        group: Group | None = self._group
-        while group is not None and group.kind != "layer":
-            group = group.outer
-        if group is None or group.outer is None:
-            self.find(findings.UNBALANCED, what="LB")
-            return
-        self._group = group.outer
-        self._hidden = self._locked = False
-        self.named = None
-
-    # --- what is no path --------------------------------------------------------------------------------
-
-    def _leave_out(self, kind: Kind, _operands: Operands) -> None:
-        self.find(kind)
-        self.named = None
-
-    def _begin_text(self, _operands: Operands) -> None:
-        self._flush()
-        self._leave_out(findings.TEXT, [])
-        self._text = True
-
-    def _end_text(self, _operands: Operands) -> None:
-        self._flush()
-        self._text = False
-        self.named = None
-
-    def _old_text(self, _operands: Operands) -> None:
-        """``T``: a text of versions 1 and 88 ends."""
-        self._leave_out(findings.TEXT, [])
-
-    def _placed(self, _operands: Operands) -> None:
-        """A placed file begins."""
-        self._leave_out(findings.PLACED, [])
-
-    def _begin_object(self, operands: Operands) -> None:
-        """``/Kind :``: an object of newer versions that is no path; ``;`` ends it."""
-        names = [operand.raw for operand in operands if isinstance(operand, Text)]
-        if not self._objects and names:
-            kind = names[-1].decode("latin-1")[:24]
-            if kind == "AI11Text":
-                self.find(findings.TEXT)
-            else:
-                self.findings.add(findings.OBJECT, self.position, what=kind, apart=True, layer=self._group.layer)
-        self._objects += 1
-        self.named = None
-
-    def _mesh(self, operands: Operands) -> None:
-        """``/Mesh X!`` begins a gradient mesh, ``/End X!`` ends it."""
-        if Text(b"End") not in operands:
-            self.findings.add(findings.OBJECT, self.position, what="Mesh", apart=True, layer=self._group.layer)
-        self.named = None
-
-    def _moved(self, _operands: Operands) -> None:
-        """A PostScript program moves what follows; nobody but Illustrator's own operators is listened to."""
-        self.find(findings.MOVED)
-
-    def _end_object(self, _operands: Operands) -> None:
-        self._flush()
-        self._objects = max(self._objects - 1, 0)
-        self.named = None

@@ -95,13 +95,6 @@ ATTRIBUTE = Kind(
     "{count} operators that set attributes have not the operands that they need (first {what}); they are skipped",
     "colours, groups or layers may be wrong; the shapes are not affected",
 )
-MOVED = Kind(
-    "moved-by-program",
-    "error",
-    "a PostScript program in the file moves or scales what follows; its coordinates are taken as written",
-    "a PostScript program in the file moves or scales what follows {count} times; coordinates are taken as written",
-    "convert the file to SVG, for example with: pstoedit -f plot-svg in.eps out.svg",
-)
 PRIVATE_DAMAGED = Kind(
     "damaged-stream",
     "error",

@@ -26,9 +26,11 @@ class ArtReader:
         art: what was drawn.
     """
 
-    def __init__(self, source: Source, start: int, stop: int, file: str = "") -> None:
+    def __init__(
+        self, source: Source, start: int, stop: int, file: str = "", movers: frozenset[bytes] = frozenset()
+    ) -> None:
         self.source = source
-        self.art = Art(source, alphabet(source.data), file)
+        self.art = Art(source, alphabet(source.data), file, movers)
         self._start = start
         self._stop = stop
         self._endless: set[bytes] = set()  # blocks whose end was looked for and is not there
@@ -59,12 +61,17 @@ class ArtReader:
         for _ in repeat(None, _BATCH):
             match = match_operator(data, position, stop)
             if match is None:
+                break  # it never fails
+            numbers, operator = match.groups()
+            position = match.end()
+            if operator is None:
+                if numbers:
+                    stack += numbers.split()
+                    self._tokens += 2
                 position = self._read_token(position, stack)
                 if position >= stop:
                     break
                 continue
-            numbers, operator = match.groups()
-            position = match.end()
             art.position = position - len(operator)
             operands: Operands = numbers.split()
             if stack:
@@ -85,10 +92,11 @@ class ArtReader:
         """Read what is not just numbers and a short operator; give the position after it."""
         data, stop = self.source.data, self._stop
         white = scanner.WHITE.match(data, position, stop)
-        if white:
-            position = white.end()
-            if position == stop or data[position] in _NUMBER_OR_OPERATOR_STARTS:
-                return position
+        position = white.end() if white else position
+        if position == stop:
+            return position
+        if white and data[position] in _NUMBER_OR_OPERATOR_STARTS:
+            return position
         byte = data[position : position + 1]
         if byte == b"%":
             return self._comment(position)

@@ -9,19 +9,21 @@ from importers.illustrator.text import MAX_STRING_BYTES, string_end
 from importers.limits import MAX_DEPTH
 
 # Operands that are plain numbers, then an operator of one or two letters: nearly all that a file consists of.
-# The bounds keep a hostile line from being read twice for each of its tokens.
+# All may be missing, so it never fails, and no number is read twice.
 NUMBERS_AND_OPERATOR = re.compile(
-    rb"\s{0,200}((?:[-+.\deE]{1,40}\s{1,20}){0,8})([A-Za-z]{1,2}|\*[uU]?)(?=[\s%\[(/]|\Z)"
+    rb"\s{0,200}((?:[-+.\deE]{1,40}\s{1,20}){0,8})(?:([A-Za-z]{1,2}|\*[uU]?)(?=[\s%\[(/]|\Z))?"
 )
 WHITE = re.compile(rb"[\s\x00]+")
 WORD = re.compile(rb"[^\s\x00()<>\[\]{}/%]+")
-NUMBER = re.compile(rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+NUMBER = re.compile(rb"[-+]?+(?:\d++\.?+\d*+|\.\d++)(?:[eE][-+]?+\d++)?+")
 COMMENT = re.compile(rb"%[^\r\n]*")
 # Lines of dictionaries hidden from PostScript, of which some files have a million; none names an object or ends one.
-DULL_LINES = re.compile(rb"(?:%_(?!/XMLUID|%%BeginData)(?![^\r\n]*\(AIArtName\))(?:[^\r\n]*[,;:)\d])?[\r\n]+){1,5000}")
+DULL_LINES = re.compile(
+    rb"(?:%_(?!/XMLUID|%%BeginData)(?![^\r\n]*\(AIArtName\))(?:[^\r\n]*[,;:)\d])?[\r\n]++){1,5000}+"
+)
 LINE_END = re.compile(rb"\r\n|\r|\n")
 BRACE = re.compile(rb"[{}%(]")
-BEGIN_DATA = re.compile(rb"%(?:_%)?%BeginData:\s*(\d{1,12})\s*(\w*)\s*(\w*)")
+BEGIN_DATA = re.compile(rb"%(?:_%)?%BeginData:\s*+(\d{1,12})\s*+(\w*+)\s*+(\w*+)")
 END_DATA = b"%%EndData"
 # Blocks that hold no art wherever they stand: definitions, other people's files, PostScript programs.
 BEGIN_BLOCK = re.compile(
@@ -58,10 +60,15 @@ def is_operator_text(data: bytes) -> bool:
     start, stop = postscript_part(data)
     if data[start : start + 200].lstrip(b"\xef\xbb\xbf \t\r\n\x00")[:1] == b"<":
         return False
-    if _ILLUSTRATOR_NOTE.search(data, start, min(stop, start + (_LOOK >> 4))):
+    if is_marked(data, start, stop):
         return True
     begin = art_start(data, start, stop)
     return _OPERATORS.search(data[begin : min(stop, begin + _LOOK)]) is not None
+
+
+def is_marked(data: bytes, start: int, stop: int) -> bool:
+    """Tell whether a file calls itself Illustrator's, or names Illustrator's procedures."""
+    return _ILLUSTRATOR_NOTE.search(data, start, min(stop, start + (_LOOK >> 4))) is not None
 
 
 def plain_bytes(data: bytes) -> bytes:

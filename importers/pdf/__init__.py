@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
+from dataclasses import replace
 from itertools import islice
 
 from importers.drawing import Artboard, Drawing
@@ -11,7 +13,7 @@ from importers.findings import Findings
 from importers.illustrator import findings as common
 from importers.illustrator import kind_of, read_operators, scanner
 from importers.limits import MAX_STREAM_BYTES, check_input_size, good_coordinate, limit_error
-from importers.pages import PageChoice, check_page, keep_artboard, no_such_page
+from importers.page_choice import PageChoice, check_page, keep_artboard, no_such_page
 from importers.pdf import findings
 from importers.pdf.annotations import shown_annotations
 from importers.pdf.content import PageReader
@@ -24,6 +26,8 @@ from importers.sources import Source
 __all__ = ["looks_like_pdf", "read_pdf"]
 
 
+Origin = Callable[[tuple[float, float, float, float]], tuple[float, float]]
+
 _MAX_STREAMS = 100_000  # that a page's content is cut into
 
 
@@ -32,7 +36,7 @@ def looks_like_pdf(data: bytes) -> bool:
     return find_header(data) >= 0
 
 
-def read_pdf(data: bytes, file: str = "", page: PageChoice = None) -> Drawing:
+def read_pdf(data: bytes, file: str = "", page: PageChoice = None, *, origin: Origin | None = None) -> Drawing:
     """Read a page of a PDF, or the drawing as Illustrator itself keeps it in there.
 
     Illustrator's own data come first: they have what the page has not (hidden layers and objects, names, art
@@ -45,6 +49,7 @@ def read_pdf(data: bytes, file: str = "", page: PageChoice = None) -> Drawing:
         file: its name, for messages.
         page: which page or artboard, from 1; ``"all"`` puts pages side by side, from left to right. None takes the
             first page of a PDF and all artboards of Illustrator's own data.
+        origin: tells from a page's box by how much its content is to be moved.
 
     Raises:
         DrawingError: it is encrypted, broken, has no pages or not that one.
@@ -54,7 +59,7 @@ def read_pdf(data: bytes, file: str = "", page: PageChoice = None) -> Drawing:
     check_page(page, file)
     document = Document(data, file)
     try:
-        drawing = _read_document(document, page)
+        drawing = _read_document(document, page, origin)
     finally:
         document.close()
     drawing.file = file
@@ -62,7 +67,7 @@ def read_pdf(data: bytes, file: str = "", page: PageChoice = None) -> Drawing:
     return drawing
 
 
-def _read_document(document: Document, choice: PageChoice) -> Drawing:
+def _read_document(document: Document, choice: PageChoice, origin: Origin | None) -> Drawing:
     """Read Illustrator's own data of the first page, or the content of those pages that are asked for."""
     first = next(document.pages(), None)
     if first is None:
@@ -81,8 +86,8 @@ def _read_document(document: Document, choice: PageChoice) -> Drawing:
         pages = [*islice(document.pages(), choice - 1, choice)]
         if not pages:
             raise no_such_page(choice, sum(1 for _ in document.pages()), document.file)
-    drawing = _read_content(document, pages, why)
-    drawing.kind = kind
+    drawing = _read_content(document, pages, why, origin)
+    drawing.kind, drawing.page = kind, choice if isinstance(choice, int) else None
     drawing.problems.extend(_page_problems(pages, document.page_count() if choice is None else 1))
     return drawing
 
@@ -115,7 +120,7 @@ def _read_own_data(document: Document, page: Page) -> tuple[Drawing | None, str,
     return drawing, drawing.kind, ""
 
 
-def _read_content(document: Document, pages: list[Page], why: str) -> Drawing:
+def _read_content(document: Document, pages: list[Page], why: str, origin: Origin | None) -> Drawing:
     """Read the content of pages; each after the first begins where the one before it ends on the right."""
     layers = OptionalContent(document)
     reader = PageReader(document, layers)
@@ -123,16 +128,19 @@ def _read_content(document: Document, pages: list[Page], why: str) -> Drawing:
         reader.findings.add(findings.PAGE_CONTENT, None, what=why)
     artboards: list[Artboard] = []
     for index, page in enumerate(pages):
-        left, bottom, right, top = _media_box(page)
-        move = artboards[-1].x_max - left if artboards else 0.0
-        artboards.append(Artboard(f"page {index + 1}", left + move, bottom, right + move, top))
-        reader.read(_contents(document, page, reader.findings), page.get("/Resources"), index=index, right=move)
+        box = _media_box(page)
+        x, y = origin(box) if origin else (0.0, 0.0)
+        if artboards:
+            x = artboards[-1].x_max - box[0]
+        artboards.append(Artboard(f"page {index + 1}", box[0] + x, box[1] + y, box[2] + x, box[3] + y))
+        reader.read(_contents(document, page, reader.findings), page.get("/Resources"), index=index, move=(x, y))
         kinds = shown_annotations(document, page.dictionary)
         if kinds:
             reader.findings.add(findings.ANNOTATION, None, what=kinds[0], count=len(kinds))
     problems = reader.findings.problems(Source(b"", has_lines=False))
     drawing = Drawing("pt", "up", layers.layers, reader.paths, problems)
     drawing.artboards = artboards if len(artboards) > 1 else []
+    drawing.sheet = replace(artboards[0], x_max=artboards[-1].x_max, y_max=max(board.y_max for board in artboards))
     return drawing
 
 

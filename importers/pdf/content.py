@@ -25,7 +25,7 @@ _OPERATOR = re.compile(
 )
 _WHITE = re.compile(rb"[\s\x00]+")
 _WORD = re.compile(rb"[^\s\x00()<>\[\]{}/%]+")
-_NUMBER = re.compile(rb"[-+]?(?:\d+\.?\d*|\.\d+)")
+_NUMBER = re.compile(rb"[-+]?+(?:\d++\.?+\d*+|\.\d++)")
 _LINE = re.compile(rb"[^\r\n]*")
 _HEX = re.compile(rb"<[^<>]*>")
 _NAME_ESCAPE = re.compile(rb"#([0-9A-Fa-f]{2})")
@@ -91,19 +91,19 @@ class PageReader(Painter):
 
     # --- the loop ---------------------------------------------------------------------------------------
 
-    def read(self, contents: bytes, resources: Any, *, index: int = 0, right: float = 0.0) -> None:
+    def read(self, contents: bytes, resources: Any, *, index: int = 0, move: tuple[float, float] = (0.0, 0.0)) -> None:
         """Read a page's content.
 
         Args:
             contents: its bytes.
             resources: what it names.
             index: which of the pages that are read it is.
-            right: how far to the right it is moved.
+            move: by how much it is moved.
 
         Raises:
             LimitError: more segments, forms or nesting than the limits allow.
         """
-        self.begin_page(right)
+        self.begin_page(*move)
         self._marked = []
         self._update_layer()
         self._go_into(Frame(contents, resources, key=(-index, 0)))
@@ -214,7 +214,9 @@ class PageReader(Painter):
             raise limit_error("operators of a drawing", f"{MAX_OPERATORS:,}", file=self.file)
 
     def _unknown(self, operator: bytes) -> None:
-        self._find(common.UNKNOWN, operator[:24].decode("latin-1"))
+        what = operator[:24].decode("latin-1")
+        layer = self._layer.name if self._layer else ""
+        self.findings.add(common.UNKNOWN, None, what=what, apart=True, layer=layer)
 
     def _failed(self, operator: bytes, operands: Operands) -> None:
         """Deal with operands that an operator could not take; PostScript-like, the last numbers would do."""

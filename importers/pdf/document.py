@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator
+from itertools import islice
 from typing import Any
 
 from importers import filters
@@ -19,6 +20,7 @@ _HEADER = re.compile(rb"%PDF-\d")
 _MAX_MENDED = 8 * 1024 * 1024  # bytes of a file whose table of objects is made anew
 _MAX_PAGES = 50_000  # and nodes of their tree
 _MAX_SLOW_BYTES = 4_000_000  # of LZW and RunLength data, which are decoded code by code
+_MAX_FILTERS = 16  # of one stream
 _FILTER_NAMES = {"/Fl": "/FlateDecode", "/LZW": "/LZWDecode", "/A85": "/ASCII85Decode", "/AHx": "/ASCIIHexDecode"}
 _FILTER_NAMES["/RL"] = "/RunLengthDecode"
 
@@ -61,17 +63,21 @@ class Document:
             ) from error
 
     def _open(self, data: bytes) -> Any:
-        """Open the file; a broken one is mended only while that takes no time to speak of."""
+        """Open the file; one that is broken or shows no page is mended, while that takes no time to speak of."""
         import pikepdf
 
         try:
             # Pages inherit when they are asked: to push everything down, qpdf would list all pages at 2 kB each.
-            return pikepdf.open(io.BytesIO(data), attempt_recovery=False, inherit_page_attributes=False)
+            pdf = pikepdf.open(io.BytesIO(data), attempt_recovery=False, inherit_page_attributes=False)
         except pikepdf.PasswordError:
             raise
         except (pikepdf.PdfError, pikepdf.PikepdfError, RuntimeError, ValueError):
             if len(data) > _MAX_MENDED:
                 raise
+        else:
+            if len(data) > _MAX_MENDED or next(self._pages_below(_catalogue(pdf)), None) is not None:
+                return pdf
+            pdf.close()
         return pikepdf.open(io.BytesIO(data), inherit_page_attributes=False)
 
     def close(self) -> None:
@@ -80,8 +86,8 @@ class Document:
 
     @property
     def root(self) -> Any:
-        """The catalogue."""
-        return self._pdf.Root
+        """The catalogue, or None."""
+        return _catalogue(self._pdf)
 
     @property
     def info(self) -> Any:
@@ -94,8 +100,12 @@ class Document:
         Raises:
             LimitError: the tree of pages is too deep, or has too many nodes.
         """
+        return self._pages_below(self.root)
+
+    def _pages_below(self, catalogue: Any) -> Iterator[Page]:
+        """Go through the pages that a catalogue knows."""
         above: list[tuple[Iterator[Any], dict[str, Any], tuple[int, int]]] = []
-        kids, inherited = iter((get(self.root, "/Pages"),)), dict[str, Any]()
+        kids, inherited = iter((get(catalogue, "/Pages"),)), dict[str, Any]()
         key = (0, 0)
         while True:
             node = next(kids, None)
@@ -140,6 +150,8 @@ class Document:
             return b"", _reason(error)
         damage = ""
         filters_used = _filters_of(stream)
+        if len(filters_used) > _MAX_FILTERS:
+            return b"", f"it is packed more than {_MAX_FILTERS} times over"
         if not filters_used:
             self.unpacker.charge(len(data))
         for name, parameters in filters_used:
@@ -179,6 +191,14 @@ class Document:
         self._slow_bytes += size
         if self._slow_bytes > _MAX_SLOW_BYTES:
             raise limit_error("LZW and RunLength data of a PDF", f"{_MAX_SLOW_BYTES // 1_000_000} MB", file=self.file)
+
+
+def _catalogue(pdf: Any) -> Any:
+    """Give the catalogue of an open file, None when it has none."""
+    try:
+        return pdf.Root
+    except _library_errors():
+        return None
 
 
 def _is_above(key: tuple[int, int], own: tuple[int, int], above: list[tuple[Any, Any, tuple[int, int]]]) -> bool:
@@ -276,8 +296,8 @@ def _filters_of(stream: Any) -> list[tuple[str, Any]]:
         names = [str(found)]
         all_parameters = [parameters]
     else:
-        names = [word(name) for name in items(found)]
-        all_parameters = list(items(parameters))
+        names = [word(name) for name in islice(items(found), _MAX_FILTERS + 1)]
+        all_parameters = list(islice(items(parameters), _MAX_FILTERS + 1))
     names = [_FILTER_NAMES.get(name, name) for name in names]
     return [(name, all_parameters[index] if index < len(all_parameters) else None) for index, name in enumerate(names)]
 
@@ -285,7 +305,7 @@ def _filters_of(stream: Any) -> list[tuple[str, Any]]:
 def _reason(error: Exception) -> str:
     """Give an error of the PDF library without its talk of memory addresses."""
     text = str(error).strip() or type(error).__name__
-    return re.sub(r"^.*<[^>]*>[^:]*: *", "", text.splitlines()[0])[:200]
+    return re.sub(r"^.*<[^>]*>[^:]*: *", "", text.splitlines()[0][:500])[:200]
 
 
 def _library_errors() -> tuple[type[Exception], ...]:

@@ -65,5 +65,5 @@ ANNOTATION = Kind(
     "warning",
     "an annotation ({what}) that the page shows is left out",
     "{count} annotations (first a {what}) that the page shows are left out",
-    "flatten annotations into the page (print the file into a PDF), or read it with: --via ghostscript",
+    "draw them into the page, for example with: gs -o out.pdf -sDEVICE=pdfwrite -dPreserveAnnots=false in.pdf",
 )

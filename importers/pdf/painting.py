@@ -61,9 +61,9 @@ class Painter:
         self._clip = False
         self._count = 0
 
-    def begin_page(self, right: float) -> None:
-        """Begin anew with plain paint and units, moved to the right by so much."""
-        self._graphics = Graphics(matrix=(1.0, 0.0, 0.0, 1.0, right, 0.0))
+    def begin_page(self, right: float, up: float) -> None:
+        """Begin anew with plain paint and units, moved by so much."""
+        self._graphics = Graphics(matrix=(1.0, 0.0, 0.0, 1.0, right, up))
         self._kept = []
 
     def path_handlers(self) -> dict[bytes, Handler]:

@@ -61,6 +61,7 @@ class Gate:
         self._file = file
         self._streams = 0
         self._table_bytes = 0
+        self._next_end = -1  # where the next stream ends, of those looked for so far
         self._encrypted = _ENCRYPT.search(data) is not None
 
     def check(self) -> None:
@@ -213,8 +214,7 @@ class Gate:
     def _check_encrypted(self, start: int, tokens: list[bytes], names: list[bytes]) -> None:
         """Bound an encrypted object stream by the most that so many deflated bytes can stand for."""
         value = self._only_value(tokens, b"/Length") or []
-        end = self._data.find(b"endstream", start)
-        size = max((end if end >= 0 else len(self._data)) - start, int(value[0]) if _is_size(value) else 0)
+        size = max(self._end_of_stream(start) - start, int(value[0]) if _is_size(value) else 0)
         if not _is_size(value) or names.count(b"/FlateDecode") > 1 or size * _DEFLATE_RATIO > MAX_STREAM_BYTES:
             raise DrawingError(
                 "the PDF is encrypted",
@@ -224,14 +224,22 @@ class Gate:
             )
         self._unpacker.charge(size * _DEFLATE_RATIO)
 
+    def _end_of_stream(self, start: int) -> int:
+        """Give where the stream that begins at `start` ends by the first word that says so, else the file's end."""
+        if self._next_end < start:
+            end = self._data.find(b"endstream", start)
+            self._next_end = end if end >= 0 else len(self._data)
+        return self._next_end
+
     def _unpack(self, start: int, names: list[bytes]) -> bytes:
         """Unpack the stream that begins at `start`."""
-        end = self._data.find(b"endstream", start)
-        data = self._data[start : end if end >= 0 else len(self._data)]
+        end = self._end_of_stream(start)
+        self._look_at(end - start)
+        data = self._data[start:end]
         for index, name in enumerate(names):
             if name == b"/FlateDecode":
                 unpacked = self._unpacker.unpack(data, "zlib")
-                if index == 0 and unpacked.damage and end >= 0:
+                if index == 0 and unpacked.damage and end < len(self._data):
                     # The word may stand in the packed data, which say themselves where they end.
                     self._look_at(len(self._data) - start)
                     unpacked = self._unpacker.unpack(self._data[start:], "zlib")

@@ -5,112 +5,171 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from importers.limits import limit_error
+from importers.limits import LETTERS_OF_A_STEP, Work, limit_error
 from importers.problems import Severity
+from importers.svg.declarations import Winners, winners
+from importers.svg.inheritance import Style, inherit
+from importers.svg.media import matches_media
 from importers.svg.notes import Notes
-from importers.svg.sheet import Sheet, matches_media
+from importers.svg.sheet import Report, Sheet
 from importers.svg.style import (
+    INHERITED,
     PRESENTATION,
+    SHORT,
+    VARIABLES,
     Declared,
-    Style,
-    inherit,
+    Pending,
+    TooLarge,
     parse_any_inline,
     parse_declaration,
     parse_inline,
+    unset,
 )
+from importers.svg.variables import UnresolvedError, put_in, resolve_all
 
 _NOTHING: Declared = {}
 MAX_CSS = 1_000_000
+STEPS_OF_A_LETTER = 6  # of CSS that only the slow parser can read
 # Fonts put into a drawing are larger than all else in it, and say nothing of its outlines.
-_FONT_FACE = re.compile(r"@font-face\s*\{[^{}]*\}", re.IGNORECASE)
+_FONT_FACE = re.compile(r"@font-face\s*+\{[^{}]*+\}", re.IGNORECASE)
+_TOO_LARGE = "has a number that is too large, and is not used"
 
 
-_NONE: tuple[Declared, Declared] = ({}, {})
-
-
-def _by_importance(declarations: list[tuple[str, Any, bool]]) -> tuple[Declared, Declared]:
-    """Give the normal and the important ones, each with what comes last winning."""
-    normal = {name: value for name, value, important in declarations if not important}
-    return normal, {name: value for name, value, important in declarations if important}
+_NONE = Winners({}, {})
 
 
 class Cascade:
     """Gives each element its declarations."""
 
-    def __init__(self, root: Any, prefix: str, notes: Notes) -> None:
+    def __init__(self, root: Any, prefix: str, notes: Notes, work: Work) -> None:
         texts = []
+        self._notes, self._work = notes, work
+        self._letters = MAX_CSS
         for element in root.iter(prefix + "style"):
             kind = (element.get("type") or "text/css").strip().lower()
             media = " ".join((element.get("media") or "").lower().split())
+            self._charge(len(media))
             if kind in ("text/css", "") and matches_media(media):
-                texts.append((element, "".join(element.itertext())))
+                texts.append((element, _FONT_FACE.sub("", "".join(element.itertext()))))
             else:
-                notes.count("css-skipped", "info", f"a style sheet for {media or kind} is left out", element)
-        self._notes = notes
-        self._element = texts[0][0] if texts else root
-        self._css_left = MAX_CSS
-        self._inlines: dict[str, tuple[Declared, Declared]] = {}
+                notes.count("css-skipped", "info", f"a style sheet for {(media or kind)[:60]} is left out", element)
+        self._inlines: dict[str, Winners] = {}
+        self._kept: list[Style] = []
         self._styles: dict[tuple[int, tuple[tuple[str, Any], ...]], Style] = {}
-        sheets = [_FONT_FACE.sub("", text) for _, text in texts]
-        self._charge(sum(map(len, sheets)))
-        self._sheet = Sheet(sheets, root, self._report)
+        self._charge(sum(len(text) for _, text in texts))
+        self._sheet = Sheet([text for _, text in texts], root, _reporter(notes, texts[0][0] if texts else root), work)
 
-    def _charge(self, characters: int) -> None:
-        self._css_left -= characters
-        if self._css_left < 0:
+    def _charge(self, letters: int) -> None:
+        """Count letters of CSS against their limit, and the steps that the slow parser takes."""
+        self._letters -= letters
+        if self._letters < 0:
             raise limit_error("characters of style sheets", f"{MAX_CSS:,}")
+        self._work.charge("style sheets", STEPS_OF_A_LETTER * letters)
 
-    def _inline(self, text: str) -> tuple[Declared, Declared]:
+    def _inline(self, text: str) -> Winners:
         kept = self._inlines.get(text)
         if kept is None:
+            self._work.charge("style attributes", len(text) // LETTERS_OF_A_STEP)
             found = parse_inline(text)
             if found is None:
                 self._charge(len(text))
                 found = parse_any_inline(text)
-            kept = self._inlines[text] = _by_importance(found)
+            kept = self._inlines[text] = winners(found)
         return kept
 
-    def _report(self, code: str, severity: Severity, message: str) -> None:
-        fix = "write the style on the elements" if severity == "warning" else ""
-        self._notes.count(code, severity, message, self._element, fix=fix)
-
-    def declared(self, element: Any, attributes: dict[str, str], chain: tuple[Any, ...] = ()) -> Declared:
+    def declared(
+        self, element: Any, attributes: dict[str, str], around: Style, chain: tuple[Any, ...] = ()
+    ) -> Declared:
         """Give the winning declarations of an element: property to parsed value, invalid ones left out.
 
         Args:
             element: in the file.
             attributes: of it.
+            around: the style of what is around it, for its custom properties.
             chain: the targets of the ``use``s that it is seen through.
         """
+        found = self._presented(element, attributes)
+        style = attributes.get("style")
+        if not self._sheet.empty or style is not None:
+            matched = [] if self._sheet.empty else self._sheet.matches(element, chain[-1] if chain else None)
+            inline = _NONE if style is None else self._inline(style)
+            for name in inline.too_large:
+                self._notes.add("bad-number", "error", f"{name} {_TOO_LARGE}", element, attribute="style")
+            for rule in (*(one.normal for one in matched), inline.normal):
+                found.update(rule)
+            for rule in (*(one.important for one in matched), inline.important):
+                found.update(rule)
+        for name in found:
+            if name[:2] == "--" or isinstance(found[name], Pending):
+                return self._resolved(element, found, around)
+        return found or _NOTHING
+
+    def _presented(self, element: Any, attributes: dict[str, str]) -> Declared:
+        """Give the declarations that are attributes."""
         found: Declared = {}
         for name, text in attributes.items():
-            if name in PRESENTATION:
-                value = parse_declaration(name, text, "attribute")
-                if value is not None:
-                    found[name] = value
-                elif name == "transform":
-                    message = f"transform={text[:40]!r} is wrong, so none of it is used"
-                    self._notes.add("bad-transform", "warning", message, element, attribute="transform")
-        style = attributes.get("style")
-        if self._sheet.empty and style is None:
-            return found or _NOTHING
-        rules = (
-            _NONE
-            if self._sheet.empty
-            else _by_importance(self._sheet.declarations(element, chain[-1] if chain else None))
-        )
-        inline = _NONE if style is None else self._inline(style)
-        for declarations in (rules[0], inline[0], rules[1], inline[1]):
-            if declarations:
-                found.update(declarations)
+            if name not in PRESENTATION:
+                continue
+            if len(text) >= SHORT:
+                self._work.charge("long values", len(text))
+            value = parse_declaration(name, text, "attribute")
+            if isinstance(value, TooLarge):
+                message = f"{name}={text[:40]!r} {_TOO_LARGE}"
+                self._notes.add("bad-number", "error", message, element, attribute=name, offset=value.offset)
+            elif value is not None:
+                found[name] = value
+            elif name == "transform":
+                message = f"transform={text[:40]!r} is wrong, so none of it is used"
+                self._notes.add("bad-transform", "warning", message, element, attribute="transform")
         return found
 
+    def _resolved(self, element: Any, found: Declared, around: Style) -> Declared:
+        """Put custom properties in; a declaration that then is invalid is as if it were ``unset``."""
+        own = {name: text for name, text in found.items() if name[:2] == "--"}
+        variables = resolve_all(own, around.variables, self._work) if own else around.variables
+        result: Declared = {}
+        for name, value in found.items():
+            if name in own:
+                continue
+            if isinstance(value, Pending):
+                try:
+                    text = put_in(value.text, variables, self._work)
+                    value = parse_declaration(name, text, value.origin)
+                except UnresolvedError:
+                    value = None
+                if isinstance(value, TooLarge):
+                    self._notes.add("bad-number", "error", f"{name} {_TOO_LARGE}", element)
+                    value = None
+                value = unset(name) if value is None or isinstance(value, Pending) else value
+            result[name] = value
+        if own:
+            result[VARIABLES] = variables
+        return result
+
     def inherited(self, parent: Style, declared: Declared) -> Style:
-        """Give an element's style; neighbours mostly look the same, so what was worked out is kept."""
+        """Give an element's style; neighbours mostly look the same, so what was worked out is kept.
+
+        Raises:
+            NumberError: a font size is too large.
+        """
         if not declared:
             return parent
-        key = (id(parent), tuple(declared.items()))  # every parent is kept here or by the walk
+        if VARIABLES in declared:
+            self._kept.append(inherit(parent, declared))
+            return self._kept[-1]
+        # every style is kept, so its id is its own
+        key = (id(parent), tuple([item for item in declared.items() if item[0] in INHERITED]))
         style = self._styles.get(key)
         if style is None:
             style = self._styles[key] = inherit(parent, declared)
         return style
+
+
+def _reporter(notes: Notes, element: Any) -> Report:
+    """Give what a sheet says things to; it holds no cascade, so that nothing waits for the cycle collector."""
+
+    def report(code: str, severity: Severity, message: str) -> None:
+        fix = "write the style on the elements" if severity == "warning" else ""
+        notes.count(code, severity, message, element, fix=fix)
+
+    return report

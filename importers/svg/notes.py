@@ -28,6 +28,7 @@ class Notes:
         self._source = source
         self._problems: list[Problem] = []
         self._seen: Counter[str] = Counter()
+        self._messages: Counter[str] = Counter()  # different ones of each code
         self._kinds: dict[tuple[str, str], _Kind] = {}
 
     def add(
@@ -59,7 +60,14 @@ class Notes:
     def count(
         self, code: str, severity: Severity, message: str, element: Any, *, fix: str = "", number: int = 1
     ) -> None:
-        """Count one of a kind; each kind becomes one problem at its first place, its number before the message."""
+        """Count one of a kind; each kind becomes one problem at its first place, its number before the message.
+
+        Beyond MOST different messages of a code they are counted as one kind.
+        """
+        if (code, message) not in self._kinds:
+            self._messages[code] += 1
+            if self._messages[code] > MOST:
+                message = "more of the same"
         kind = self._kinds.setdefault((code, message), _Kind(severity, message, fix, element))
         kind.count += number
 

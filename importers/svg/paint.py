@@ -1,59 +1,24 @@
-"""Paint: CSS colours and paint servers, and which of them paint nothing at all."""
+"""Paint: which word stands for a paint, and which paint servers paint nothing at all."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
 
-import tinycss2
-import tinycss2.color4
+from importers.svg.cascade import Cascade
+from importers.svg.colour import NOTHING, parse_colour, split_url
+from importers.svg.inheritance import Style
+from importers.svg.references import References
+from importers.svg.source import Source
 
-NOTHING = "none"  # what paints nothing: the word itself, and every colour without any opacity
-_BLANKS = " \t\r\n\f"
-
-# Gives the declarations of an element that is not drawn itself (a gradient's stop), the element that another's
-# href names (or None), and the element of an id (or None).
-Declarations = Callable[[Any], dict[str, Any]]
-Target = Callable[[Any], Any]
-Lookup = Callable[[str], Any]
-
-
-def parse_colour(text: str) -> str | None:
-    """Read a CSS colour to ``"#rrggbb"``, ``"none"`` where it is fully transparent; None for what is none."""
-    try:
-        colour = tinycss2.color4.parse_color(text.strip())
-    except (ValueError, TypeError, ZeroDivisionError, OverflowError):
-        return None
-    if colour is None or isinstance(colour, str):
-        return "currentcolor" if colour == "currentcolor" else None
-    if colour.alpha is not None and colour.alpha <= 0:
-        return NOTHING
-    try:
-        srgb = colour.to("srgb")
-        return "#" + "".join(f"{min(255, max(0, round(float(v or 0) * 255))):02x}" for v in srgb.coordinates[:3])
-    except (NotImplementedError, ValueError, TypeError, AttributeError, OverflowError):
-        return None
-
-
-def split_url(text: str) -> tuple[str, str] | None:
-    """Give the address in ``url(...)`` and what stands behind it; None where the text is no such thing."""
-    text = text.strip(_BLANKS)
-    if text[:4].lower() != "url(":
-        return None
-    inside = text[4:].lstrip(_BLANKS)
-    if inside[:1] in ('"', "'"):
-        address, quote, rest = inside[1:].partition(inside[0])
-        gap, bracket, rest = rest.partition(")")
-        return (address.strip(_BLANKS), rest.strip(_BLANKS)) if quote and bracket and not gap.strip(_BLANKS) else None
-    address, bracket, rest = inside.partition(")")
-    return (address.strip(_BLANKS), rest.strip(_BLANKS)) if bracket else None
+_INITIAL = Style()
 
 
 class Paints:
     """Gives the word for each paint of a document; each text and each paint server is looked at once."""
 
-    def __init__(self, lookup: Lookup, target: Target, declarations: Declarations) -> None:
-        self._lookup, self._target, self._declarations = lookup, target, declarations
+    def __init__(self, references: References, cascade: Cascade, source: Source) -> None:
+        self._references, self._cascade, self._source = references, cascade, source
         self._words: dict[str, str | None] = {}
         self._seen: dict[Any, bool] = {}  # paint servers: does it paint anything
 
@@ -74,7 +39,7 @@ class Paints:
         if parts is None:
             return None
         address, instead = parts
-        server = self._lookup(address)
+        server = self._references.at(address)
         tag = _local_name(server) if server is not None else ""
         if tag in ("linearGradient", "radialGradient"):
             return "gradient" if self._paints(server, self._has_colour) else None
@@ -99,7 +64,7 @@ class Paints:
                 answer = tell(server)
             if answer is not None:
                 break
-            server = self._target(server)
+            server = self._references.referred(server)
         for server in chain:
             self._seen[server] = bool(answer)
         return bool(answer)
@@ -112,7 +77,7 @@ class Paints:
         return any(self._stop_paints(stop) for stop in stops)
 
     def _stop_paints(self, stop: Any) -> bool:
-        declared = self._declarations(stop)
+        declared = self._cascade.declared(stop, self._source.attributes(stop), _INITIAL)
         opacity = declared.get("stop-opacity", 1.0)
         return declared.get("stop-color") != NOTHING and not (isinstance(opacity, float) and opacity <= 0)
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 from importers.boxes import Box
+from importers.svg.inheritance import Style
 from importers.svg.matrix import IDENTITY, Matrix, multiply, translation
+from importers.svg.regions import Region
 from importers.svg.shapes import Lengths
-from importers.svg.style import Declared, Style
+from importers.svg.style import Declared
 from importers.svg.transforms import resolve
 from importers.svg.units import Font, Viewport, parse_length, to_px
 from importers.svg.viewbox import fit, parse_view_box
@@ -19,24 +21,50 @@ _PROPERTIES = ("translate", "rotate", "scale", "transform")
 DEFAULT_SIZE = (300.0, 150.0)
 
 
-def root_viewport(root: Any, declared: Declared, font: Font) -> tuple[Matrix, Viewport, bool]:
-    """Give the outermost viewport: the matrix into its px and the size that percentages refer to.
+class Outermost(NamedTuple):
+    """The outermost viewport.
 
-    A size that is missing or a percentage is that of the viewBox: one user unit is one px. The last
-    is False where browsers show nothing, for want of a size; the matrix is then that of the user units.
+    Attributes:
+        matrix: from user units to its px.
+        viewport: what percentages refer to.
+        page: the box of the picture in px; None where browsers show nothing, for want of a size.
+    """
+
+    matrix: Matrix
+    viewport: Viewport
+    page: Box | None
+
+
+def root_viewport(root: Any, declared: Declared, font: Font) -> Outermost:
+    """Give the outermost viewport.
+
+    A size that is missing or a percentage is that of the viewBox: one user unit is one px. Without any size the
+    matrix is that of the user units.
+
+    Raises:
+        NumberError: a size is too large.
     """
     box = parse_view_box(root.get("viewBox"))
-    size = []
-    for index, name in enumerate(("width", "height")):
-        natural = box[2 + index] if box else DEFAULT_SIZE[index]
-        size.append(_root_length(root.get(name), declared.get(name), natural, box is not None, font))
-    width, height = size
+    width, height = root_size(root, declared, font)
     shown = width > 0 and height > 0 and not (box and (box[2] <= 0 or box[3] <= 0))
     matrix = fit(box, root.get("preserveAspectRatio"), width, height) if shown else IDENTITY
     viewport = Viewport(box[2], box[3]) if box and shown else Viewport(width, height)
+    page = Region((0.0, 0.0, width, height))
     if has_transform(declared):
-        matrix = multiply(_root_transform(declared, width, height, font), matrix)
-    return matrix, viewport, shown
+        turned = _root_transform(declared, width, height, font)
+        matrix, page = multiply(turned, matrix), page.through(turned)
+    return Outermost(matrix, viewport, page.box if shown else None)
+
+
+def root_size(root: Any, declared: Declared, font: Font) -> tuple[float, float]:
+    """Give width and height of the outermost viewport in px."""
+    box = parse_view_box(root.get("viewBox"))
+    natural = (box[2], box[3]) if box else DEFAULT_SIZE
+    width, height = (
+        _root_length(root.get(name), declared.get(name), natural[index], box is not None, font)
+        for index, name in enumerate(("width", "height"))
+    )
+    return width, height
 
 
 def _root_length(text: str | None, declared: Any, natural: float, boxed: bool, font: Font) -> float:
@@ -58,8 +86,8 @@ def _root_transform(declared: Declared, width: float, height: float, font: Font)
 
 def nested_viewport(
     element: Any, lengths: Lengths, size: tuple[float | None, float | None]
-) -> tuple[Matrix, Viewport] | None:
-    """Give the viewport of an inner svg or of a symbol in use; None when it shows nothing.
+) -> tuple[Matrix, Viewport, Box] | None:
+    """Give the viewport of an inner svg or of a symbol in use, and its box around it; None when it shows nothing.
 
     Args:
         element: svg or symbol.
@@ -75,7 +103,7 @@ def nested_viewport(
     if width <= 0 or height <= 0 or (box and (box[2] <= 0 or box[3] <= 0)):
         return None
     matrix = multiply(translation(x, y), fit(box, element.get("preserveAspectRatio"), width, height))
-    return matrix, Viewport(box[2], box[3]) if box else Viewport(width, height)
+    return matrix, Viewport(box[2], box[3]) if box else Viewport(width, height), (x, y, x + width, y + height)
 
 
 def use_size(tag: str, lengths: Lengths) -> tuple[float | None, float | None]:

@@ -5,64 +5,44 @@ The walk keeps its own stack, so no depth of groups or chain of references can e
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from importers.boxes import Box, box_of, box_of_segments
-from importers.drawing import Drawing, DrawnPath, Layer, Subpath
-from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
+from importers.drawing import Drawing, DrawnPath, Layer, Level, Subpath
+from importers.limits import LETTERS_OF_A_STEP, MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
+from importers.numbers import NumberError
 from importers.svg.cascade import Cascade
+from importers.svg.clipping import Clips
 from importers.svg.conditions import chosen, holds
+from importers.svg.inheritance import Style
+from importers.svg.left_out import NO_GEOMETRY, note_foreign, note_shape, note_skipped, note_unseen
 from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transform, translation
-from importers.svg.names import INKSCAPE, SODIPODI, name_of, tags_of
+from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS, label_of, level_of, merged, name_of, title_of
 from importers.svg.notes import Notes
+from importers.svg.pages import pages_of, sheet_of
 from importers.svg.paint import Paints
-from importers.svg.placing import element_matrix, has_transform, nested_viewport, root_viewport, use_size
+from importers.svg.placing import DEFAULT_SIZE, element_matrix, has_transform, nested_viewport, root_viewport, use_size
 from importers.svg.references import References
+from importers.svg.regions import ALL, Region
 from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
-from importers.svg.source import SVG_NS, Source, attributes_of
-from importers.svg.style import Declared, Style
+from importers.svg.source import Source
+from importers.svg.style import Declared
 from importers.svg.units import Viewport, to_px
 
 _GROUPS = frozenset(("g", "a", "svg", "switch", "use"))
-_NEVER = frozenset(("defs", "clipPath", "mask", "pattern", "marker", "symbol"))
-_SILENT = frozenset(
-    (
-        "title",
-        "desc",
-        "metadata",
-        "style",
-        "linearGradient",
-        "radialGradient",
-        "filter",
-        "view",
-        "cursor",
-        "font",
-        "font-face",
-        "solidcolor",
-        "color-profile",
-        "hatch",
-        "meshgradient",
-        "missing-glyph",
-        "glyph",
-    )
-)
-# What is seen but has no outlines: the code of its problem, and what to do
-_NO_GEOMETRY = {
-    "text": ("text-left-out", "to make walls of letters, convert the text to paths before saving"),
-    "image": ("image-left-out", "trace the image if its shapes are to be walls"),
-    "foreignObject": ("object-left-out", "draw its content as shapes if it is to be walls"),
-}
-
 
 Attributes = dict[str, str]
 
+# Of a visit to any element, of drawing a shape and of following a reference; see limits.Work
+_STEPS_OF_A_VISIT = 10
+_STEPS_OF_A_SHAPE = 25
+_STEPS_OF_A_USE = 25
 # Groups with a transform-box inside of groups with one: each level reads its content once more.
 _MAX_ASIDE = 8
 
 
-@dataclass(frozen=True, slots=True)
-class Around:
+class Around(NamedTuple):
     """What an element has from what is around it."""
 
     matrix: Matrix
@@ -70,33 +50,39 @@ class Around:
     viewport: Viewport
     layer: str = ""
     groups: tuple[str, ...] = ()
-    tags: dict[str, str] | None = None
+    levels: tuple[Level, ...] = ()  # of layers and groups, the nearest last
+    clones: tuple[Level, ...] = ()  # of the `use`s that we are inside of, the outermost last: it goes before all else
     hidden: bool = False
+    page: Region = ALL  # what the picture and the viewports in it show
+    clip: Region = ALL  # what clips and masks leave
     unseen: bool = False  # it, or a group around it, has no opacity
     locked: bool = False
     chain: tuple[Any, ...] = ()  # targets of the `use`s that we are inside of
     depth: int = 0
     outline: str = ""  # name of the innermost `use`, for shapes without one
+    label: str = ""  # label of the outermost `use` that has one, for all shapes in it
 
 
 class Reader:
     """Reads one parsed document into a Drawing."""
 
     def __init__(self, source: Source) -> None:
-        self.source = source
+        self.source, self.work = source, source.work
         self.notes = Notes(source)
         self.drawing = Drawing(units="px", y_axis="down", kind="SVG", file=source.file)
         root = source.root
         # without a namespace a browser shows nothing; what was meant is plain, so it is read and reported
         self.prefix = f"{{{SVG_NS}}}" if root.tag != "svg" else ""
-        self.cascade = Cascade(root, self.prefix, self.notes)
-        self.references = References(root, self.prefix, source.file)
+        self.cascade = Cascade(root, self.prefix, self.notes, source.work)
+        self.references = References(root, self.prefix, source.file, source.work)
         head = source.text[:4000]
         self.illustrator = "Adobe Illustrator" in head or "ns.adobe.com/AdobeIllustrator" in head
         self.inkscape_layers = bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
-        self.paints = Paints(self.references.at, self.references.referred, self._stop)
+        self.paints = Paints(self.references, self.cascade, source)
+        self.clips = Clips(self.references, self.cascade, source, self.prefix)
         self.layers: dict[str, Layer] = {}
         self.stack: list[tuple[Any, Around]] = []
+        self.shapes: dict[Any, Shape] = {}
         self.boxes: dict[Any, Box | None] = {}
         self.aside = 0
         self.segments = 0
@@ -108,6 +94,7 @@ class Reader:
         if not self.prefix:
             fix = f'add xmlns="{SVG_NS}" to the svg element'
             self.notes.add("missing-namespace", "warning", "browsers show nothing of this file", root, fix=fix)
+        self.drawing.problems += self.source.problems
         self._enter_root(root)
         self._walk()
         self.references.report(self.notes)
@@ -118,18 +105,52 @@ class Reader:
     def _walk(self) -> None:
         while self.stack:
             element, around = self.stack.pop()
-            self._visit(element, around)
+            self.work.charge("elements", _STEPS_OF_A_VISIT)
+            try:
+                self._visit(element, around)
+            except NumberError as error:
+                self._too_large(element, around, error)
+
+    def _too_large(self, element: Any, around: Around, error: NumberError) -> None:
+        """Say that an element and what is in it is left out for a number that is beyond all bounds."""
+        tag = str(element.tag).rpartition("}")[2]
+        message = f"<{tag}> is left out with all in it: a number there is too large"
+        attributes = self.source.attributes(element)
+        name = name_of(element, attributes, self.illustrator) or around.outline
+        attribute = error.attribute if error.attribute in attributes else ""
+        self.notes.add(
+            "bad-number",
+            "error",
+            message,
+            element,
+            fix="write a smaller number",
+            attribute=attribute,
+            offset=error.offset,
+            layer=around.layer,
+            name=name,
+        )
 
     def _enter_root(self, root: Any) -> None:
-        declared = self.cascade.declared(root, attributes_of(root))
-        style = self.cascade.inherited(self.initial, declared)
-        matrix, viewport, shown = root_viewport(root, declared, style.font)
-        if not shown:
+        declared = self.cascade.declared(root, self.source.attributes(root), self.initial)
+        try:
+            style = self.cascade.inherited(self.initial, declared)
+            matrix, viewport, page = root_viewport(root, declared, style.font)
+        except NumberError as error:
+            message = "a number of the svg element is too large; the outlines are in user units"
+            fix = "write a smaller number"
+            place = error.attribute if error.attribute and error.attribute in root.attrib else ""
+            self.notes.add("bad-number", "error", message, root, fix=fix, attribute=place, offset=error.offset)
+            style, matrix, viewport, page = self.initial, IDENTITY, Viewport(*DEFAULT_SIZE), None
+        if page is None:
             fix = "give the svg element a width, a height and a viewBox above 0"
             message = "the drawing has no size, so browsers show nothing of it; its outlines are in user units"
             self.notes.add("no-size", "warning", message, root, fix=fix)
+        self.drawing.sheet = sheet_of(root, page)
+        self.drawing.artboards = pages_of(root, matrix)
         hidden = declared.get("display") == "none"
-        around = Around(matrix, style, viewport, hidden=hidden, unseen=_without_opacity(declared), tags={})
+        region = ALL if page is None else Region(page)
+        around = Around(matrix, style, viewport, page=region, hidden=hidden, unseen=_without_opacity(declared))
+        around = around._replace(clip=self._clip(declared, around, matrix, lambda: None))
         self._push_children(root, around)
 
     def _push_children(self, element: Any, around: Around) -> None:
@@ -141,13 +162,13 @@ class Reader:
     def _visit(self, element: Any, around: Around) -> None:
         tag = element.tag
         if not tag.startswith(self.prefix) or (not self.prefix and tag[0] == "{"):
-            self._foreign(element)
+            note_foreign(element, self.notes)
             return
         tag = tag[len(self.prefix) :]
         if tag not in SHAPES and tag not in _GROUPS:
-            self._skip(tag, element)
+            note_skipped(tag, element, self.notes, self.references)
             return
-        attributes = attributes_of(element)
+        attributes = self.source.attributes(element)
         if not holds(attributes):
             message = f"<{tag}> is for another language or program"
             self.notes.count("not-chosen", "info", message, element)
@@ -156,44 +177,23 @@ class Reader:
         else:
             self._enter(tag, element, attributes, around)
 
-    def _skip(self, tag: str, element: Any) -> None:
-        if tag in _NO_GEOMETRY:
-            code, fix = _NO_GEOMETRY[tag]
-            self.notes.count(code, "info", f"<{tag}> has no outlines and is left out", element, fix=fix)
-        elif tag in _NEVER:
-            self.references.kept_back.append(element)
-        elif tag in ("script", "animate", "animateTransform", "animateMotion", "animateColor", "set"):
-            message = f"<{tag}> is not run: the drawing is read as it is at the start"
-            self.notes.count("not-run", "info", message, element)
-        elif tag not in _SILENT:
-            self.notes.count("unknown-element", "info", f"<{tag}> is unknown to SVG, browsers skip it", element)
-
-    def _foreign(self, element: Any) -> None:
-        tag = str(element.tag)
-        if tag[0] != "{":
-            fix = f'give it the namespace "{SVG_NS}"'
-            message = f"<{tag}> is in no namespace, so browsers skip it"
-            self.notes.count("unknown-element", "warning", message, element, fix=fix)
-        elif not tag.startswith((INKSCAPE, SODIPODI, "{http://ns.adobe.com/", "{&ns_", "{http://www.w3.org/1999/02/")):
-            message = f"<{tag.rpartition('}')[2]}> is not SVG and is left out"
-            self.notes.count("foreign-element", "info", message, element)
-
     def _enter(self, tag: str, element: Any, attributes: Attributes, around: Around) -> None:
         """Go into an element that groups others."""
         if tag == "a" and element.getparent().tag == element.tag:
             self.notes.count("not-drawn", "info", "<a> directly in <a> is not shown", element)
             return
-        declared = self.cascade.declared(element, attributes, around.chain)
+        declared = self.cascade.declared(element, attributes, around.style, around.chain)
         inside = self._inside(tag, element, attributes, declared, around)
         if tag == "use":
             self._use(element, attributes, declared, inside)
         elif tag == "svg":
-            self._nested(element, attributes, inside)
+            self._nested(element, attributes, declared, inside)
         elif tag == "switch":
             picked = chosen(element, self.prefix)
             for child in element.iterchildren("*"):
+                self.work.charge("elements", 1)
                 if child is not picked:
-                    self.references.not_chosen.append(child)
+                    self.references.not_chosen.setdefault(child)
             if picked is not None:
                 self.stack.append((picked, inside))
         else:
@@ -214,21 +214,26 @@ class Reader:
             )
         name = name_of(element, attributes, self.illustrator)
         locked = around.locked or attributes.get(SODIPODI + "insensitive") == "true"
-        layer, groups = around.layer, around.groups
-        if self._is_layer(tag, element, attributes, around):
+        layer, groups, levels, clones = around.layer, around.groups, around.levels, around.clones
+        on_layer = self._is_layer(tag, element, attributes, around)
+        if tag == "use":
+            clones = (level_of(element, attributes, name, "group"), *clones)
+        else:
+            levels = (*levels, level_of(element, attributes, name, "layer" if on_layer else "group"))
+        if on_layer:
             layer = name
             found = self.layers.setdefault(name, Layer(name, visible=not hidden, locked=locked))
             found.visible = found.visible or not hidden
         else:
             groups = (*groups, name)
-        tags = tags_of(attributes, around.tags or {})
-        return replace(
-            around,
+        return around._replace(
             matrix=matrix,
             style=style,
             layer=layer,
             groups=groups,
-            tags=tags,
+            levels=levels,
+            clones=clones,
+            clip=self._clip(declared, around, matrix, lambda: self._box_of(tag, element, attributes, around, style)),
             hidden=hidden,
             unseen=around.unseen or _without_opacity(declared),
             locked=locked,
@@ -243,20 +248,38 @@ class Reader:
                 fix = "write the transform without transform-box"
                 self.notes.count("box-in-box", "error", "transform-box in transform-box is too deep", element, fix=fix)
                 return None
-            saved = self.stack, self.drawing, self.notes, self.layers
-            self.stack, self.drawing = [], Drawing(units="px", y_axis="down")
-            self.notes, self.layers = Notes(self.source), {}
-            self.aside += 1
-            inside = replace(around, matrix=IDENTITY, style=style, depth=around.depth + 1)
+            inside = around._replace(matrix=IDENTITY, style=style, depth=around.depth + 1)
             if tag == "use":
-                self._use(element, attributes, {}, inside)
+                paths = self._aside(lambda: self._use(element, attributes, {}, inside))
             else:
-                self._push_children(element, inside)
+                paths = self._aside(lambda: self._push_children(element, inside))
+            self.boxes[key] = box_of(paths)
+        return self.boxes[key]
+
+    def _aside(self, push: Callable[[], None]) -> list[DrawnPath]:
+        """Read on the side what a function puts on the stack: nothing of it is drawn, said or a layer."""
+        saved = self.stack, self.drawing, self.notes, self.layers
+        self.stack, self.drawing = [], Drawing(units="px", y_axis="down")
+        self.notes, self.layers = Notes(self.source), {}
+        self.aside += 1
+        try:
+            push()
             self._walk()
-            self.boxes[key] = box_of(self.drawing.paths)
+            return self.drawing.paths
+        finally:
             self.aside -= 1
             self.stack, self.drawing, self.notes, self.layers = saved
-        return self.boxes[key]
+
+    def _shapes_aside(self, children: list[Any], matrix: Matrix, style: Style, viewport: Viewport) -> list[DrawnPath]:
+        """Give what elements draw by themselves."""
+        return self._aside(lambda: self.stack.extend((child, Around(matrix, style, viewport)) for child in children))
+
+    def _clip(self, declared: Declared, around: Around, matrix: Matrix, own_box: Callable[[], Box | None]) -> Region:
+        """Give what clips and masks on an element and around it leave of it."""
+        if self.aside or not ("clip-path" in declared or "mask" in declared) or declared.get("display") == "contents":
+            return around.clip
+        own = self.clips.region(declared, around.viewport, own_box, self._shapes_aside)
+        return own.through(matrix).within(around.clip)
 
     def _is_layer(self, tag: str, element: Any, attributes: Attributes, around: Around) -> bool:
         if tag != "g" or around.chain:
@@ -267,6 +290,7 @@ class Reader:
         return top and bool(attributes.get("id") or attributes.get("data-name"))
 
     def _use(self, element: Any, attributes: Attributes, declared: Declared, inside: Around) -> None:
+        self.work.charge("references", _STEPS_OF_A_USE + len(inside.chain))
         target, why = self.references.target(element, inside.chain)
         if target is None:
             self.notes.add(
@@ -277,15 +301,18 @@ class Reader:
         x, y = lengths.get("x") or 0.0, lengths.get("y") or 0.0
         matrix = multiply(inside.matrix, translation(x, y))
         name = name_of(element, attributes, self.illustrator)
-        inside = replace(inside, matrix=matrix, chain=(*inside.chain, target), outline=name or inside.outline)
+        label = inside.label or label_of(attributes)
+        chain = (*inside.chain, target)
+        inside = inside._replace(matrix=matrix, chain=chain, outline=name or inside.outline, label=label)
         tag = target.tag[len(self.prefix) :]
         if inside.depth > MAX_DEPTH:
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file)
         if tag in ("symbol", "svg"):
-            own = attributes_of(target)
-            within = self._inside(tag, target, own, self.cascade.declared(target, own, inside.chain), inside)
-            self._nested(target, own, within, use_size(tag, lengths))
-        elif tag in SHAPES or tag in _GROUPS or tag in _NO_GEOMETRY:
+            own = self.source.attributes(target)
+            said = self.cascade.declared(target, own, inside.style, inside.chain)
+            within = self._inside(tag, target, own, said, inside)
+            self._nested(target, own, said, within, use_size(tag, lengths))
+        elif tag in SHAPES or tag in _GROUPS or tag in NO_GEOMETRY:
             self.stack.append((target, inside))
         else:
             self.notes.count("bad-use", "info", f"<use> of a <{tag}> draws nothing", element)
@@ -294,6 +321,7 @@ class Reader:
         self,
         element: Any,
         attributes: Attributes,
+        declared: Declared,
         inside: Around,
         size: tuple[float | None, float | None] = (None, None),
     ) -> None:
@@ -302,26 +330,30 @@ class Reader:
         placed = nested_viewport(element, lengths, size)
         if placed is None:
             self.notes.count("nothing-drawn", "info", "<svg> or <symbol> without a size draws nothing", element)
-            self._push_children(element, replace(inside, hidden=True))
+            self._push_children(element, inside._replace(hidden=True))
             return
-        matrix, viewport = placed
-        self._push_children(element, replace(inside, matrix=multiply(inside.matrix, matrix), viewport=viewport))
+        matrix, viewport, box = placed
+        page = inside.page
+        if declared.get("overflow") not in ("visible", "auto"):
+            page = Region(box).through(inside.matrix).within(page)
+        matrix = multiply(inside.matrix, matrix)
+        self._push_children(element, inside._replace(matrix=matrix, viewport=viewport, page=page))
 
     def _draw(self, tag: str, element: Any, attributes: Attributes, around: Around) -> None:
-        declared = self.cascade.declared(element, attributes, around.chain)
+        declared = self.cascade.declared(element, attributes, around.style, around.chain)
         style = self.cascade.inherited(around.style, declared)
         hidden = around.hidden or declared.get("display") in ("none", "contents")
         if hidden and self.aside:  # what is not displayed counts for no box
             return
         lengths = Lengths(attributes, declared, around.viewport, style.font)
-        shape = make_shape(tag, attributes, lengths)
+        shape = self._shape(tag, element, attributes, lengths, bool(around.chain))
         matrix = around.matrix
         if has_transform(declared):
-            own = [segment for sub in shape.subpaths for segment in sub.segments]
-            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: box_of_segments(own)))
-        name = name_of(element, attributes, self.illustrator) or around.outline
+            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: _own_box(shape)))
+        own_name = name_of(element, attributes, self.illustrator)
+        name = around.label or own_name or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
-            self._report_shape(tag, element, shape, lengths, around.layer, name, matrix)
+            note_shape(tag, element, shape, lengths, around.layer, name, matrix, self.notes)
         subpaths = [Subpath(transform(sub.segments, matrix), sub.closed) for sub in shape.subpaths]
         if not subpaths:
             return
@@ -332,26 +364,52 @@ class Reader:
             message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
             self.notes.add("bad-coordinate", "error", message, element, layer=around.layer, name=name)
             return
+        levels = (*around.levels, level_of(element, attributes, own_name, "object"), *around.clones)
         fill, stroke, width = None, None, None
         if not (around.unseen or _without_opacity(declared)):
             fill = self.paints.word(style.fill) if style.fill_seen and tag != "line" else None
             stroke, width = self._stroke(style, around.viewport, matrix)
-        self.drawing.paths.append(
-            DrawnPath(
-                subpaths=subpaths,
-                name=name,
-                layer=around.layer,
-                groups=around.groups,
-                visible=style.visible and not hidden,
-                locked=around.locked or attributes.get(SODIPODI + "insensitive") == "true",
-                fill=fill,
-                stroke=stroke,
-                stroke_width=width,
-                fill_rule="evenodd" if style.fill_rule == "evenodd" else "nonzero",
-                line=self.source.line(element),
-                tags=dict(tags_of(attributes, around.tags or {})),
-            )
+        drawn = DrawnPath(
+            subpaths=subpaths,
+            name=name,
+            layer=around.layer,
+            groups=around.groups,
+            visible=style.visible and not hidden,
+            locked=around.locked or attributes.get(SODIPODI + "insensitive") == "true",
+            fill=fill,
+            stroke=stroke,
+            stroke_width=width,
+            fill_rule="evenodd" if style.fill_rule == "evenodd" else "nonzero",
+            line=self.source.line(element),
+            tags=self._merged(levels),
+            title=title_of(element),
+            levels=levels,
         )
+        self.drawing.paths.append(drawn)
+        if drawn.visible and not self.aside:
+            clip = around.clip
+            if "clip-path" in declared or "mask" in declared:
+                clip = self._clip(declared, around, matrix, lambda: _own_box(shape))
+            note_unseen(tag, element, drawn, around.page, clip, self.notes)
+
+    def _merged(self, levels: tuple[Level, ...]) -> dict[str, str]:
+        self.work.charge("tags", sum(1 + 4 * len(level.tags) for level in levels))
+        return merged(levels)
+
+    def _shape(self, tag: str, element: Any, attributes: Attributes, lengths: Lengths, copied: bool) -> Shape:
+        """Give what a shape draws; lists of points and path data that are copied are read once."""
+        data = "d" if tag == "path" else "points"
+        own = copied and data in attributes and data not in lengths.declared
+        shape = self.shapes.get(element) if own else None
+        if shape is None:
+            text = lengths.declared.get(data) or attributes.get(data)
+            if text:
+                self.work.charge("path data", len(text) // LETTERS_OF_A_STEP)
+            shape = make_shape(tag, attributes, lengths)
+            if own:
+                self.shapes[element] = shape
+        self.work.charge("shapes", _STEPS_OF_A_SHAPE + sum(len(sub.segments) for sub in shape.subpaths))
+        return shape
 
     def _stroke(self, style: Style, viewport: Viewport, matrix: Matrix) -> tuple[str | None, float | None]:
         """Give the paint and the width of a stroke that is seen; a stroke without width paints nothing."""
@@ -359,46 +417,13 @@ class Reader:
         if stroke is None:
             return None, None
         width = to_px(style.stroke_width, viewport.diagonal, style.font) * mean_scale(matrix)
-        if not width > 0:
+        if width <= 0:
             return None, None
         return stroke, width if width <= MAX_COORDINATE else None
 
-    def _stop(self, stop: Any) -> Declared:
-        """Give the declarations of a gradient's stop."""
-        return self.cascade.declared(stop, attributes_of(stop))
 
-    def _report_shape(
-        self, tag: str, element: Any, shape: Shape, lengths: Lengths, layer: str, name: str, matrix: Matrix
-    ) -> None:
-        for attribute in lengths.invalid:
-            value = str(element.get(attribute))[:40]
-            message = f"{attribute}={value!r} is no length and is not used"
-            self.notes.add("bad-length", "warning", message, element, attribute=attribute, layer=layer, name=name)
-        if lengths.assumed:
-            message = f"<{tag}> is measured in a window or a font, which a file does not have"
-            fix = "write its lengths in px or mm"
-            self.notes.count("assumed-unit", "warning", message, element, fix=fix)
-        if shape.fault is not None:
-            at = None
-            if shape.subpaths:
-                end = shape.subpaths[-1].segments[-1][-2:]
-                at = transform([("L", *end)], matrix)[0][1:]
-            code = "bad-path-data" if shape.attribute == "d" else "bad-points"
-            fix = "what stands before it is used" if shape.subpaths else "nothing of it is drawn"
-            self.notes.add(
-                code,
-                "error",
-                shape.fault.message,
-                element,
-                fix=f"{fix}; correct the {shape.attribute} attribute here",
-                attribute=shape.attribute,
-                offset=shape.fault.offset,
-                layer=layer,
-                name=name,
-                at=at,
-            )
-        elif not shape.subpaths:
-            self.notes.count("nothing-drawn", "info", f"<{tag}> draws nothing: {shape.nothing}", element)
+def _own_box(shape: Shape) -> Box | None:
+    return box_of_segments(segment for sub in shape.subpaths for segment in sub.segments)
 
 
 def _without_opacity(declared: Declared) -> bool:

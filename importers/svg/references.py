@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 from urllib.parse import unquote
 
-from importers.limits import MAX_ELEMENTS, MAX_REFERENCES, limit_error
+from importers.limits import MAX_ELEMENTS, MAX_REFERENCES, Work, limit_error
 from importers.svg.notes import Notes
 from importers.svg.shapes import SHAPES
 
@@ -15,13 +15,14 @@ _XLINK = "{http://www.w3.org/1999/xlink}href"
 class References:
     """Ids of a document and the references to them."""
 
-    def __init__(self, root: Any, prefix: str, file: str) -> None:
-        self._root, self._prefix, self._file = root, prefix, file
+    def __init__(self, root: Any, prefix: str, file: str, work: Work) -> None:
+        self._root, self._prefix, self._file, self._work = root, prefix, file, work
         self._ids: dict[str, Any] = {}
         for element in root.xpath("//*[@id]"):
             self._ids.setdefault(element.get("id"), element)
-        self.kept_back: list[Any] = []  # defs, symbols and the like that the walk passed by
-        self.not_chosen: list[Any] = []  # children of switch
+        # Each once, in the order of the walk: defs, symbols and the like that it passed by; children of switch
+        self.kept_back: dict[Any, None] = {}
+        self.not_chosen: dict[Any, None] = {}
         self._uses = list(root.iter(prefix + "use"))
         if self._uses:
             self._check_size()
@@ -102,12 +103,23 @@ class References:
     def report(self, notes: Notes) -> None:
         """Count the shapes that are there only to be referred to, and that nothing does draw."""
         used = {self.referred(use) for use in self._uses}
-        shapes = [self._prefix + tag for tag in SHAPES]
+        shapes = {self._prefix + tag for tag in SHAPES}
+        passed: set[Any] = set()
         for element in self.kept_back:
+            self._work.charge("elements", 10)
+            if element in passed or any(around in used for around in element.iterancestors()):
+                continue
             tag = element.tag[len(self._prefix) :]
-            for shape in element.iter(*shapes):
-                if shape not in used and not any(around in used for around in shape.iterancestors()):
-                    message = f"shape in <{tag}> is not drawn by itself"
+            message = f"shape in <{tag}> is not drawn by itself"
+            todo = [element]
+            while todo:  # from the outside in, and not into what a reference shows
+                inner = todo.pop()
+                if inner in used or inner in passed:
+                    continue
+                passed.add(inner)
+                self._work.charge("elements", 1)
+                if inner.tag in shapes:
                     notes.count("not-drawn", "info", message, element)
+                todo.extend(inner.iterchildren("*"))
         for element in self.not_chosen:
             notes.count("not-chosen", "info", "child of <switch> is not the one that is shown", element)

@@ -7,9 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from importers.drawing import Segment, Subpath
+from importers.numbers import NumberError
 from importers.svg.arcs import full_ellipse
 from importers.svg.path_data import COMMA, NUMBER, Fault, check_length, parse_path_data
-from importers.svg.style import INITIAL, Declared, parse_declaration
+from importers.svg.style import INITIAL, Declared, Pending, TooLarge, parse_declaration
 from importers.svg.units import Font, Terms, Viewport, needs_metrics, needs_window, parse_length, to_px
 
 # What percentages of it refer to.
@@ -58,13 +59,19 @@ class Lengths:
             return None
         if needs_window(terms) or needs_metrics(terms):
             self.assumed.append(name)
-        return to_px(terms, getattr(self.viewport, _AXES[name]), self.font)
+        return self._px(name, terms)
 
     def size(self, name: str) -> float | None:
         """Give a width or height in user units; None where it is missing, ``auto`` or no length, 0 below 0."""
         text = self.attributes.get(name)
         terms = parse_length(text) if text is not None else None
-        return None if terms is None else max(0.0, to_px(terms, getattr(self.viewport, _AXES[name]), self.font))
+        return None if terms is None else max(0.0, self._px(name, terms))
+
+    def _px(self, name: str, terms: Terms) -> float:
+        try:
+            return to_px(terms, getattr(self.viewport, _AXES[name]), self.font)
+        except NumberError:
+            raise NumberError(name) from None
 
     def _terms(self, name: str) -> Terms | None:
         if name in self.declared:
@@ -73,8 +80,13 @@ class Lengths:
         text = self.attributes.get(name)
         if text is None:
             return None
-        value = parse_declaration(name, text, "attribute") if name in _STYLED else parse_length(text)
-        if value is None:
+        try:
+            value = parse_declaration(name, text, "attribute") if name in _STYLED else parse_length(text)
+        except NumberError:
+            raise NumberError(name) from None
+        if isinstance(value, TooLarge):
+            raise NumberError(name)
+        if value is None or isinstance(value, Pending):
             self.invalid.append(name)
         return value if isinstance(value, tuple) else None
 

@@ -9,79 +9,73 @@ from typing import Any
 import cssselect2
 import tinycss2
 
-from importers.limits import limit_error
+from importers.limits import Work
 from importers.problems import Severity
-from importers.svg.style import known_declarations
-from importers.svg.units import ROOT_FONT, WINDOW, parse_length, to_px, too_nested
+from importers.svg.declarations import Winners, winners
+from importers.svg.media import matches_media
+from importers.svg.style import Declaration, known_declarations
+from importers.svg.units import unreadable
 
 # code, severity, what is left out; called once for each thing in a sheet that is not followed
 Report = Callable[[str, Severity, str], None]
 
-MAX_STEPS = 5_000_000
-
-_FEATURE = re.compile(r"\((min-|max-)?(width|height):\s*([^()]+)\)")
-# What headless browsers answer, as far as drawings ask
-_TRUE = frozenset(
-    (
-        "all",
-        "screen",
-        "only screen",
-        "only all",
-        "not print",
-        "(prefers-color-scheme: light)",
-        "(orientation: landscape)",
-        "(prefers-reduced-motion: no-preference)",
-        "(scripting: enabled)",
-    )
-)
+_STEPS_OF_A_SELECTOR = 40  # to be compiled; cssselect2 writes a Python expression for it
+_MOST_LETTERS = 10_000  # of the selectors of a nested rule, with those around it put in
+_NAME = re.compile(r"[.#]?+[A-Za-z_][\w-]*+", re.ASCII)
 
 
-def matches_media(query: str) -> bool:
-    """Tell whether a media query holds on the screen that lengths in ``vw`` and ``vh`` assume; doubt is no."""
-    if not query.strip():
-        return True
-    return any(all(_holds(part) for part in one.strip().split(" and ")) for one in query.split(","))
+class _Counted:
+    """An element as selectors see it, whose attributes are charged for by their length when they are looked at."""
 
+    __slots__ = ("_element", "_weight", "_work", "tag", "text")
 
-def _holds(part: str) -> bool:
-    match = _FEATURE.fullmatch(part.strip())
-    if match is None:
-        return part.strip() in _TRUE
-    terms = parse_length(match[3].strip(), False)
-    if terms is None:
-        return False
-    size, wanted = WINDOW[0 if match[2] == "width" else 1], to_px(terms, 0.0, ROOT_FONT)
-    return size >= wanted if match[1] == "min-" else (size <= wanted if match[1] == "max-" else size == wanted)
+    def __init__(self, element: Any, work: Work) -> None:
+        self._element, self._work = element, work
+        self._weight = 1 + len(element.attrib) // 64
+        self.tag, self.text = element.tag, element.text
 
+    def get(self, name: str, default: Any = None) -> Any:
+        value = self._element.get(name, default)
+        self._work.charge("selectors", self._weight + len(value or "") // 8)
+        return value
 
-class _Steps:
-    """How much matching has been done; a short selector can ask for more than the age of the universe."""
+    @property
+    def attrib(self) -> Any:
+        self._work.charge("selectors", self._weight)
+        return self._element.attrib
 
-    def __init__(self) -> None:
-        self.left = MAX_STEPS
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self._element)
 
-    def take(self, number: int) -> None:
-        self.left -= number
-        if self.left < 0:
-            raise limit_error("steps of matching style sheets to elements", f"{MAX_STEPS:,}")
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Counted) and self._element is other._element
+
+    def __hash__(self) -> int:
+        return hash(self._element)
 
 
 class _Element(cssselect2.ElementWrapper):  # type: ignore[misc]
     """cssselect2's view of an element, without its recursion over siblings, and with its work counted."""
 
-    steps: _Steps
+    work: Work
+    etree_element: Any
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
+        self.raw = self.etree_element
         if self.parent is not None:
-            self.steps = self.parent.steps
-            self.steps.take(1)
-        self._siblings = self.etree_siblings
+            self.start(self.parent.work)
+
+    def start(self, work: Work) -> None:
+        """Take a budget, and charge it for this element."""
+        self.work = work
+        self.work.charge("selectors", 8)
+        self.etree_element = _Counted(self.raw, work)
 
     @property
     def etree_siblings(self) -> list[Any]:
         if self.parent is not None:
-            self.steps.take(1 + len(self._siblings) // 16)
+            self.work.charge("selectors", 1 + len(self._siblings) // 16)
         return self._siblings
 
     @etree_siblings.setter
@@ -92,7 +86,7 @@ class _Element(cssselect2.ElementWrapper):  # type: ignore[misc]
     def ancestors(self) -> Iterator[_Element]:
         element = self.parent
         while element is not None:
-            self.steps.take(1)
+            self.work.charge("selectors", 1)
             yield element
             element = element.parent
 
@@ -100,7 +94,7 @@ class _Element(cssselect2.ElementWrapper):  # type: ignore[misc]
     def previous_siblings(self) -> Iterator[_Element]:
         element = self.previous
         while element is not None:
-            self.steps.take(1)
+            self.work.charge("selectors", 1)
             yield element
             element = element.previous
 
@@ -112,44 +106,77 @@ class Sheet:
     what is in the instance, not by what is around the original or around the ``use``.
     """
 
-    def __init__(self, texts: Iterable[str], root: Any, report: Report) -> None:
+    def __init__(self, texts: Iterable[str], root: Any, report: Report, work: Work) -> None:
         self._matcher = cssselect2.Matcher()
         self._wrappers: dict[Any, dict[Any, _Element]] = {}  # of each tree, by its root
-        self._root = root
-        self._steps = _Steps()
+        self._root, self._report, self._work = root, report, work
         self.empty = True
         self._namespaces: dict[str | None, str] = {}
         for text in texts:
-            self._add(text, report)
+            self._add(text)
 
-    def _add(self, text: str, report: Report) -> None:
-        if too_nested(text):
-            report("bad-css", "warning", "a style sheet with too many brackets in brackets is left out")
+    def _add(self, text: str) -> None:
+        if unreadable(text):
+            self._report("bad-css", "warning", "a style sheet that no parser can take is left out")
             return
         rules = tinycss2.parse_stylesheet(text, skip_comments=True, skip_whitespace=True)
-        pending = list(reversed(rules))
-        while pending:
-            rule = pending.pop()
-            if rule.type == "qualified-rule":
-                self._add_rule(rule, report)
-            elif rule.type == "at-rule":
-                pending.extend(reversed(self._at_rule(rule, report)))
-            elif rule.type == "error":
-                report("bad-css", "warning", f"a part of a style sheet cannot be read: {rule.message}")
+        self._add_rules(rules)
 
-    def _at_rule(self, rule: Any, report: Report) -> list[Any]:
+    def _add_rules(self, rules: list[Any]) -> None:
+        """Add rules, and those within them, in order.
+
+        A rule within another has the selectors of that one around its own; the stack holds both.
+        """
+        pending = [(rule, "") for rule in reversed(rules)]
+        while pending:
+            rule, around = pending.pop()
+            inner: list[Any] = []
+            if rule.type == "qualified-rule":
+                prelude = self._nested(tinycss2.serialize(rule.prelude).strip(), around)
+                around = prelude
+                inner = self._add_block(rule.content, prelude) if prelude else []
+            elif rule.type == "at-rule":
+                inner = self._at_rule(rule, around)
+            elif rule.type == "error":
+                self._report("bad-css", "warning", f"a part of a style sheet cannot be read: {rule.message[:60]}")
+            pending += [(one, around) for one in reversed(inner)]
+
+    def _nested(self, prelude: str, around: str) -> str:
+        """Give the selectors of a rule within the rule of others: ``&`` stands for those."""
+        if not around:
+            return prelude
+        letters = len(prelude) + (prelude.count("&") + prelude.count(",") + 1) * (len(around) + 6)
+        self._work.charge("selectors", min(letters, _MOST_LETTERS))
+        if letters > _MOST_LETTERS:
+            self._report("css-skipped", "warning", "a rule within a rule whose selectors are too long is left out")
+            return ""
+        parts = []
+        for tokens in split_at_commas(prelude):
+            own = tinycss2.serialize(tokens).strip()
+            written = "".join(
+                f":is({around})" if token.type == "literal" and token.value == "&" else tinycss2.serialize([token])
+                for token in tokens
+            ).strip()
+            parts.append(f":is({around}) {own}" if written == own else written)
+        return ", ".join(parts)
+
+    def _at_rule(self, rule: Any, around: str) -> list[Any]:
+        """Give the rules within an at-rule that holds; what stands bare in one in a rule is that rule's own."""
         keyword = rule.lower_at_keyword
         if keyword == "media" and rule.content is not None:
             query = " ".join(tinycss2.serialize(rule.prelude).split()).lower()
-            if matches_media(query):
+            if not matches_media(query):
+                self._report("css-skipped", "info", f"the rules of @media {query[:60]} are for another medium")
+            elif around:
+                return self._add_block(rule.content, around)
+            else:
                 return list(tinycss2.parse_rule_list(rule.content, skip_comments=True, skip_whitespace=True))
-            report("css-skipped", "info", f"the rules of @media {query} are for another medium")
         elif keyword == "namespace":
             self._add_namespace(rule)
         elif keyword == "import":
-            report("css-skipped", "warning", "@import is not followed: no other file is read")
-        elif keyword not in ("font-face", "charset", "keyframes", "-webkit-keyframes", "page"):
-            report("css-skipped", "warning", f"@{keyword} is left out")
+            self._report("css-skipped", "warning", "@import is not followed: no other file is read")
+        elif keyword not in ("font-face", "charset", "keyframes", "-webkit-keyframes", "page", "property"):
+            self._report("css-skipped", "warning", f"@{keyword[:60]} is left out")
         return []
 
     def _add_namespace(self, rule: Any) -> None:
@@ -157,28 +184,44 @@ class Sheet:
         if parts and parts[-1].type != "ident":
             self._namespaces[parts[0].value if len(parts) == 2 else None] = parts[-1].value
 
-    def _add_rule(self, rule: Any, report: Report) -> None:
-        declarations = []
-        for node in tinycss2.parse_blocks_contents(rule.content, skip_comments=True, skip_whitespace=True):
+    def _add_block(self, content: list[Any], prelude: str) -> list[Any]:
+        """Add the declarations of a block for its selectors; give the rules that stand within it."""
+        declarations: list[Declaration] = []
+        inner = []
+        for node in tinycss2.parse_blocks_contents(content, skip_comments=True, skip_whitespace=True):
             if node.type == "declaration":
                 declarations += known_declarations(node, "sheet")
-        if not declarations:
-            return
+            elif node.type in ("qualified-rule", "at-rule"):
+                inner.append(node)
+        found = winners(declarations)
+        for name in found.too_large:
+            message = f"{name} in a style sheet has a number that is too large, and is not used"
+            self._report("bad-number", "error", message)
+        if found.normal or found.important:
+            for selector in self._compile(prelude):
+                self._matcher.add_selector(selector, found)
+                self.empty = False
+        return inner
+
+    def _compile(self, prelude: str) -> list[Any]:
+        """Give the selectors of a rule, none where they are not understood."""
+        if None not in self._namespaces and _NAME.fullmatch(prelude):
+            return [_Simple(prelude)]
+        self._work.charge("selectors", _STEPS_OF_A_SELECTOR * (1 + prelude.count(",")))
         try:
-            selectors = cssselect2.compile_selector_list(rule.prelude, namespaces=self._namespaces)
+            selectors = cssselect2.compile_selector_list(prelude, namespaces=self._namespaces)
         except (cssselect2.SelectorError, NotImplementedError, SyntaxError, RecursionError, MemoryError, ValueError):
             # cssselect2 writes a Python expression for each selector; a long one is too much for the compiler
-            report(
-                "css-skipped", "warning", f"the selector {tinycss2.serialize(rule.prelude).strip()!r} is not understood"
-            )
-            return
+            self._report("css-skipped", "warning", f"the selector {prelude[:60]!r} is not understood")
+            return []
+        steps = len(prelude) // 16
         for selector in selectors:
-            if selector.pseudo_element is None:
-                self._matcher.add_selector(selector, declarations)
-                self.empty = False
+            if steps:
+                selector.test = _charged(selector.test, steps, self._work)
+        return [selector for selector in selectors if selector.pseudo_element is None]
 
-    def declarations(self, element: Any, root: Any) -> list[tuple[str, Any, bool]]:
-        """Give the declarations that match, the weaker before the stronger.
+    def matches(self, element: Any, root: Any) -> list[Winners]:
+        """Give the blocks of the rules that match, the weaker before the stronger.
 
         Args:
             element: in the file.
@@ -187,14 +230,55 @@ class Sheet:
         root = self._root if root is None else root
         if root not in self._wrappers:
             whole = _Element.from_xml_root(root)
-            whole.steps = self._steps
-            self._wrappers[root] = {wrapper.etree_element: wrapper for wrapper in whole.iter_subtree()}
+            whole.start(self._work)
+            self._wrappers[root] = {wrapper.raw: wrapper for wrapper in whole.iter_subtree()}
         wrapper = self._wrappers[root].get(element)
         if wrapper is None:
             return []
         matcher = self._matcher
         named = matcher.lower_local_name_selectors.get(wrapper.local_name.lower(), ())
-        classes = sum(len(matcher.class_selectors.get(name, ())) for name in wrapper.classes)
-        self._steps.take(len(matcher.other_selectors) + len(named) + classes)
-        matches = matcher.match(wrapper)
-        return [declaration for _, _, _, declarations in matches for declaration in declarations]
+        classes = sum(1 + len(matcher.class_selectors.get(name, ())) for name in wrapper.classes)
+        self._work.charge("selectors", 4 + len(matcher.other_selectors) + len(named) + classes)
+        found = [match[3] for match in matcher.match(wrapper)]
+        self._work.charge("declarations", sum(1 + len(one.normal) + len(one.important) for one in found))
+        return found
+
+
+def _charged(test: Callable[[Any], bool], steps: int, work: Work) -> Callable[[Any], bool]:
+    """Give a selector's test that is paid for by the length of the selector."""
+
+    def charged(element: Any) -> bool:
+        work.charge("selectors", steps)
+        return test(element)
+
+    return charged
+
+
+class _Simple:
+    """A selector of one name, class or id; cssselect2's matcher looks those up, so there is nothing left to test."""
+
+    never_matches = requires_lang_attr = False
+    pseudo_element = namespace = None
+
+    def __init__(self, text: str) -> None:
+        kind, name = (text[0], text[1:]) if text[0] in ".#" else ("", text)
+        self.id = name if kind == "#" else None
+        self.class_name = name if kind == "." else None
+        self.local_name = name if not kind else None
+        self.lower_local_name = name.lower() if not kind else None
+        self.specificity = (int(kind == "#"), int(kind == "."), int(not kind))
+
+    def test(self, element: Any) -> bool:
+        """Tell whether an element with that id, class or lower name matches; names keep their case."""
+        return self.local_name is None or bool(element.local_name == self.local_name)
+
+
+def split_at_commas(prelude: str) -> list[list[Any]]:
+    """Give the tokens of each selector of a list."""
+    parts: list[list[Any]] = [[]]
+    for token in tinycss2.parse_component_value_list(prelude, skip_comments=True):
+        if token.type == "literal" and token.value == ",":
+            parts.append([])
+        else:
+            parts[-1].append(token)
+    return parts

@@ -1,31 +1,35 @@
-"""The text of an SVG file: bytes to text, entities that hold elements, the XML tree, and places in the text."""
+"""The text of an SVG file: bytes to text, the XML tree, and places in the text."""
 
 from __future__ import annotations
 
 import bisect
 import codecs
 import re
-import xml.parsers.expat
 from dataclasses import dataclass, field
 from typing import Any
 
 from lxml import etree
 
 from importers.errors import DrawingError
-from importers.excerpts import excerpt
-from importers.limits import MAX_DEPTH, MAX_ELEMENTS, MAX_ENTITIES, MAX_ENTITY_BYTES, MAX_INPUT_BYTES, limit_error
-
-SVG_NS = "http://www.w3.org/2000/svg"
-
-_DECLARED = re.compile(rb"""<\?xml[^>]{0,200}?encoding\s*=\s*["']([A-Za-z0-9._-]{1,40})["']""")
-# Start tags of a well-formed text: no "<" is in an attribute's value, so only these can hide one.
-_TAGS = re.compile(
-    r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<!DOCTYPE[^\[>]*(?:\[.*?\]\s*)?>|<(?=[^\s!?/])", re.DOTALL
+from importers.excerpts import WIDTH, excerpt
+from importers.limits import LETTERS_OF_A_STEP, MAX_DEPTH, MAX_ELEMENTS, MAX_ENTITIES, Work, limit_error
+from importers.problems import Problem
+from importers.svg.entities import (
+    PREDEFINED,
+    REFERENCE,
+    declared_entities,
+    find_doctype,
+    named_references,
+    put_in,
 )
-_ATTRIBUTE = re.compile(r"""([^\s=<>/"']+)\s*=\s*("([^"]*)"|'([^']*)')""")
-_REFERENCE = re.compile(r"&(#x[0-9a-fA-F]+|#[0-9]+|[^\s;&]+);")
-_LONGER = re.compile(_REFERENCE.pattern + r"|\r\n")  # what is one character once it is read
-_PREDEFINED = frozenset(("amp", "lt", "gt", "quot", "apos"))
+from importers.svg.prefixes import MOST_PREFIXES, declare, missing_prefix, undeclared
+
+_DECLARED = re.compile(rb"""<\?xml[^>]{0,200}?encoding\s*+=\s*+["']([A-Za-z0-9._-]{1,40})["']""")
+# Start tags of a well-formed text: no "<" is in an attribute's value, so only these can hide one.
+_TAGS = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<(?=[^\s!?/])", re.DOTALL)
+# An attribute of a start tag, or what ends the tag
+_ATTRIBUTE = re.compile(r"""[^\s=<>/"']++|"[^"]*+"|'[^']*+'|>""")
+_LONGER = re.compile(REFERENCE.pattern + r"|\r\n")  # what is one character once it is read
 # Python's codecs that no file is written in; some cost the square of the size, some fail whatever is asked
 _NOT_OF_FILES = frozenset(
     ("idna", "punycode", "undefined", "unicode-escape", "raw-unicode-escape", "utf-7", "mbcs", "oem")
@@ -73,13 +77,6 @@ def _decode(data: bytes, name: str, file: str) -> tuple[str, str]:
         return data.decode(name, "replace"), f"there are bytes that are not {name}, the first in line {line}"
 
 
-def attributes_of(element: Any) -> dict[str, str]:
-    """Give an element's attributes as a dict, in a time that is linear in their number (lxml's own is not)."""
-    if len(element.attrib) <= _FEW:
-        return dict(element.items())
-    return {str(value.attrname): str(value) for value in element.xpath("@*")}
-
-
 @dataclass(slots=True)
 class Source:
     """A parsed file and where everything in it stands.
@@ -88,13 +85,24 @@ class Source:
         text: the whole file, decoded.
         root: its outermost element.
         file: its name, for errors.
+        work: the budget of work that reading it draws on.
+        problems: what is wrong with the text itself.
     """
 
     text: str
     root: Any
     file: str
+    work: Work
+    problems: list[Problem] = field(default_factory=list)
     _starts: dict[Any, int] | None = field(default=None)
     _lines: list[int] = field(default_factory=list)
+
+    def attributes(self, element: Any) -> dict[str, str]:
+        """Give an element's attributes as a dict, in a time that is linear in their number (lxml's own is not)."""
+        many = len(element.attrib) > _FEW
+        found = {str(value.attrname): str(value) for value in element.xpath("@*")} if many else dict(element.items())
+        self.work.charge("attributes", len(found) * (2 if many else 1) + sum(map(len, found.values())) // 256)
+        return found
 
     def line(self, element: Any) -> int | None:
         """Give the line on which the element's start tag begins, from 1."""
@@ -114,11 +122,15 @@ class Source:
             return element.sourceline, None, ""
         if attribute:
             start = self._value_place(start, attribute, offset)
-        line = self._line_at(start)
+        return self.spot(start)
+
+    def spot(self, position: int) -> tuple[int, int, str]:
+        """Give line, column and excerpt of a position in the text."""
+        line = self._line_at(position)
         begin = self._lines[line - 1]
-        end = self.text.find("\n", begin)
-        whole = self.text[begin : end if end >= 0 else len(self.text)].rstrip("\r")
-        return line, start - begin + 1, excerpt(whole, start - begin + 1)
+        end = self._lines[line] - 1 if line < len(self._lines) else len(self.text)
+        first, last = max(begin, position - WIDTH), min(end, position + WIDTH)  # a line may be the whole file
+        return line, position - begin + 1, excerpt(self.text[first:last].rstrip("\r"), position - first + 1)
 
     def _start(self, element: Any) -> int | None:
         if self._starts is None:
@@ -126,21 +138,31 @@ class Source:
         return self._starts.get(element)
 
     def _find_starts(self) -> dict[Any, int]:
-        self._lines = [0, *(match.end() for match in re.finditer("\n", self.text))]
-        offsets = [match.start() for match in _TAGS.finditer(self.text) if match.end() == match.start() + 1]
+        doctype = find_doctype(self.text)
+        offsets = [
+            match.start()
+            for match in _TAGS.finditer(self.text, doctype.stop if doctype else 0)
+            if match.end() == match.start() + 1
+        ]
         elements = list(self.root.iter("*"))
         return dict(zip(elements, offsets, strict=True)) if len(elements) == len(offsets) else {}
 
     def _line_at(self, position: int) -> int:
+        if not self._lines:
+            self._lines = [0, *(match.end() for match in re.finditer("\n", self.text))]
         return bisect.bisect_right(self._lines, position)
 
     def _value_place(self, start: int, attribute: str, offset: int) -> int:
         """Find a character of an attribute's value in the file: references there are longer than what they mean."""
-        position = start + 1
-        while match := _ATTRIBUTE.search(self.text, position):
-            if match[1] == attribute or match[1].rpartition(":")[2] == attribute:
-                return _raw_place(self.text, match.start(2) + 1, match.end(2) - 1, offset)
-            position = match.end()
+        name = ""
+        for match in _ATTRIBUTE.finditer(self.text, start + 1):
+            self.work.charge("places", 1 + len(match[0]) // LETTERS_OF_A_STEP)
+            if match[0] == ">":
+                break
+            if match[0][0] not in "\"'":
+                name = match[0]
+            elif attribute in (name, name.rpartition(":")[2]):
+                return _raw_place(self.text, match.start() + 1, match.end() - 1, offset)
         return start
 
 
@@ -155,7 +177,7 @@ def _raw_place(text: str, start: int, end: int, offset: int) -> int:
         if offset < match.start() - place:
             break
         offset -= match.start() - place
-        if match[1] and match[1][0] != "#" and match[1] not in _PREDEFINED:
+        if match[1] and match[1][0] != "#" and match[1] not in PREDEFINED:
             return match.start()
         if offset == 0:
             return match.start()
@@ -170,25 +192,63 @@ def parse(text: str, file: str) -> Source:
         DrawingError: it is not well-formed, or it names something outside of itself.
         LimitError: too many elements, too deep, too many or too long entities.
     """
-    entities = _entities(text, file) if "<!DOCTYPE" in text else {}
+    doctype = find_doctype(text)
+    entities = declared_entities(text, doctype, file) if doctype else {}
     markup = {name: value for name, value in entities.items() if "<" in value}
-    if markup:
-        text = _put_in(text, markup, file)
-    if text.count("<") - text.count("</") > MAX_ELEMENTS:
+    if doctype and markup:
+        text = put_in(text, doctype.stop, markup, file)
+    elements = text.count("<") - text.count("</")
+    if elements > MAX_ELEMENTS:
         raise limit_error("elements of a file", f"{MAX_ELEMENTS:,}", file=file)
+    root, prefixes = _parse(text, doctype.stop if doctype else 0, file)
+    source = Source(text, root, file, Work(file, len(text), elements))
+    source.problems += prefixes
+    if doctype:
+        source.problems += _unknown_entities(source, doctype.stop, entities)
+    return source
+
+
+def _parse(text: str, start: int, file: str) -> tuple[Any, list[Problem]]:
+    """Parse the text; a prefix that is not declared is declared on the outermost element, and said.
+
+    Args:
+        text: of the file, entities that hold elements put in.
+        start: behind the document type.
+        file: its name.
+    """
+    found: dict[str, Problem] = {}
     data = text.encode("utf-8", "surrogatepass")
-    parser = etree.XMLParser(
-        encoding="utf-8",
-        resolve_entities=False,
-        no_network=True,
-        load_dtd=False,
-        huge_tree=len(data) > _HUGE,
-    )
-    try:
-        root = etree.fromstring(data, parser)
-    except etree.XMLSyntaxError as error:
-        raise _syntax_error(error, text, file) from None
-    return Source(text, root, file)
+    while True:
+        parser = etree.XMLParser(
+            encoding="utf-8",
+            resolve_entities=False,
+            no_network=True,
+            load_dtd=False,
+            huge_tree=len(data) > _HUGE,
+        )
+        try:
+            return etree.fromstring(data, parser), list(found.values())
+        except etree.XMLSyntaxError as error:
+            prefix = missing_prefix(error)
+            if prefix is None or prefix in found or len(found) >= MOST_PREFIXES:
+                raise _syntax_error(error, text, file) from None
+            found[prefix] = undeclared(prefix, *error.position)
+            data = declare(text, start, found).encode("utf-8", "surrogatepass")
+
+
+def _unknown_entities(source: Source, start: int, entities: dict[str, str]) -> list[Problem]:
+    """Say which references are to nothing: a file with a document type elsewhere is well-formed with them."""
+    first: dict[str, int] = {}
+    for match in named_references(source.text, start):
+        if match[1] not in entities:
+            first.setdefault(match[1][:40], match.start())
+    problems = []
+    for name, position in list(first.items())[:MAX_ENTITIES]:
+        line, column, text = source.spot(position)
+        message = f"&{name}; is not declared in the file, so what it stands for is missing"
+        fix = "put its text in its place, or declare it in the document type"
+        problems.append(Problem("unknown-entity", "error", message, fix, line=line, column=column, excerpt=text))
+    return problems
 
 
 def _syntax_error(error: Any, text: str, file: str) -> Exception:
@@ -204,68 +264,3 @@ def _syntax_error(error: Any, text: str, file: str) -> Exception:
         line=line or None,
         column=column or None,
     )
-
-
-class _SeenError(Exception):  # the document type is behind us
-    pass
-
-
-def _entities(text: str, file: str) -> dict[str, str]:
-    """Give the internal entities of the document type; refuse what reaches outside or nests."""
-    found: dict[str, str] = {}
-
-    def declare(
-        name: str, parameter: bool, value: str | None, base: Any, system: str | None, public: str | None, notation: Any
-    ) -> None:
-        if value is None:
-            raise DrawingError(
-                f"the entity {name!r} is outside of the file ({system or public}), and nothing outside is read",
-                code="external-entity",
-                fix="put its text into the file, or delete the declaration",
-                file=file,
-                line=parser.CurrentLineNumber,
-            )
-        if len(found) >= MAX_ENTITIES:
-            raise limit_error("entities of a document type", str(MAX_ENTITIES), file=file)
-        if len(value.encode("utf-8", "surrogatepass")) > MAX_ENTITY_BYTES:
-            raise limit_error("bytes of an entity", f"{MAX_ENTITY_BYTES:,}", file=file, line=parser.CurrentLineNumber)
-        if _nests(value) or parameter:
-            raise limit_error("entities in entities", "no level", file=file, line=parser.CurrentLineNumber)
-        found[name] = value
-
-    def stop(*_: Any) -> None:
-        raise _SeenError
-
-    parser = xml.parsers.expat.ParserCreate("utf-8")
-    parser.EntityDeclHandler = declare
-    parser.StartElementHandler = stop
-    try:
-        parser.Parse(re.sub(r"""^\s*<\?xml[^>]*\?>""", "", text, count=1).encode("utf-8", "surrogatepass"), True)
-    except _SeenError:
-        pass
-    except xml.parsers.expat.ExpatError:
-        pass  # libxml2 reads the same text and says where it is wrong
-    return found
-
-
-def _nests(value: str) -> bool:
-    return any(m[1][0] != "#" and m[1] not in _PREDEFINED for m in _REFERENCE.finditer(value))
-
-
-def _put_in(text: str, markup: dict[str, str], file: str) -> str:
-    """Replace references to entities that hold elements by their text, as a parser would include it."""
-    head = re.search(r"<!DOCTYPE[^\[>]*\[.*?\]\s*>", text, re.DOTALL)
-    start = head.end() if head else 0
-    size = len(text)
-    pattern = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|&(" + "|".join(map(re.escape, markup)) + r");", re.DOTALL)
-
-    def fill(match: re.Match[str]) -> str:
-        nonlocal size
-        if match[1] is None:
-            return match[0]
-        size += len(markup[match[1]])
-        if size > MAX_INPUT_BYTES:
-            raise limit_error("size of the input, entities put in", "64 MiB", file=file)
-        return markup[match[1]]
-
-    return text[:start] + pattern.sub(fill, text[start:])

@@ -1,33 +1,63 @@
-"""Style: what CSS and presentation attributes say about an element, cascaded and inherited.
+"""Style: what CSS and presentation attributes say about an element, property by property.
 
 Only what changes geometry, visibility or the marks of a path is looked at. tinycss2 and cssselect2 read the
-style sheets; the cascade is: presentation attributes, rules by specificity and order, the ``style`` attribute,
-then the same again for what is ``!important``.
+style sheets; what it comes to on an element is for importers.svg.cascade, what its children inherit for
+importers.svg.inheritance.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Literal
 
 import tinycss2
 
-from importers.svg.paint import NOTHING, parse_colour
+from importers.numbers import NumberError
+from importers.svg.colour import parse_colour
 from importers.svg.transforms import parse_transform_attribute, parse_transform_property
-from importers.svg.units import ROOT_FONT, Font, Terms, parse_length, to_px, too_nested, units_of
+from importers.svg.units import ROOT_FONT, Terms, parse_length, to_px, units_of, unreadable
 
 # Where a declaration stands: browsers read an attribute, a ``style`` attribute and a style sheet each a little
 # differently (numbers without units).
 Origin = Literal["attribute", "inline", "sheet"]
+# Property, value, important
+Declaration = tuple[str, Any, bool]
 # Declarations of one element that are valid: property name to parsed value.
 Declared = dict[str, Any]
 
 INHERIT = "inherit"  # also stands for "unset" of an inherited property
 INITIAL = "initial"
+VARIABLES = "--"  # a Declared has the custom properties of its element under this name
+
+
+@dataclass(frozen=True, slots=True)
+class TooLarge:
+    """The value of a declaration with a number that is beyond what a double holds.
+
+    Attributes:
+        offset: of the number, in the value.
+    """
+
+    offset: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Pending:
+    """The value of a declaration that waits for the custom properties of its element: it has a ``var()``.
+
+    Attributes:
+        text: as written.
+        origin: where it stands.
+    """
+
+    text: str
+    origin: Origin
+
+
 _WIDE = {"inherit": INHERIT, "initial": INITIAL, "unset": "unset", "revert": "unset", "revert-layer": "unset"}
-_INHERITED = frozenset(
+INHERITED = frozenset(
     (
         "fill",
         "stroke",
@@ -57,35 +87,6 @@ _FONT_SIZES = {
     "xx-large": 32.0,
     "xxx-large": 48.0,
 }
-
-
-@dataclass(frozen=True, slots=True)
-class Style:
-    """What an element hands down to its children.
-
-    Attributes:
-        fill: ``"#rrggbb"``, ``url(...)`` with what stands in for it, or None.
-        stroke: the same.
-        stroke_width: as a length, resolved where it is used.
-        fill_rule: ``"nonzero"`` or ``"evenodd"``.
-        fill_seen: the fill has some opacity.
-        stroke_seen: the stroke has some opacity.
-        color: what ``currentColor`` means, as ``"#rrggbb"`` or ``"none"``.
-        visible: ``visibility`` is ``visible``.
-        font: for font units.
-        line_factor: ``line-height`` as a bare number, which children multiply by their own font size.
-    """
-
-    fill: str | None = "#000000"
-    stroke: str | None = None
-    stroke_width: Terms = ((1.0, "px"),)
-    fill_rule: str = "nonzero"
-    fill_seen: bool = True
-    stroke_seen: bool = True
-    color: str = "#000000"
-    visible: bool = True
-    font: Font = ROOT_FONT
-    line_factor: float | None = None
 
 
 def _keyword(name: str) -> Callable[[str, Origin], Any]:
@@ -258,11 +259,14 @@ PRESENTATION = PROPERTIES - _LAZY - {"line-height", "translate", "rotate", "scal
 
 
 def parse_declaration(name: str, text: str, origin: Origin) -> Any:
-    """Give the parsed value of a declaration, None when it is invalid (and so is as if it were not there)."""
-    return _parse_short(name, text, origin) if len(text) < _SHORT else _parse(name, text, origin)
+    """Give the parsed value of a declaration, None when it is invalid (and so is as if it were not there).
+
+    A TooLarge or a Pending stand for what they say.
+    """
+    return _parse_short(name, text, origin) if len(text) < SHORT else _parse(name, text, origin)
 
 
-_SHORT = 500  # characters of a value that is worth keeping
+SHORT = 500  # letters of a value that is worth keeping
 
 
 @lru_cache(maxsize=8192)
@@ -271,15 +275,26 @@ def _parse_short(name: str, text: str, origin: Origin) -> Any:
 
 
 def _parse(name: str, text: str, origin: Origin) -> Any:
-    if too_nested(text):
-        return None
-    wide = _WIDE.get(text.strip().lower())
+    if name not in ("transform", "d") or origin != "attribute":
+        if "(" in text and "var(" in text.lower():
+            return Pending(text, origin)
+        if unreadable(text):
+            return None
+    wide = _WIDE.get(text.strip().lower()) if len(text) < SHORT else None
     if wide is not None:
-        return (INHERIT if name in _INHERITED else INITIAL) if wide == "unset" else wide
-    return _PARSERS[name](text, origin)
+        return unset(name) if wide == "unset" else wide
+    try:
+        return _PARSERS[name](text, origin)
+    except NumberError as error:
+        return TooLarge(error.offset)
 
 
-def parse_inline(text: str) -> list[tuple[str, Any, bool]] | None:
+def unset(name: str) -> str:
+    """Give what ``unset`` means for a property."""
+    return INHERIT if name in INHERITED else INITIAL
+
+
+def parse_inline(text: str) -> list[Declaration] | None:
     """Read a plain ``style`` attribute to (property, value, important), invalid and unknown ones left out.
 
     None when it is not plain: escapes, comments, blocks, or a semicolon within quotes or brackets. Those need
@@ -292,22 +307,28 @@ def parse_inline(text: str) -> list[tuple[str, Any, bool]] | None:
         if piece.count("(") != piece.count(")") or piece.count("'") % 2 or piece.count('"') % 2:
             return None
         name, colon, value = piece.partition(":")
-        name = name.strip().lower()
+        own = name.strip()
+        name = own.lower()
         if name == "font" and colon:
             return None
-        if not colon or name not in _PARSERS:
+        custom = own[:2] == "--"
+        if not colon or not (custom or name in _PARSERS):
             continue
         plain, mark, word = value.rpartition("!")
         important = bool(mark) and word.strip().lower() == "important"
-        parsed = parse_declaration(name, plain if important else value, "inline")
+        text = plain if important else value
+        if custom:
+            found.append((own, text.strip(), important))
+            continue
+        parsed = parse_declaration(name, text, "inline")
         if parsed is not None:
             found.append((name, parsed, important))
     return found
 
 
-def parse_any_inline(text: str) -> list[tuple[str, Any, bool]]:
+def parse_any_inline(text: str) -> list[Declaration]:
     """Read any ``style`` attribute to (property, value, important), invalid and unknown ones left out."""
-    if too_nested(text):
+    if unreadable(text):
         return []
     found = []
     for declaration in tinycss2.parse_blocks_contents(text, skip_comments=True, skip_whitespace=True):
@@ -316,9 +337,11 @@ def parse_any_inline(text: str) -> list[tuple[str, Any, bool]]:
     return found
 
 
-def known_declarations(declaration: Any, origin: Origin) -> list[tuple[str, Any, bool]]:
+def known_declarations(declaration: Any, origin: Origin) -> list[Declaration]:
     """Give what one tinycss2 declaration sets; the ``font`` shorthand gives its size and line height."""
     name, text = declaration.lower_name, tinycss2.serialize(declaration.value)
+    if name[:2] == "--":
+        return [(declaration.name, text.strip(), declaration.important)]
     if name == "font":
         return _font_shorthand(declaration, origin)
     if name not in _PARSERS:
@@ -327,14 +350,14 @@ def known_declarations(declaration: Any, origin: Origin) -> list[tuple[str, Any,
     return [] if value is None else [(name, value, declaration.important)]
 
 
-def _font_shorthand(declaration: Any, origin: Origin) -> list[tuple[str, Any, bool]]:
+def _font_shorthand(declaration: Any, origin: Origin) -> list[Declaration]:
     tokens = [token for token in declaration.value if token.type != "whitespace"]
     for index, token in enumerate(tokens):
         size = parse_declaration("font-size", tinycss2.serialize([token]), origin)
-        if size is None or token.type == "number":
+        if size is None or isinstance(size, Pending) or token.type == "number":
             continue
         rest = tokens[index + 1 :]
-        found: list[tuple[str, Any, bool]] = [("font-size", size, declaration.important)]
+        found: list[Declaration] = [("font-size", size, declaration.important)]
         height: Any = "normal"
         if len(rest) >= 2 and rest[0].type == "literal" and rest[0].value == "/":
             height = parse_declaration("line-height", tinycss2.serialize([rest[1]]), origin)
@@ -344,63 +367,3 @@ def _font_shorthand(declaration: Any, origin: Origin) -> list[tuple[str, Any, bo
         found.append(("line-height", height, declaration.important))
         return found if rest else []
     return []
-
-
-def inherit(parent: Style, declared: Declared) -> Style:
-    """Give the style of an element from its parent's and its own declarations."""
-    changes: dict[str, Any] = {}
-    font = _font(parent, declared, changes)
-    if font is not parent.font:
-        changes["font"] = font
-    if "color" in declared:
-        value = declared["color"]
-        wide = value in (INHERIT, "currentcolor")
-        changes["color"] = parent.color if wide else ("#000000" if value == INITIAL else value)
-    colour = changes.get("color", parent.color)
-    for name in ("fill", "stroke"):
-        if name in declared and declared[name] != INHERIT:
-            changes[name] = _used_paint(declared[name], "#000000" if name == "fill" else None, colour)
-    for name, field in (("fill-opacity", "fill_seen"), ("stroke-opacity", "stroke_seen")):
-        if declared.get(name, INHERIT) != INHERIT:
-            changes[field] = declared[name] == INITIAL or declared[name] > 0
-    if declared.get("stroke-width", INHERIT) != INHERIT:
-        value = declared["stroke-width"]
-        changes["stroke_width"] = ((1.0, "px"),) if value == INITIAL else value
-    if declared.get("fill-rule", INHERIT) != INHERIT:
-        changes["fill_rule"] = "nonzero" if declared["fill-rule"] == INITIAL else declared["fill-rule"]
-    if declared.get("visibility", INHERIT) != INHERIT:
-        changes["visible"] = declared["visibility"] in ("visible", INITIAL)
-    return replace(parent, **changes) if changes else parent
-
-
-def _used_paint(value: str, initial: str | None, colour: str) -> str | None:
-    if value == INITIAL:
-        return initial
-    if value == "currentcolor":
-        value = colour
-    if value == NOTHING:
-        return None
-    if value.lower().startswith("url("):
-        return value
-    return value if value.startswith("#") else None
-
-
-def _font(parent: Style, declared: Declared, changes: dict[str, Any]) -> Font:
-    font = parent.font
-    size = declared.get("font-size", INHERIT)
-    if size != INHERIT:
-        terms: Terms = ((16.0, "px"),) if size == INITIAL else size
-        font = replace(font, size=max(0.0, to_px(terms, parent.font.size, parent.font)))
-    height = declared.get("line-height", INHERIT)
-    factor = parent.line_factor
-    if height in ("normal", INITIAL):
-        factor = None
-        font = replace(font, line_height=None)
-    elif height != INHERIT:
-        factor = height[0][0] if len(height) == 1 and height[0][1] == "" else None
-        font = replace(font, line_height=to_px(height, font.size, font))
-    if factor is not None:
-        font = replace(font, line_height=factor * font.size)
-    if factor != parent.line_factor:
-        changes["line_factor"] = factor
-    return font

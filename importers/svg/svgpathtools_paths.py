@@ -7,6 +7,7 @@ from typing import Any
 
 from importers.drawing import Drawing, DrawnPath, Segment, Subpath
 from importers.errors import DrawingError
+from importers.limits import MAX_COORDINATE, good_coordinate
 
 
 def drawing_from_svgpathtools(paths: Iterable[Any]) -> Drawing:
@@ -19,21 +20,41 @@ def drawing_from_svgpathtools(paths: Iterable[Any]) -> Drawing:
         paths: svgpathtools paths, or anything that iterates over its segments.
 
     Raises:
-        DrawingError: these are no paths, or a segment is none of Line, QuadraticBezier, CubicBezier and Arc.
+        DrawingError: it is no list of paths, a segment is none of Line, QuadraticBezier, CubicBezier and Arc, or a
+            number is not finite or beyond 1e9.
     """
-    try:
-        return Drawing(units="px", y_axis="down", kind="svgpathtools", paths=[_path(path) for path in paths])
-    except (AttributeError, TypeError) as error:  # something to go through, or a segment, is another thing
-        message, fix = f"these are no paths of svgpathtools: {error}", "give a list of svgpathtools.Path"
-        raise DrawingError(message, code="not-a-drawing", fix=fix) from error
+    drawn = []
+    for index, path in enumerate(_items(paths, "a list of paths")):
+        try:
+            drawn.append(_path(_items(path, "a path, which is a list of segments")))
+        except (AttributeError, TypeError, ValueError, OverflowError) as error:
+            raise _refused(f"path {index} cannot be read: {error}") from None
+    return Drawing(units="px", y_axis="down", kind="svgpathtools", paths=drawn)
+
+
+def _items(whole: Any, what: str) -> Iterable[Any]:
+    if isinstance(whole, str | bytes | dict) or not isinstance(whole, Iterable):
+        raise _refused(f"a {type(whole).__name__} is not {what}")
+    return whole
+
+
+def _refused(message: str) -> DrawingError:
+    fix = "give a list of svgpathtools.Path, each of Line, QuadraticBezier, CubicBezier and Arc"
+    return DrawingError(message, code="not-a-drawing", fix=fix)
 
 
 def _path(path: Iterable[Any]) -> DrawnPath:
+    """Take one path.
+
+    Raises:
+        DrawingError: a segment is not known, or a number of it is not good.
+        AttributeError: a segment has not the points that its kind has; a TypeError or ValueError: they are none.
+    """
     subpaths: list[Subpath] = []
     end: complex | None = None
     for segment in path:
         if segment.start != end:
-            subpaths.append(Subpath([("M", segment.start.real, segment.start.imag)], closed=False))
+            subpaths.append(Subpath([("M", *_numbers(segment.start))], closed=False))
         subpaths[-1].segments.append(_segment(segment))
         end = segment.end
     for subpath in subpaths:
@@ -50,12 +71,17 @@ def _segment(segment: Any) -> Segment:
     if kind == "CubicBezier":
         return ("C", *_numbers(segment.control1, segment.control2, segment.end))
     if kind == "Arc":
-        marks = (float(segment.rotation), int(segment.large_arc), int(segment.sweep))
-        return ("A", *_numbers(segment.radius), *marks, *_numbers(segment.end))
-    raise DrawingError(
-        f"a segment is a {kind}", code="not-a-drawing", fix="give paths of Line, QuadraticBezier, CubicBezier and Arc"
-    )
+        rx, ry = map(abs, _numbers(segment.radius))
+        rotation, _ = _numbers(complex(segment.rotation))
+        if rx == 0 or ry == 0:
+            return ("L", *_numbers(segment.end))
+        return ("A", rx, ry, rotation, int(segment.large_arc), int(segment.sweep), *_numbers(segment.end))
+    hint = ", not a segment; svg2paths gives (paths, attributes), of which this takes the first"
+    raise _refused(f"a segment is a {kind}{hint if kind in ('Path', 'dict') else ''}")
 
 
 def _numbers(*points: complex) -> list[float]:
-    return [number for point in points for number in (point.real, point.imag)]
+    numbers = [float(number) for point in points for number in (point.real, point.imag)]
+    if not all(map(good_coordinate, numbers)):
+        raise _refused(f"a segment has the numbers {numbers}, which are not all finite and at most {MAX_COORDINATE:g}")
+    return numbers

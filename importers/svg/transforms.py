@@ -4,27 +4,32 @@ from __future__ import annotations
 
 import math
 import re
-from functools import lru_cache
 from typing import Any
 
 import tinycss2
 
 from importers.limits import limit_error
+from importers.numbers import finite
 from importers.svg.matrix import IDENTITY, Matrix, multiply, rotation, translation
 from importers.svg.path_data import COMMA, NUMBER
 from importers.svg.units import Font, Terms, parse_length, to_px
 
 MAX_FUNCTIONS = 10_000
-_FUNCTION = re.compile(r"[ \t\r\n\f]*(matrix|translate|scale|rotate|skewX|skewY)[ \t\r\n\f]*\(([^()]*)\)[ \t\r\n\f]*")
+_WS = r"[ \t\r\n\f]*+"
+_FUNCTION = re.compile(rf"{_WS}(matrix|translate|scale|rotate|skewX|skewY){_WS}\(([^()]*+)\){_WS}")
 _COUNTS = {"matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3), "skewX": (1,), "skewY": (1,)}
 
 # A transform of a style sheet: functions with their arguments, lengths unresolved (percentages need a box)
 Functions = tuple[tuple[str, tuple[Any, ...]], ...]
 
 
-@lru_cache(maxsize=4096)
 def parse_transform_attribute(text: str) -> Matrix | None:
-    """Read a ``transform`` attribute; None when any of it is wrong (browsers then use none of it)."""
+    """Read a ``transform`` attribute; None when any of it is wrong (browsers then use none of it).
+
+    Raises:
+        LimitError: it has more than MAX_FUNCTIONS.
+        NumberError: a number in it, or in the matrix, is too large.
+    """
     if text.count("(") > MAX_FUNCTIONS:
         raise limit_error("functions of a transform", f"{MAX_FUNCTIONS:,}")
     matrix, position = IDENTITY, 0
@@ -32,27 +37,38 @@ def parse_transform_attribute(text: str) -> Matrix | None:
         return IDENTITY
     while position < len(text):
         match = _FUNCTION.match(text, position)
-        numbers = parse_numbers(match[2]) if match else None
+        numbers = parse_numbers(match[2], match.start(2)) if match else None
         if match is None or numbers is None or len(numbers) not in _COUNTS[match[1]]:
             return None
         matrix = multiply(matrix, _matrix(match[1], numbers))
+        for number in matrix:
+            finite(number, "transform", position)
         position = match.end()
         if position < len(text) and text[position] == ",":
             position += 1
             if not text[position:].strip():
                 return None
-    return matrix if all(map(math.isfinite, matrix)) else None
+    return matrix
 
 
-def parse_numbers(text: str) -> list[float] | None:
-    """Read numbers separated by white space, one comma, or nothing where none is needed; None when not."""
-    numbers, position = [], 0
-    text = text.strip(" \t\r\n\f")
+def parse_numbers(text: str, offset: int = 0) -> list[float] | None:
+    """Read numbers separated by white space, one comma, or nothing where none is needed; None when not.
+
+    Args:
+        text: of the numbers.
+        offset: where it begins in the value of an attribute.
+
+    Raises:
+        NumberError: one of them is too large.
+    """
+    numbers = []
+    position = len(text) - len(text.lstrip(" \t\r\n\f"))
+    text = text.rstrip(" \t\r\n\f")
     while position < len(text):
         match = NUMBER.match(text, position)
         if match is None:
             return None
-        numbers.append(float(match[0]))
+        numbers.append(finite(float(match[0]), "transform", offset + position))
         gap = COMMA.match(text, match.end())
         position = gap.end() if gap else match.end()
         if position == len(text) and gap and "," in gap[0]:
@@ -75,9 +91,15 @@ def _matrix(name: str, v: list[float]) -> Matrix:
     return (1.0, 0.0, slope, 1.0, 0.0, 0.0) if name == "skewX" else (1.0, slope, 0.0, 1.0, 0.0, 0.0)
 
 
-@lru_cache(maxsize=1024)
 def parse_transform_property(text: str) -> Functions | None:
-    """Read a ``transform`` of a style sheet; None when it is not valid CSS for the plane."""
+    """Read a ``transform`` of a style sheet; None when it is not valid CSS for the plane.
+
+    Raises:
+        LimitError: it has more than MAX_FUNCTIONS, or a length in it has too many letters.
+        NumberError: a number in it is too large.
+    """
+    if text.count("(") > MAX_FUNCTIONS:
+        raise limit_error("functions of a transform", f"{MAX_FUNCTIONS:,}")
     functions = []
     for token in tinycss2.parse_component_value_list(text, skip_comments=True):
         if token.type == "whitespace":
@@ -149,13 +171,13 @@ def _css_argument(kind: str, token: Any) -> float | Terms | None:
         return parse_length(tinycss2.serialize([token]), False)
     if kind == "n":
         if token.type == "percentage":
-            return float(token.value) / 100
-        return float(token.value) if token.type == "number" else None
+            return finite(float(token.value)) / 100
+        return finite(float(token.value)) if token.type == "number" else None
     if token.type == "number" and token.value == 0:
         return 0.0
     turn = {"deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0}
     if token.type == "dimension" and token.lower_unit in turn:
-        return float(token.value) * turn[token.lower_unit]
+        return finite(float(token.value) * turn[token.lower_unit])
     return None
 
 
@@ -167,6 +189,9 @@ def resolve(functions: Functions, width: float, height: float, font: Font) -> Ma
         width: of the reference box, for percentages.
         height: of the reference box.
         font: at the element.
+
+    Raises:
+        NumberError: a length in them is too large.
     """
     matrix = IDENTITY
     for name, v in functions:
@@ -188,4 +213,6 @@ def resolve(functions: Functions, width: float, height: float, font: Font) -> Ma
         else:
             step = (v[0], v[1], v[2], v[3], v[4], v[5])
         matrix = multiply(matrix, step)
+    for number in matrix:
+        finite(number)
     return matrix

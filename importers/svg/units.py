@@ -16,6 +16,9 @@ from typing import Any
 
 import tinycss2
 
+from importers.limits import limit_error
+from importers.numbers import finite
+
 Terms = tuple[tuple[float, Any], ...]
 
 # A file has no window, no screen and no fonts. These are those of the browser that the tests measure with:
@@ -51,7 +54,14 @@ _FONT = {"em": 1.0, "ic": 1.0, "ex": 0.547, "ch": 0.63623, "cap": 0.7322}
 _MOST_BRACKETS = 50
 _BRACKET = re.compile(r"[()\[\]{}]")
 
-_SIMPLE = re.compile(r"\s*([-+]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)([a-zA-Z]+|%)?\s*", re.ASCII)
+_DIGITS = re.compile(r"[0-9]++")
+_MOST_DIGITS = 4000  # of a number in CSS; Python turns no more than 4300 into an integer
+
+_SIMPLE = re.compile(
+    r"\s*+([-+]?+(?:[0-9]++(?:\.[0-9]++)?+|\.[0-9]++)(?:[eE][-+]?+[0-9]++)?+)([a-zA-Z]++|%)?+\s*+", re.ASCII
+)
+# A length is worked out again on every element that has it or inherits it.
+MAX_LENGTH_LETTERS = 256
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,25 +93,43 @@ class Viewport:
         return math.hypot(self.width, self.height) / math.sqrt(2)
 
 
-@lru_cache(maxsize=4096)
 def parse_length(text: str, unitless: bool = True) -> Terms | None:
     """Read a length or percentage; None for what is none.
 
     Args:
         text: such as ``12``, ``5mm``, ``50%``, ``calc(1em + 2px)``.
         unitless: numbers without a unit are px (attributes); else only 0 is a length (style sheets).
+
+    Raises:
+        LimitError: more than MAX_LENGTH_LETTERS of ``calc()`` or the like.
+        NumberError: a number in it is too large.
     """
+    return _parse_short(text, unitless) if len(text) <= MAX_LENGTH_LETTERS else _parse_length(text, unitless)
+
+
+@lru_cache(maxsize=4096)
+def _parse_short(text: str, unitless: bool) -> Terms | None:
+    return _parse_length(text, unitless)
+
+
+def _parse_length(text: str, unitless: bool) -> Terms | None:
     match = _SIMPLE.fullmatch(text)
     if match is None:
-        return _parse_calc(text, unitless) if "(" in text and not too_nested(text) else None
+        if text.partition("(")[0].strip().lower() not in _FUNCTIONS or unreadable(text):
+            return None
+        if len(text) > MAX_LENGTH_LETTERS:
+            raise limit_error("letters of a length", f"{MAX_LENGTH_LETTERS:,}")
+        return _parse_calc(text, unitless)
     value, unit = float(match[1]), (match[2] or "").lower()
-    if unit not in UNITS or not math.isfinite(value) or (not unit and not unitless and value != 0):
+    if unit not in UNITS or (not unit and not unitless and value != 0):
         return None
-    return ((value, unit),)
+    return ((finite(value), unit),)
 
 
-def too_nested(text: str) -> bool:
-    """Tell whether CSS has more brackets in brackets than anyone writes; its parser works by recursion."""
+def unreadable(text: str) -> bool:
+    """Tell whether CSS has more brackets in brackets, or digits in a number, than its parser can take."""
+    if len(text) > _MOST_DIGITS and any(len(digits[0]) > _MOST_DIGITS for digits in _DIGITS.finditer(text)):
+        return True
     if text.count("(") + text.count("[") + text.count("{") <= _MOST_BRACKETS:
         return False
     depth = 0
@@ -120,6 +148,9 @@ def to_px(terms: Terms, percent_of: float, font: Font) -> float:
         terms: as :func:`parse_length` gives them.
         percent_of: what 100 % is, in px.
         font: the font at the element.
+
+    Raises:
+        NumberError: it is infinite.
     """
     total = 0.0
     for value, unit in terms:
@@ -131,9 +162,10 @@ def to_px(terms: Terms, percent_of: float, font: Font) -> float:
         if factor is None:
             factor = percent_of / 100 if unit == "%" else _WINDOW_UNITS.get(unit)
         total += value * (factor if factor is not None else _font_unit(unit, font))
-    return total
+    return finite(total)
 
 
+_FUNCTIONS = frozenset(("calc", "min", "max", "clamp"))
 _PICKS: dict[str, Callable[[list[float]], float]] = {
     "min": min,
     "max": max,
@@ -189,11 +221,9 @@ def _parse_calc(text: str, unitless: bool) -> Terms | None:
         terms = _value(tokens[0])
     except (ValueError, IndexError, ZeroDivisionError, RecursionError, OverflowError):
         return None
-    if not all(math.isfinite(value) and (isinstance(unit, tuple) or unit in UNITS) for unit, value in terms.items()):
+    if not all(isinstance(unit, tuple) or unit in UNITS for unit in terms) or ("" in terms and not unitless):
         return None
-    if "" in terms and not unitless:
-        return None
-    return tuple((value, unit) for unit, value in terms.items())
+    return tuple((finite(value), unit) for unit, value in terms.items())
 
 
 def _solid(tokens: list[Any]) -> list[Any]:
@@ -201,27 +231,28 @@ def _solid(tokens: list[Any]) -> list[Any]:
 
 
 def _sum(tokens: list[Any]) -> _Sum:
-    total, rest = _product(tokens)
-    while rest:
-        sign = {"+": 1.0, "-": -1.0}[_operator(rest[0])]
-        part, rest = _product(rest[1:])
+    total, place = _product(tokens, 0)
+    while place < len(tokens):
+        sign = {"+": 1.0, "-": -1.0}[_operator(tokens[place])]
+        part, place = _product(tokens, place + 1)
         for unit, value in part.items():
             total[unit] = total.get(unit, 0.0) + sign * value
     return total
 
 
-def _product(tokens: list[Any]) -> tuple[_Sum, list[Any]]:
-    left, rest = _value(tokens[0]), tokens[1:]
-    while rest and _operator(rest[0]) in "*/":
-        divide, right = _operator(rest[0]) == "/", _value(rest[1])
+def _product(tokens: list[Any], place: int) -> tuple[_Sum, int]:
+    """Read a product that begins at a place; give it and the place behind it."""
+    left, place = _value(tokens[place]), place + 1
+    while place < len(tokens) and _operator(tokens[place]) in "*/":
+        divide, right = _operator(tokens[place]) == "/", _value(tokens[place + 1])
         if set(right) != {""} and not divide:
             left, right = right, left
         if set(right) != {""}:
             raise ValueError("a length times a length is no length")
         factor = 1 / right[""] if divide else right[""]
         left = {unit: value * factor for unit, value in left.items()}
-        rest = rest[2:]
-    return left, rest
+        place += 2
+    return left, place
 
 
 def _value(token: Any) -> _Sum:

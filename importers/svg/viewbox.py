@@ -2,27 +2,34 @@
 
 from __future__ import annotations
 
-import math
 import re
 
+from importers.numbers import NumberError
 from importers.svg.matrix import IDENTITY, Matrix
 from importers.svg.transforms import parse_numbers
 
 Box = tuple[float, float, float, float]  # x, y, width, height
 
-_ALIGN = re.compile(r"\s*(none|x(Min|Mid|Max)Y(Min|Mid|Max))(?:\s+(meet|slice))?\s*")
+_ALIGN = re.compile(r"none|x(Min|Mid|Max)Y(Min|Mid|Max)")
 _PART = {"Min": 0.0, "Mid": 0.5, "Max": 1.0}
 
 
 def parse_view_box(text: str | None) -> Box | None:
-    """Read a viewBox; None when it is missing or wrong (a negative size is wrong, 0 is not)."""
+    """Read a viewBox; None when it is missing or wrong (a negative size is wrong, 0 is not).
+
+    Raises:
+        NumberError: a number in it is too large.
+    """
     if text is None:
         return None
-    numbers = parse_numbers(text)
+    try:
+        numbers = parse_numbers(text)
+    except NumberError as error:
+        raise NumberError("viewBox", error.offset) from None
     if numbers is None or len(numbers) != 4:
         return None
     x, y, width, height = numbers
-    if width < 0 or height < 0 or not all(map(math.isfinite, (x, y, width, height))):
+    if width < 0 or height < 0:
         return None
     return x, y, width, height
 
@@ -40,11 +47,13 @@ def fit(box: Box | None, aspect: str | None, width: float, height: float) -> Mat
         return IDENTITY
     x, y, box_width, box_height = box
     sx, sy = width / box_width, height / box_height
-    match = _ALIGN.fullmatch(aspect or "")
-    if match is not None and match[1] == "none":
+    words = (aspect or "").split(maxsplit=2)
+    good = len(words) == 1 or (len(words) == 2 and words[1] in ("meet", "slice"))
+    match = _ALIGN.fullmatch(words[0]) if good else None
+    if match is not None and match[0] == "none":
         return (sx, 0.0, 0.0, sy, -x * sx, -y * sy)
-    along_x, along_y = (_PART[match[2]], _PART[match[3]]) if match else (0.5, 0.5)
-    scale = max(sx, sy) if match is not None and match[4] == "slice" else min(sx, sy)
+    along_x, along_y = (_PART[match[1]], _PART[match[2]]) if match else (0.5, 0.5)
+    scale = max(sx, sy) if match is not None and words[-1] == "slice" else min(sx, sy)
     left = along_x * (width - box_width * scale) - x * scale
     top = along_y * (height - box_height * scale) - y * scale
     return (scale, 0.0, 0.0, scale, left, top)

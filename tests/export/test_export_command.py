@@ -53,7 +53,7 @@ def test_arcs_stay_for_formats_that_keep_them_and_lines_are_for_the_others(tmp_p
         ([], "unknown-ending", "--format"),
         (["-o", "level.json"], "unknown-ending", ".planck.json"),
         (["-o", "level.tmj", "--format", "bmp"], "unknown-format", "tmj"),
-        (["-o", "level.tmj", "--grid", "-1"], "bad-option", "0 or more"),
+        (["-o", "level.tmj", "--grid", "-1"], "bad-option", "from 0"),
         (["-o", "no/folder/level.tmj"], "cannot-write", "folder"),
     ],
 )

@@ -14,7 +14,7 @@ from levels import TABLE, problems_of, sample, text_of, three_walls
 
 import wallkit
 from wallkit.export import ExportError, ExportOptions, build_level
-from wallkit.export.level import signed_area
+from wallkit.export.level import signed_areas_of
 from wallkit.walls import Material
 
 
@@ -56,7 +56,7 @@ def test_ezdxf_reads_every_bit_of_vertices_and_bulges(name, curves):
         if np.abs(wall.bulges).max() <= 1:
             assert np.array_equal(corners, np.column_stack([wall.vertices, wall.bulges]))
     if curves == "lines":
-        area = sum(signed_area(wall) for wall in level if wall.closed)
+        area = sum(signed_areas_of([wall for wall in level if wall.closed]))
         assert abs(area) == pytest.approx(TABLE[name][3], rel=1e-9)
 
 

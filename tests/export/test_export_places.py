@@ -11,7 +11,7 @@ from levels import problems_of, sample, text_of, three_walls
 
 import wallkit
 from wallkit.export import ExportError, ExportOptions, build_level
-from wallkit.export.level import signed_area
+from wallkit.export.level import signed_areas_of
 from wallkit.scene.scene import Balls, Scene
 
 
@@ -28,7 +28,7 @@ def mirrored(walls, about):
 def test_a_mirror_keeps_material_on_the_left_and_one_way_walls_facing_the_same_way():
     walls = three_walls(sides=["both", "outward", "outward"])
     level = build_level(walls, ExportOptions(), y_axis="down")
-    assert [np.sign(signed_area(wall)) for wall in level if wall.closed] == [1, -1]
+    assert np.sign(signed_areas_of(level.walls[:2])).tolist() == [1, -1]
     assert level.walls[0].vertices.tolist() == [[0, 6], [0, 0], [8, 0], [8, 6]]
     assert level.walls[2].vertices.tolist() == [[7, 3], [7, 5], [5, 5]]  # outward was below and right, and still is
 
@@ -39,7 +39,7 @@ def test_bulges_survive_a_mirror():
     (wall,) = build_level(half, ExportOptions(origin=(0, 0)), y_axis="down", arcs=True).walls
     assert wall.vertices.tolist() == [[0, 0], [2, 0]]
     assert wall.bulges.tolist() == [0.0, 1.0]  # from (2, 0) back to (0, 0), right of that is y = +1 in the numbers
-    assert signed_area(wall) == pytest.approx(np.pi / 2)
+    assert signed_areas_of([wall]) == pytest.approx([np.pi / 2])
 
 
 @pytest.mark.parametrize("name", ["room.svg", "pinball.svg"])
@@ -51,7 +51,7 @@ def test_one_room_drawn_with_y_up_or_down_gives_the_same_level(name):
         for a, b in zip(one, two, strict=True):
             assert {tuple(p) for p in np.round(a.vertices, 9)} == {tuple(p) for p in np.round(b.vertices, 9)}
             if a.closed:
-                assert signed_area(a) == pytest.approx(signed_area(b), abs=1e-7)
+                assert signed_areas_of([a]) == pytest.approx(signed_areas_of([b]), abs=1e-7)
 
 
 def test_the_same_game_is_played_in_both():

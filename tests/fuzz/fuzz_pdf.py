@@ -3,7 +3,8 @@
     pip install atheris
     PYTHONPATH=. python tests/fuzz/fuzz_pdf.py -max_total_time=600 FOLDER
 
-The first byte chooses what the rest is: a file, the content of a page, a form, or Illustrator's own data. Whatever
+The first byte chooses what the rest is: a file, the content of a page, a form, Illustrator's own data, or the
+dictionary of an object stream; its highest bit reads all pages. Whatever
 leaves the reader that is no WallkitError is a bug: keep the crasher in tests/importers/test_illustrator_crashers.py.
 """
 
@@ -24,16 +25,25 @@ with atheris.instrument_imports(include=["importers"]):
 
 def make_file(data: bytes) -> bytes:
     """Wrap what the fuzzer made in a PDF, so that it need not invent one."""
-    kind, rest = data[0] % 6, data[1:]
+    kind, rest = data[0] % 7, data[1:]
     if kind == 0:
         return b"%PDF-1.4\n" + rest
+    if kind == 6:
+        packed = zlib.compress(b"1 0 2 30 <</Type/Catalog/Pages 2 0 R>> <</Kids[3 0 R]>>")
+        head = b"%PDF-1.5\n5 0 obj<<" + rest + b"/Filter/FlateDecode/N 2/First 9/Type/ObjStm"
+        return head + b"/Length %d>>stream\n%s\nendstream endobj\ntrailer<</Root 1 0 R>>" % (len(packed), packed)
     pdf = pikepdf.new()
     pdf.add_blank_page()
     page = pdf.pages[0]
     group = pdf.make_indirect(pikepdf.Dictionary(Type=pikepdf.Name.OCG, Name="Layer"))
     pdf.Root.OCProperties = pikepdf.Dictionary(OCGs=[group], D=pikepdf.Dictionary(OFF=[group]))
+    rule = pdf.make_indirect(pikepdf.Dictionary(Type=pikepdf.Name.OCMD, VE=[pikepdf.Name.Not, group]))
+    unseen = pikepdf.Dictionary({"/ca": 0, "/LW": 2})
+    page.Annots = [pikepdf.Dictionary(Subtype=pikepdf.Name.Square)]
     form = pdf.make_indirect(pdf.make_stream(rest if kind == 2 else b"0 0 1 1 re f", Subtype=pikepdf.Name.Form))
-    form.Resources = page.Resources = pikepdf.Dictionary(XObject={"/X": form}, Properties={"/A": group})
+    form.Resources = page.Resources = pikepdf.Dictionary(
+        XObject={"/X": form}, Properties={"/A": group, "/B": rule}, ExtGState={"/S": unseen}
+    )
     page.Contents = pdf.make_stream(rest if kind == 1 else b"/OC /A BDC /X Do EMC")
     if kind == 3:
         name = (pikepdf.Name.LZWDecode, pikepdf.Name.RunLengthDecode, pikepdf.Name.ASCII85Decode)[len(rest) % 3]
@@ -52,7 +62,7 @@ def read_once(data: bytes) -> None:
     if not data:
         return
     try:
-        drawing = read_pdf(make_file(data), "fuzz")
+        drawing = read_pdf(make_file(data), "fuzz", "all" if data[0] >= 128 else None)
     except WallkitError:
         return
     json.dumps(drawing.to_json(), allow_nan=False)

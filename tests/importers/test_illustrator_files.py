@@ -200,11 +200,6 @@ def test_what_is_no_drawing_is_refused_with_advice():
     assert (caught.value.code, caught.value.file) == ("not-a-drawing", "letter.txt")
 
 
-def test_a_program_that_moves_its_drawing_is_said():
-    drawing = read_illustrator(b"%!PS\n%%EndProlog\n10 20 translate\n" + SQUARE)
-    assert [(problem.code, problem.severity) for problem in drawing.problems] == [("moved-by-program", "error")]
-
-
 def test_files_of_other_programs():
     corel = (
         b"%!PS-Adobe-2.0 EPSF-1.2\r\n%%Creator: CorelDRAW\r\n%%EndProlog\r\nAdobe_Illustrator_1.1 begin\r\nn\r\n"

@@ -97,6 +97,10 @@ REFUSED = {
         "pdf(b'/X Do', [b'0 0 1 1 re f'] + [b'/X Do ' * 10] * 9)",
         "at most",
     ),
+    "a million definitions": (
+        "b'%!PS\\n%AI3_Note\\n' + b'/a { {' * 1_000_000 + b'%%EndProlog\\n0 0 m 1 1 l f'",
+        "definitions of a PostScript program, at most 100,000",
+    ),
     "a name in disguise": ("packed_structure(b'X#52ef', 200_000_000)", "one compressed stream, at most 75 MB"),
     "nothing, four times, twenty times over": ("pdf(b'/X Do', [b' '] + [b'/X Do ' * 4] * 20)", "forms drawn on a page"),
 }
@@ -105,6 +109,16 @@ READ = {
     "a number of a million digits": ("b'0 0 m ' + b'9' * 1_000_000 + b' 1 l f'", "bad-coordinate"),
     "ten million parentheses": ("b'0 0 m 1 1 l f ' + b'(' * 10_000_000", "open-string"),
     "ten million braces": ("b'0 0 m 1 1 l f ' + b'{' * 900_000", "read 1"),
+    "a million blocks of Adobe's without an end": (
+        "b'%!PS\\n%AI3_Note\\n' + b'%%BeginProcSet: Adobe_x\\n' * 1_000_000 + b'%%EndProlog\\n0 0 m 1 1 l f'",
+        "read 1 []",
+    ),
+    "definitions in strings and blanks": (
+        "b'%!PS\\n%AI3_Note\\n' + (b'/' + b'a' * 40 + b' ' * 40) * 200_000 + b'/a {(((' * 90_000 + "
+        "b'\\n%%EndProlog\\n0 0 m 1 1 l f'",
+        "read 1 []",
+    ),
+    "long numbers and no operator": ("b'0 0 m 1 1 l f ' + (b'1' * 40 + b' ' * 20) * 300_000", "read 1 []"),
     "20,000 compound paths in each other": ("b'*u ' * 20_000 + b'0 0 m n ' + b'*U ' * 20_000", "read 1 []"),
     "a million kinds of objects": (
         "b'0 0 m n ' + b''.join(b'/A%d : ; ' % i for i in range(300_000))",

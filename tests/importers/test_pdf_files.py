@@ -577,3 +577,25 @@ def test_an_artboard_is_chosen_by_its_number(page, starts):
 def test_an_artboard_that_there_is_not_is_an_error():
     with pytest.raises(DrawingError, match="there is no page 3: the drawing has 2"):
         read_pdf(with_artboards(), page=3)
+
+
+def moved_table(data, number):
+    """Write an object's place in the table of objects ten bytes too far."""
+    place = data.index(b"\n%d 0 obj" % number) + 1
+    return data.replace(b"%010d 00000 n" % place, b"%010d 00000 n" % (place + 10))
+
+
+@pytest.mark.parametrize("number", [1, 2, 3], ids=["catalogue", "pages", "page"])
+def test_a_table_that_tells_a_wrong_place_is_mended(number):
+    data = saved(make(b"0 0 1 1 re f"), object_stream_mode=pikepdf.ObjectStreamMode.disable)
+    assert moved_table(data, number) != data
+    assert len(read_pdf(moved_table(data, number)).paths) == 1
+
+
+@pytest.mark.parametrize("root", [b"/Root 99 0 R", b"/Root null", b"/Root 4 0 R", b"/Rot 1 0 R"])
+def test_a_file_without_a_catalogue_is_broken_in_words(root):
+    data = saved(make(b"0 0 1 1 re f"), object_stream_mode=pikepdf.ObjectStreamMode.disable)
+    data = data.replace(b"/Root 1 0 R", root).replace(b"/Type /Catalog", b"/Typo /Catalog")
+    with pytest.raises(DrawingError) as caught:
+        read_pdf(data)
+    assert caught.value.code in ("broken-pdf", "no-pages")

@@ -77,7 +77,7 @@ STORIES = {
     ),
     "a form of numbers before blanks": (
         f"pdf(stream(b'/X Do ' * 400_000), form((b'1 ' * 8 + b' ' * 200) * 5000), {DRAWN})",
-        "forms as often as they are drawn, at most 256 MB",
+        "operators of a drawing, at most 2,000,000",
     ),
     "one word of 70 MB": (f"pdf(stream(b'a' * 70_000_000), {PAGE})", "unknown-operator"),
     "one name of 70 MB": (f"pdf(stream(b'/' + b'#41' * 23_000_000), {PAGE})", "read 0 []"),
@@ -131,6 +131,18 @@ STORIES = {
     "a table of millions of entries": (
         "pdf(stream(bytes(9_000_000), b'/Type/XRef/W[1 1 0]/Size 9'))",
         "table of objects of a PDF, at most 8 MB",
+    ),
+    "many object streams without an end": (
+        "pdf() + b' 1 0 obj<</N 1/First 1>>stream' * 90_000 + bytes(20_000_000)",
+        "objects in each other in a PDF",
+    ),
+    "half a million filters": (
+        "pdf(b'<</Length 9/Filter[' + b'/AHx' * 500_000 + b']>>stream\\n123456789\\nendstream', " + PAGE + ")",
+        "read 0 ['damaged-stream']",
+    ),
+    "half a million digits and letters in ASCIIHex": (
+        "pdf(b'<</Length 40000000/Filter/AHx>>stream\\n' + b'a x ' * 10_000_000 + b'\\nendstream', " + PAGE + ")",
+        "read 0 [",
     ),
     "10 million objects": ("pdf() + b' obj' * 10_000_000", "objects of a PDF, at most 1,000,000"),
     "5 million objects with brackets": ("pdf() + b' obj [' * 5_000_000", "values in the objects of a PDF"),

@@ -28,3 +28,27 @@ def test_something_else_than_a_segment_is_named():
 
 class _Spiral:
     start = end = 1 + 0j
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("M 0 0", "a str is not a list of paths"),
+        (None, "a NoneType is not a list of paths"),
+        (3, "a int is not a list of paths"),
+        ({"d": []}, "a dict is not a list of paths"),
+        ([None], "a NoneType is not a path"),
+        ([["M0 0"]], "path 0 cannot be read"),
+        (svgpathtools.parse_path("M0 0 L1 1"), "a Line is not a path"),
+        (([svgpathtools.parse_path("M0 0 L1 1")], [{}]), "a segment is a Path, not a segment; svg2paths gives"),
+        ([[svgpathtools.Line(0, None)]], "path 0 cannot be read"),
+        ([[svgpathtools.Line(0, complex("nan"))]], "not all finite"),
+        ([[svgpathtools.Line(complex("inf"), 1)]], "not all finite"),
+        ([[svgpathtools.CubicBezier(0, 1e10, 2, 3)]], "at most 1e"),
+    ],
+)
+def test_what_is_no_list_of_paths_or_no_number_is_refused_by_name(given, said):
+    with pytest.raises(DrawingError) as caught:
+        drawing_from_svgpathtools(given)
+    assert said in caught.value.message
+    assert caught.value.fix

@@ -326,13 +326,8 @@ def test_every_code_of_the_reader_is_in_the_list_for_people():
     root = Path(__file__).parents[2]
     source = "".join(file.read_text("utf-8") for file in (root / "importers" / "svg").glob("*.py"))
     source += (root / "importers" / "read.py").read_text("utf-8")
-    found = set(
-        re.findall(
-            r'(?:code=|notes\.(?:add|count)\(\s*|report\(|^    "\w+": \(|code = |else )"([a-z]+(?:-[a-z]+)+)"',
-            source,
-            re.M,
-        )
-    )
+    before = r'code=|Problem\(\s*|notes\.(?:add|count)\(\s*|report\(|^    "\w+": \(|code = |else '
+    found = set(re.findall(rf'(?:{before})"([a-z]+(?:-[a-z]+)+)"', source, re.M))
     assert {"bad-path-data", "not-a-drawing", "css-skipped", "text-left-out", "bad-points", "no-size"} <= found
     listed = set(re.findall(r"`([a-z-]+)`", (root / "docs" / "problems.md").read_text("utf-8")))
     assert found <= listed
@@ -352,7 +347,64 @@ def test_a_chain_of_gradients_is_looked_at_once_whatever_asks_for_it():
     shapes = "".join(f'<rect width="1" height="1" fill="url(#g{i})"/>' for i in range(2000))
     reading = Reader(parse(f"<svg {NS}>{chain}{shapes}</svg>", ""))
     asked = []
-    follow = reading.paints._target
-    reading.paints._target = lambda element: asked.append(element) or follow(element)
+    follow = reading.references.referred
+    reading.references.referred = lambda element: asked.append(element) or follow(element)
     assert {path.fill for path in reading.read().paths} == {None}
     assert len(asked) == 2000
+
+
+# --- what is not declared
+
+
+@pytest.mark.parametrize("prefix", ["xlink", "sodipodi", "inkscape", "svg", "my"])
+def test_a_prefix_that_is_not_declared_is_read_and_the_attribute_to_add_is_named(prefix):
+    text = (
+        '<?xml version="1.0"?><!-- <a b="> --><!DOCTYPE svg [ <!-- "] --> ]>\n<svg xmlns="http://www.w3.org/2000/svg">'
+        f'\n<g {prefix}:href="#a" {prefix}:other="1"/><rect id="a" width="2" height="1"/><{prefix}:thing/></svg>'
+    )
+    drawing = read_svg(text.encode())
+    problem = next(problem for problem in drawing.problems if problem.code == "undeclared-prefix")
+    assert (problem.severity, problem.line) == ("warning", 3)
+    assert f'xmlns:{prefix}="' in problem.fix
+    assert only(drawing).line == 3
+
+
+def test_a_use_with_an_undeclared_xlink_shows_its_target():
+    drawing = read_svg(
+        b'<svg xmlns="http://www.w3.org/2000/svg"><rect id="a" width="2" height="1"/><use xlink:href="#a"/></svg>'
+    )
+    assert len(drawing.paths) == 2
+
+
+def test_more_undeclared_prefixes_than_anyone_forgets_are_an_error():
+    names = "".join(f"<p{i}:x/>" for i in range(30))
+    with pytest.raises(DrawingError, match="not well-formed"):
+        read_svg(f"<svg {NS}>{names}</svg>".encode())
+
+
+@pytest.mark.parametrize("subset", ["%u;", "<!ENTITY b 'c'> %u;", "<!-- %no; --> %u;"])
+def test_declarations_that_are_not_there_are_an_error_and_not_an_empty_drawing(subset):
+    text = f"<!DOCTYPE svg [\n {subset} <!ENTITY a \"<rect width='1' height='1'/>\"> ]><svg {NS}>&a;</svg>"
+    with pytest.raises(DrawingError) as caught:
+        read_svg(text.encode())
+    assert (caught.value.code, caught.value.line) == ("unknown-entity", 2)
+
+
+def test_a_reference_to_an_entity_of_a_document_type_elsewhere_is_said():
+    text = (
+        '<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd">'
+        f"<svg {NS}>\n<!-- &no; --><![CDATA[&no;]]>&shapes;<rect width='1' height='1'/></svg>"
+    )
+    drawing = read_svg(text.encode())
+    problem = next(problem for problem in drawing.problems if problem.code == "unknown-entity")
+    assert (problem.severity, problem.line, problem.column) == ("error", 2, text.splitlines()[1].index("&shapes") + 1)
+    assert len(drawing.paths) == 1
+
+
+def test_a_place_in_a_line_as_long_as_the_file_has_its_column_and_its_surroundings():
+    text = f'<svg {NS}>{"<g/>" * 20_000}<path d="M0 0L#"/>{"<g/>" * 20_000}</svg>'
+    problem = read_svg(text.encode()).problems[0]
+    assert problem.column == text.index("#") + 1
+    line, caret = problem.excerpt.split("\n")
+    assert len(line) < 110
+    assert line[caret.index("^")] == "#"

@@ -125,7 +125,7 @@ def test_everything_wrong_is_said_at_once_each_with_its_key():
     [[materials]]
     wall = "nobody"
     [[materials]]
-    restitution = 2
+    restitution = 20
     """
     with pytest.raises(SceneError) as error:
         read_scene(text.encode(), file="s.toml")
@@ -136,7 +136,7 @@ def test_everything_wrong_is_said_at_once_each_with_its_key():
         "balls[0].position[1]: 'x'",
         "balls[0].radius: -1",
         "materials[0]: no wall has the name 'nobody'",
-        "materials[1].restitution: 2 is not from 0 to 1",
+        "materials[1].restitution: 20 is not from 0 to 10",
     ]
     assert [part for part in said if part not in message] == []
     assert message.startswith("s.toml: ")

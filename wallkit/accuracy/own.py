@@ -57,6 +57,7 @@ def flattened(walls: Walls, tolerance: float) -> Walls:
         material=walls.materials,
         names=walls.names,
         layers=walls.layers,
+        origins=walls.origins,
     )
 
 

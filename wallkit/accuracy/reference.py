@@ -16,12 +16,14 @@ import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from importers.errors import WallkitError
+from wallkit.arguments import of_type, whole_number
 from wallkit.scene.scene import Scene
 from wallkit.walls import Walls
 
@@ -115,13 +117,19 @@ class Reference:
     collapse are not recognised: such a run simply goes on until the bounces asked for.
 
     Args:
-        scene: walls and balls; drag, friction and sensors are not known here and raise.
+        scene: walls and balls; drag and friction are not known here and raise; sensors change nothing.
         digits: decimal digits, at least 16.
+
+    Raises:
+        PrecisionError: the scene is none or has what is not known here, digits are too few, or mpmath is missing.
     """
 
     def __init__(self, scene: Scene, digits: int = 40) -> None:
-        if digits < 16:
-            raise PrecisionError(f"{digits} digits are fewer than a double has", code="precision", fix="16 or more")
+        of_type(scene, "scene", Scene, "a Scene", error=PrecisionError, code="bad-scene")
+        may_be = "16 or more: fewer are fewer than a double has"
+        digits = whole_number(digits, "digits", may_be, error=PrecisionError, code="precision", least=16, most=10**6)
+        if scene.drag is not None or scene.rolling_friction is not None:
+            raise PrecisionError("drag and friction are not known here", code="precision", fix="take them off")
         self.mp = context(digits)
         self.digits = digits
         self.scene = scene
@@ -421,8 +429,12 @@ def sure_events(scene: Scene, bounces: int, ball: int = 0, *, digits: int = 40, 
         most: digits at which this gives up.
 
     Raises:
-        PrecisionError: ``most`` digits do not suffice.
+        PrecisionError: ``most`` digits do not suffice, or an argument is none of what may be.
     """
+    of_type(scene, "scene", Scene, "a Scene", error=PrecisionError, code="bad-scene")
+    whole = partial(whole_number, may_be="a whole number, 0 or more", error=PrecisionError, code="precision", least=0)
+    bounces, most = whole(bounces, "bounces"), whole(most, "most")
+    ball = whole(ball, "ball", may_be="the number of a ball", code="bad-ball", most=len(scene.balls) - 1)
     coarse = Reference(scene, digits).run(bounces, ball)
     while digits < most:
         digits *= 2

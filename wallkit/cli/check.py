@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from wallkit.cli import import_options as options
+from wallkit.cli.watching import watchable
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,6 +32,7 @@ def register(app: typer.Typer) -> None:
 
 
 @options.with_import_options()
+@watchable
 def check(
     file: options.File,
     radius: Annotated[
@@ -158,7 +160,9 @@ def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach,
     summarise(walls, sys.stdout)
     ball = "any ball" if reach.radius is None else f"a ball of radius {reach.radius:g}"
     leaks, shut = reach.leaks, reach.shut
-    if leaks:
+    if not space.complete:
+        print(f"whether {ball} leaks is not known")
+    elif leaks:
         print(f"leaks for {ball}: {len(leaks)}, the narrowest gap {leaks[0].width:.6g} wide")
     else:
         print(f"no leak for {ball}")

@@ -46,10 +46,6 @@ def export_level(
         float | None,
         typer.Option("--target-scale", "--meters-per-unit", help="Target units (px, m) per unit of the walls."),
     ] = None,
-    origin: Annotated[
-        str, typer.Option(metavar="page|box|X,Y", help="What becomes (0, 0); y is mirrored about it where need be.")
-    ] = "page",
-    grid: Annotated[float, typer.Option(metavar="G", help="Round coordinates to multiples of it.")] = 0.0,
     max_vertices: Annotated[int, typer.Option(help="Of a convex piece.")] = 8,
     min_spacing: Annotated[float | None, typer.Option(metavar="D", help="Leave out vertices nearer than it.")] = None,
     arena_frame: Annotated[float | None, typer.Option(metavar="W", help="Width of the material around a room.")] = None,
@@ -58,18 +54,22 @@ def export_level(
 ) -> None:
     """Write walls where the level is made: Tiled, Godot, Box2D and planck, pymunk, Phaser, DXF, SVG, GeoJSON..."""
     from wallkit.cli.messages import show_problems
-    from wallkit.cli.scene_input import opened
+    from wallkit.cli.scene_input import opened, read_input
     from wallkit.export.formats import find_format
     from wallkit.scene.opening import Wishes
+    from wallkit.scene.scene_files import kind_of
+    from wallkit.walls.importing.placing import placed
 
     chosen = find_format(out, format)
-    asked = options.options_of(importing or {})
-    if not chosen.arcs:  # lines within the tolerance of the curve, rather than of arcs that are near it
+    given = options.options_of(importing or {})
+    asked = replace(given, origin="", grid=0.0)  # what the level begins with and rounds to, not the drawing
+    data = read_input(file)
+    if not chosen.arcs and kind_of(data) == "drawing":  # lines near the curves themselves, not near arcs near them
         asked = replace(asked, curves="lines")
-    found = opened(file, Wishes(importing=asked, may_be_empty=True))
+    found = opened(file, Wishes(importing=asked, may_be_empty=True), data)
     walls = found.scene.walls
-    page = None if found.drawing is None else page_of(found.drawing, asked.scale, asked.flip_y)
-    wanted: dict[str, Any] = {"scale": target_scale, "origin": origin, "page": page, "grid": grid}
+    page = None if found.drawing is None else page_of(placed(found.drawing, asked), asked.scale, asked.flip_y)
+    wanted: dict[str, Any] = {"scale": target_scale, "origin": given.origin or "page", "page": page, "grid": given.grid}
     wanted |= {"tolerance": asked.tolerance, "max_vertices": max_vertices, "min_spacing": min_spacing}
     wanted |= {"arena_frame": arena_frame, "thickness": thickness}
     problems = write_level(walls, out, chosen.name, **wanted)
@@ -77,10 +77,10 @@ def export_level(
 
 
 def page_of(drawing: Drawing, scale: float = 1.0, flip_y: bool = False) -> Box | None:
-    """Give the first artboard's box where import options move it to, or None without any."""
-    if not drawing.artboards:
+    """Give the box of the first artboard, or of the sheet, where import options move it to; None without any."""
+    page = drawing.artboards[0] if drawing.artboards else drawing.sheet
+    if page is None:
         return None
-    page = drawing.artboards[0]
     low, high = (-page.y_max, -page.y_min) if flip_y else (page.y_min, page.y_max)
     return page.x_min * scale, low * scale, page.x_max * scale, high * scale
 

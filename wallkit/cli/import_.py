@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import io
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
 from wallkit.cli import import_options as options
+from wallkit.cli.watching import watchable
 
 if TYPE_CHECKING:
     from wallkit.walls import Walls
+    from wallkit.walls.import_options import ImportOptions
 
 
 def register(app: typer.Typer) -> None:
@@ -21,27 +24,42 @@ def register(app: typer.Typer) -> None:
 
 
 @options.with_import_options("lines")
+@watchable
 def import_drawing(
     file: options.File,
     out: Annotated[
         str,
         typer.Option(
-            "-o", "--out", metavar="OUT", help="Where to write: .json, or as export does; - is standard output."
+            "-o",
+            "--out",
+            metavar="OUT",
+            help="Where to write: .json, or as export does; - is stdout. --page all: one each.",
         ),
     ] = "-",
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls and all findings (.svg, .png).")] = "",
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Turn a drawing into walls: closed and open polylines with outward normals."""
+    _check_ending(out)
+    asked = options.options_of(importing or {})
+    if asked.page == "all" and out != "-":
+        pages = _pages(file)
+        if pages > 1:
+            for page in range(1, pages + 1):
+                at = _numbered(preview, page) if preview else ""
+                _import(file, replace(asked, page=page), _numbered(out, page), at)
+            return
+    _import(file, asked, out, preview)
+
+
+def _import(file: str, asked: ImportOptions, out: str, preview: str) -> None:
     from importers.read import read_drawing
     from wallkit.cli.export import page_of, write_level
     from wallkit.cli.messages import show_problems
     from wallkit.export.formats import known_ending
     from wallkit.walls.importing.pipeline import import_walls
 
-    _check_ending(out)
-    asked = options.options_of(importing or {})
-    drawing = read_drawing(source(file))
+    drawing = read_drawing(source(file), page=asked.page)
     walls = import_walls(drawing, asked)
     if preview:
         draw(walls, preview)
@@ -54,6 +72,19 @@ def import_drawing(
     summarise(walls)
     if walls.solid is not None and walls.solid.how != "asked":
         print(f"assumed: {walls.solid.sentence()}", file=sys.stderr)
+
+
+def _pages(file: str) -> int:
+    """Count the pages or artboards of a drawing."""
+    from importers.read import read_drawing
+
+    return len(read_drawing(source(file), page="all").artboards)
+
+
+def _numbered(name: str, page: int) -> str:
+    """Name the file of one page: ``level.json`` becomes ``level-2.json``."""
+    path = Path(name)
+    return str(path.with_name(f"{path.stem}-{page}{path.suffix}"))
 
 
 def source(file: str) -> Any:

@@ -33,6 +33,13 @@ _Layer = Annotated[
 _Sides = Annotated[Literal["both", "outward"], _option("From where closed walls are solid.")]
 _Room = Annotated[str, _option("The closed wall of this name is a room: free inside.", metavar="NAME")]
 _Scale = Annotated[float, _option("Factor on all coordinates.")]
+_Page = Annotated[str | None, _option("Page or artboard, from 1; or all.", metavar="N")]
+_Units = Annotated[
+    Literal["px", "pt", "mm", "cm", "m", "in"] | None,
+    _option("Units of all lengths and places, by the drawing's physical size."),
+]
+_Origin = Annotated[str, _option("What becomes 0,0: page, box (their corner), or X,Y.", metavar="WHAT")]
+_Grid = Annotated[float, _option("Move vertices to multiples of G.", metavar="G")]
 _Snap = Annotated[float, _option("Move open ends up to D apart together, and join them.", metavar="D")]
 _MinWidth = Annotated[float, _option("Remove closed walls that no disc of diameter D fits into.", metavar="D")]
 _Simplify = Annotated[float, _option("Drop vertices where walls move by at most D.", metavar="D")]
@@ -62,6 +69,10 @@ _OPTIONS: dict[str, tuple[Any, Any]] = {
     "union": (_flag("--union", "Unite solids that overlap or share an edge."), False),
     "min_width": (_MinWidth, 0.0),
     "simplify": (_Simplify, 0.0),
+    "page": (_Page, None),
+    "units": (_Units, None),
+    "origin": (_Origin, ""),
+    "grid": (_Grid, 0.0),
 }
 
 
@@ -104,4 +115,7 @@ def options_of(importing: dict[str, Any]) -> ImportOptions:
 
     values = dict(importing)
     values["layers"] = values.pop("layer") or None
+    values["units"] = values["units"] or ""
+    page = values["page"]
+    values["page"] = int(page) if page is not None and page.isdecimal() else page
     return ImportOptions(**values)

@@ -12,7 +12,7 @@ import typer
 from wallkit.cli.messages import count_by_severity, paint, plain, show_problems, use_colour
 
 if TYPE_CHECKING:
-    from importers.drawing import Drawing, DrawnPath
+    from importers.drawing import Artboard, Drawing, DrawnPath
 
 _WORDS = {"M": "subpath", "L": "line", "Q": "quadratic curve", "C": "cubic curve", "A": "arc"}
 _MOST_LAYERS = 16  # shown; a screen has about forty lines
@@ -26,11 +26,14 @@ def register(app: typer.Typer) -> None:
 def inspect(
     file: Annotated[str, typer.Argument(help="A drawing (Illustrator, EPS, PDF, SVG, pasted text); - is stdin.")],
     as_json: Annotated[bool, typer.Option("--json", help="Write the whole drawing as JSON to stdout.")] = False,
+    page: Annotated[str, typer.Option("--page", help="Page or artboard to read, from 1, or all.")] = "",
+    via: Annotated[str, typer.Option("--via", help="ghostscript: let it run a PostScript program.")] = "",
 ) -> None:
     """Show what FILE holds: layers, paths, boxes, units, and what is left out and why."""
+    from importers.page_choice import page_choice
     from importers.read import read_drawing
 
-    drawing = read_drawing(file)
+    drawing = read_drawing(file, page=page_choice(page, file), via=via)
     if as_json:
         json.dump(drawing.to_json(), sys.stdout, ensure_ascii=False, allow_nan=False)
         sys.stdout.write("\n")
@@ -44,6 +47,7 @@ def describe(drawing: Drawing, colour: bool = False) -> str:
     """Give the one-screen description of a drawing."""
     lines = [paint(plain(drawing.file) or "drawing", "bold", colour) + f": {drawing.kind or 'drawing'}"]
     lines.append(f"  units    {drawing.units}, y axis {drawing.y_axis}")
+    lines += _sheet_lines(drawing)
     lines.append(f"  paths    {_path_counts(drawing.paths)}")
     lines.append(f"  segments {_segment_counts(drawing.paths)}")
     art = [path for path in drawing.paths if not path.guide]  # guides go far beyond what is drawn
@@ -51,6 +55,22 @@ def describe(drawing: Drawing, colour: bool = False) -> str:
     lines += _layer_lines(drawing, colour)
     lines.append(f"  problems {count_by_severity(drawing.problems)}")
     return "\n".join(lines) + "\n"
+
+
+def _sheet_lines(drawing: Drawing) -> list[str]:
+    """Tell the size of the page, as drawn and on paper, and its artboards."""
+    lines = [f"  page     {_size(drawing.sheet, drawing.units)}"] if drawing.sheet is not None else []
+    if len(drawing.artboards) > 1:
+        lines.append(f"  pages    {len(drawing.artboards)} (--page N takes one of them)")
+        shown = drawing.artboards[:_MOST_LAYERS]
+        lines += [f'    {n + 1} "{plain(b.name)}": {_size(b, drawing.units)}' for n, b in enumerate(shown)]
+    return lines
+
+
+def _size(board: Artboard, units: str) -> str:
+    width, height = board.x_max - board.x_min, board.y_max - board.y_min
+    millimetre = {"px": 25.4 / 96, "pt": 25.4 / 72}[units]
+    return f"{width:.6g} by {height:.6g} {units}, {width * millimetre:.5g} by {height * millimetre:.5g} mm"
 
 
 def _path_counts(paths: list[DrawnPath]) -> str:

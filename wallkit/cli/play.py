@@ -33,7 +33,7 @@ def play(
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open it in the browser.")] = True,
     importing: dict[str, Any] | None = None,
 ) -> None:
-    """Open the local page: see walls, aim, shoot, step from bounce to bounce."""
+    """Open the local page: see walls, aim, shoot, step from bounce to bounce. It follows FILE when that is saved."""
     from wallkit.view.page.answers import Answers
     from wallkit.view.page.server import PageServer
 
@@ -55,9 +55,12 @@ def play(
 
 def _first(answers: Answers, file: str, importing: ImportOptions) -> dict[str, Any]:
     from wallkit.cli.scene_input import read_input
+    from wallkit.watch_file import Watch
 
     name = "standard input" if file == "-" else Path(file).name
-    return answers.open(read_input(file), name, Path() if file == "-" else Path(file).parent, importing)
+    if file == "-":
+        return answers.open(read_input(file), name, Path(), importing)
+    return answers.open(read_input(file), name, Path(file).parent, importing, Watch(file))
 
 
 def reader() -> Reader:

@@ -28,9 +28,10 @@ def read_input(file: str) -> bytes:
     return data
 
 
-def opened(file: str, wishes: Wishes) -> OpenedScene:
-    """Open FILE; a scene on standard input finds the files that it names in the working folder."""
-    return open_scene(read_input(file), wishes, name=file, folder=Path() if file == "-" else Path(file).parent)
+def opened(file: str, wishes: Wishes, data: bytes | None = None) -> OpenedScene:
+    """Open FILE, whose bytes may be read already; a scene on standard input finds files in the working folder."""
+    data = read_input(file) if data is None else data
+    return open_scene(data, wishes, name=file, folder=Path() if file == "-" else Path(file).parent)
 
 
 def pair(text: str, option: str) -> tuple[float, float]:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from wallkit.cli import import_options as drawing_options
+from wallkit.cli.watching import watchable
 
 if TYPE_CHECKING:
     from wallkit.scene.opening import OpenedScene
@@ -38,7 +39,7 @@ Bounces = Annotated[
 ]
 Gravity = Annotated[str | None, typer.Option(metavar="GX,GY", help="Units per second squared, in the drawing's axes.")]
 Restitution = Annotated[
-    float | None, typer.Option(metavar="E", help="Part of the normal speed that a bounce leaves.", min=0, max=1)
+    float | None, typer.Option(metavar="E", help="Part of the normal speed that a bounce leaves.", min=0, max=10)
 ]
 Tangential = Annotated[
     float | None,
@@ -64,6 +65,7 @@ def register(app: typer.Typer) -> None:
 
 
 @drawing_options.with_import_options()
+@watchable
 def simulate_file(
     file: File,
     out: Out = None,

@@ -9,6 +9,7 @@ import io
 from pathlib import Path
 from typing import Any
 
+from importers.errors import WallkitError
 from importers.problems import Problem
 from wallkit.export.formats import Format, find_format, formats
 from wallkit.export.level import Level, LevelWall, build_level
@@ -59,11 +60,26 @@ def export_text(walls: Walls, chosen: Format, options: ExportOptions) -> tuple[s
     """Give the text of an export and what it could not say; see :func:`export`."""
     if chosen.entry_point is not None:
         stream = io.StringIO()
-        problems = list(chosen.foreign()(walls, stream, options))
+        problems = _asked(chosen, walls, stream, options)
         return stream.getvalue(), problems
     level = build_level(walls, options, y_axis=chosen.y_axis, arcs=chosen.arcs, metres=chosen.metres)
     text = chosen.write(level)
     return text, level.findings.problems
+
+
+def _asked(chosen: Format, walls: Walls, stream: io.StringIO, options: ExportOptions) -> list[Problem]:
+    """Let another package write, and say so when it fails."""
+    function = chosen.foreign()
+    try:
+        return list(function(walls, stream, options))
+    except WallkitError:
+        raise
+    except Exception as error:
+        raise ExportError(
+            f"the format {chosen.name!r} of {chosen.title} failed: {type(error).__name__}: {error}",
+            code="bad-exporter",
+            fix="repair or remove that package",
+        ) from error
 
 
 def loader_of(chosen: Format) -> str:

@@ -43,7 +43,10 @@ def write(level: Level) -> str:
     space = document.modelspace()
     for wall in level:
         marks = {"layer": layers[wall.layer]}
-        line = space.add_lwpolyline(halved(wall).tolist(), format="xyb", close=wall.closed, dxfattribs=marks)
+        line = space.add_lwpolyline([], close=wall.closed, dxfattribs=marks)
+        corners = halved(wall)
+        widths = np.zeros((len(corners), 2))  # at the start and end of each edge; set at once: appending is quadratic
+        line.lwpoints.set(np.concatenate([corners[:, :2], widths, corners[:, 2:]], axis=1))
         line.set_xdata(APP, _notes(wall))
     stream = io.StringIO()
     document.write(stream)
@@ -80,12 +83,13 @@ def halved(wall: LevelWall) -> FloatArray:
 
     The bulge is tan(angle / 4), so that of half the angle is tan(atan(bulge) / 2).
     """
-    following = np.roll(wall.vertices, -1, axis=0)
+    corners = np.column_stack([wall.vertices, wall.bulges])
     large = np.flatnonzero(np.abs(wall.bulges) > 1)
+    if not len(large):
+        return corners
+    following = np.roll(wall.vertices, -1, axis=0)
     middle = points_on(wall.vertices[large], following[large], wall.bulges[large], np.full(len(large), 0.5))
-    bulges = wall.bulges.copy()
-    bulges[large] = np.tan(np.arctan(bulges[large]) / 2)
-    corners = np.column_stack([wall.vertices, bulges])
-    added = np.column_stack([middle, bulges[large]])
+    corners[large, 2] = np.tan(np.arctan(corners[large, 2]) / 2)
+    added = np.column_stack([middle, corners[large, 2]])
     result: FloatArray = np.insert(corners, large + 1, added, axis=0)
     return result

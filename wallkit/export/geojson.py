@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from wallkit.export.json_text import spread
-from wallkit.export.level import Level, LevelWall, signed_area
+from wallkit.export.level import Level, LevelWall, signed_areas_of
 from wallkit.export.material_shapes import areas_of, is_ring
 
 
@@ -23,10 +23,11 @@ def write(level: Level) -> str:
     areas = [
         _feature({"type": "Polygon", "coordinates": _rings(area.polygon)}, {"kind": kind}) for area in areas_of(level)
     ]
-    return spread({"type": "FeatureCollection", "features": areas + [_wall(wall) for wall in level]}, 2) + "\n"
+    features = areas + [_wall(wall, area) for wall, area in zip(level, signed_areas_of(level.walls), strict=True)]
+    return spread({"type": "FeatureCollection", "features": features}, 2) + "\n"
 
 
-def _wall(wall: LevelWall) -> dict[str, Any]:
+def _wall(wall: LevelWall, area: float) -> dict[str, Any]:
     ring = is_ring(wall)
     properties = {
         "kind": "ring" if ring else "line",
@@ -40,7 +41,7 @@ def _wall(wall: LevelWall) -> dict[str, Any]:
     }
     if not ring:
         return _feature({"type": "LineString", "coordinates": wall.vertices.tolist()}, properties)
-    vertices = wall.vertices if signed_area(wall) >= 0 else wall.vertices[::-1]  # exteriors are counter-clockwise
+    vertices = wall.vertices if area >= 0 else wall.vertices[::-1]  # exteriors are counter-clockwise
     closed = np.concatenate([vertices, vertices[:1]]).tolist()
     if wall.curve is not None:
         properties["arcs"] = wall.curve.tolist()

@@ -7,7 +7,7 @@ of its edges, outward normal (dy, -dx)), whichever way y looks.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -337,6 +337,12 @@ def _say(level: Level, walls: Walls, lines: Walls, placed: Walls, exact: Walls) 
         )
 
 
-def signed_area(wall: LevelWall) -> float:
-    """Signed area of a closed wall: positive for a solid, negative for a hole or a room."""
-    return float(signed_areas(wall.vertices, wall.bulges, np.array([0, len(wall.vertices)]))[0])
+def signed_areas_of(walls: Sequence[LevelWall]) -> list[float]:
+    """Signed area of each wall, an open one as if closed: positive for a solid, negative for a hole or a room."""
+    if not walls:
+        return []
+    offsets = np.concatenate([[0], np.cumsum([len(wall.vertices) for wall in walls])])
+    vertices = np.concatenate([wall.vertices for wall in walls])
+    bulges = np.concatenate([wall.bulges for wall in walls])
+    areas: list[float] = signed_areas(vertices, bulges, offsets).tolist()
+    return areas

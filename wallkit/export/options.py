@@ -18,7 +18,7 @@ class ExportError(WallkitError):
 
 @dataclass(frozen=True, slots=True)
 class ExportOptions:
-    """Options of every export; a format ignores what means nothing to it. Lengths are in the drawing's units.
+    """Options of every export; a format ignores what means nothing to it.
 
     Attributes:
         scale: target units (px, m) per unit of the drawing; None is 1, and for engines that count in metres what
@@ -29,13 +29,14 @@ class ExportOptions:
             Where the y axes differ, y is mirrored about that point; without a page about the end of the box.
         page: (x_min, y_min, x_max, y_max) of the page in the drawing, or None.
         grid: coordinates are rounded to multiples of it, in target units; 0 leaves them.
-        tolerance: largest distance of lines from the arcs that they stand for; None is the walls' own.
+        tolerance: largest distance of lines from the arcs that they stand for, in the drawing's units; None is
+            the walls' own.
         max_vertices: of a convex piece, at least 3.
         min_spacing: vertices nearer to the one before are left out, in target units; None is 0, and 0.0051 m for
             the Box2D family, which merges or refuses nearer ones.
-        arena_frame: width of the material around a room, for formats of convex pieces; None is a tenth of the
-            larger side.
-        thickness: of open walls, for formats that know solids only; None is 0.5 % of the larger side.
+        arena_frame: width of the material around a room, in target units, for formats of convex pieces; None is a
+            tenth of the larger side.
+        thickness: of open walls, in target units, for formats that know solids only; None is 0.5 % of the larger side.
     """
 
     scale: float | None = None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,8 @@ from wallkit.walls import Walls
 from wallkit.walls.import_options import ImportOptions
 from wallkit.walls.importing.drawn_balls import drawn_balls
 from wallkit.walls.importing.pipeline import build_walls
+from wallkit.walls.importing.placing import placed
+from wallkit.walls.walls import ARRAYS
 
 SPEED, ANGLE = 50.0, 30.0
 """Of a ball whose velocity nobody said: units per second, and degrees from the x axis towards the y axis."""
@@ -25,11 +27,12 @@ class Drawn:
     """What a drawing holds.
 
     Attributes:
-        walls: imported; their own ``problems`` are with them.
+        walls: imported; their own ``problems`` are with them, their sensors are not.
         balls: that are drawn; one without a velocity has the usual one.
         still: some ball was drawn without a velocity.
         used: the balls of the scene are these.
         problems: of the balls' drawing.
+        sensors: that are drawn, or None.
     """
 
     walls: Walls
@@ -37,6 +40,7 @@ class Drawn:
     still: bool
     problems: list[Problem]
     used: bool = True
+    sensors: Walls | None = None
 
 
 def drawn_scene(drawing: Drawing, options: ImportOptions, balls: NDArray[np.float64] | None = None) -> Drawn:
@@ -47,7 +51,8 @@ def drawn_scene(drawing: Drawing, options: ImportOptions, balls: NDArray[np.floa
         options: how it becomes walls; scale and flip act on the balls, too.
         balls: (n, 2) places of balls that are not drawn, see :func:`wallkit.walls.importing.pipeline.build_walls`.
     """
-    walls = build_walls(drawing, options, balls)
+    drawing = placed(drawing, options)
+    walls, sensors = apart(build_walls(drawing, options, balls))
     found, problems = drawn_balls(drawing, options.scale, options.flip_y)
     usual = SPEED * math.cos(math.radians(ANGLE)), SPEED * math.sin(math.radians(ANGLE))
     velocity = [usual if ball.velocity is None else ball.velocity for ball in found]
@@ -60,4 +65,29 @@ def drawn_scene(drawing: Drawing, options: ImportOptions, balls: NDArray[np.floa
         ),
         any(ball.velocity is None for ball in found),
         problems,
+        sensors=sensors,
     )
+
+
+def apart(walls: Walls) -> tuple[Walls, Walls | None]:
+    """Part walls from the sensors that came with them: a scene has each in its own place."""
+    return (walls, None) if walls.sensors is None else (replace(walls, sensors=None), walls.sensors)
+
+
+def together(first: Walls | None, second: Walls | None) -> Walls | None:
+    """Put walls behind others, in the units and axes of the first."""
+    if first is None or second is None:
+        return second if first is None else first
+    parts = [*first, *second]
+    made = Walls.from_polylines(
+        [wall.vertices for wall in parts],
+        [wall.closed for wall in parts],
+        bulges=[wall.bulges for wall in parts],
+        sides=[wall.sides for wall in parts],
+        material=[wall.material for wall in parts],
+        names=[wall.name for wall in parts],
+        layers=[wall.layer for wall in parts],
+        origins=[wall.origin for wall in parts],
+    )
+    made.depth = np.concatenate([first.depth, second.depth])
+    return replace(first, **{name: getattr(made, name) for name in ARRAYS})

@@ -7,20 +7,23 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from importers.drawing import Drawing
 from importers.errors import WallkitError
 from importers.problems import Problem
+from wallkit import arguments
 from wallkit.scene.ball_findings import ball_findings
-from wallkit.scene.drawn_scene import ANGLE, SPEED, Drawn, drawn_scene
+from wallkit.scene.drawn_scene import ANGLE, SPEED, Drawn, apart, drawn_scene
 from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Walls
 from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
+from wallkit.walls.origins import Marker
 
 if TYPE_CHECKING:
     from wallkit.scene.scene_files import SceneFile
@@ -75,10 +78,11 @@ class Wishes:
     may_be_empty: bool = False
 
     def __post_init__(self) -> None:
+        for name, check in _WISHES.items():
+            if (value := getattr(self, name)) is not None:
+                object.__setattr__(self, name, check(value, as_option(name)))
         if self.ball and self.balls is not None:
             raise UsageError("--ball and --balls do not go together", code="usage", fix="give places or a number")
-        if self.balls is not None and self.balls < 1:
-            raise UsageError(f"--balls is {self.balls}", code="usage", fix="give 1 or more")
         if self.velocity is not None and (self.speed is not None or self.angle is not None):
             raise UsageError("--velocity and --speed or --angle do not go together", code="usage", fix="give one way")
 
@@ -86,6 +90,58 @@ class Wishes:
     def moves(self) -> bool:
         """A velocity is asked for, or a part of one."""
         return not (self.velocity is None and self.speed is None and self.angle is None)
+
+
+def _number(least: float = -math.inf, most: float = math.inf) -> Callable[[Any, str], float]:
+    above = "" if least == -math.inf else f" from {least:g}"
+    may_be = f"a finite number{above}" + ("" if most == math.inf else f" to {most:g}")
+    return lambda value, name: arguments.number(
+        value, name, may_be, error=UsageError, code="usage", least=least, most=most
+    )
+
+
+def _whole(least: int) -> Callable[[Any, str], int]:
+    may_be = f"a whole number, {least} or more"
+    return lambda value, name: arguments.whole_number(value, name, may_be, error=UsageError, code="usage", least=least)
+
+
+def _pair(value: Any, name: str) -> tuple[float, float]:
+    may_be = "two finite numbers"
+    pair = arguments.floats(value, name, may_be, error=UsageError, code="usage")
+    if pair.shape != (2,) or not np.isfinite(pair).all():
+        raise arguments.refused(name, value, may_be, UsageError, "usage")
+    return float(pair[0]), float(pair[1])
+
+
+def _places(value: Any, name: str) -> tuple[tuple[float, float], ...]:
+    arguments.of_type(value, name, (tuple, list, np.ndarray), "a list of (x, y)", error=UsageError, code="usage")
+    return tuple(_pair(place, name) for place in value)
+
+
+def _importing(value: Any, name: str) -> ImportOptions:
+    arguments.of_type(value, name, ImportOptions, "ImportOptions", error=UsageError, code="usage")
+    options: ImportOptions = value
+    return options
+
+
+_WISHES: dict[str, Callable[[Any, str], Any]] = {
+    "ball": _places,
+    "velocity": _pair,
+    "speed": _number(),
+    "angle": _number(),
+    "radius": _number(least=0.0),
+    "balls": _whole(1),
+    "seed": _whole(0),
+    "gravity": _pair,
+    "restitution": _number(0.0, 1.0),
+    "tangential_restitution": _number(0.0, 1.0),
+    "friction": _number(least=0.0),
+    "drag": _number(least=0.0),
+    "until": _number(least=0.0),
+    "bounces": _whole(0),
+    "importing": _importing,
+    "may_be_empty": lambda value, name: arguments.flag(value, name, error=UsageError, code="usage"),
+}
 
 
 @dataclass(slots=True)
@@ -131,6 +187,11 @@ def open_scene(
     Raises:
         WallkitError: it cannot be read, a wish cannot be met, or there is no room for a ball.
     """
+    may_be = "a path, bytes or a Drawing"
+    arguments.of_type(source, "source", (str, Path, bytes, Drawing), may_be, error=UsageError, code="usage")
+    arguments.of_type(wishes, "wishes", (Wishes, type(None)), "Wishes or None", error=UsageError, code="usage")
+    arguments.text(name, "name", error=UsageError, code="usage")
+    arguments.of_type(folder, "folder", (Path, type(None)), "a pathlib.Path or None", error=UsageError, code="usage")
     wishes = wishes or Wishes()
     if isinstance(source, Drawing):
         return _of_drawing(source, wishes)
@@ -144,7 +205,7 @@ def open_scene(
 
         stream = io.BytesIO(source)
         stream.name = name
-        return _of_drawing(read_drawing(stream), wishes)
+        return _of_drawing(read_drawing(stream, page=wishes.importing.page), wishes)
     if kind == "walls":
         from wallkit.walls.walls_json import loads
 
@@ -176,14 +237,15 @@ def _given(wishes: Wishes) -> np.ndarray | None:
 
 def _of_drawing(drawing: Drawing, wishes: Wishes) -> OpenedScene:
     drawn = drawn_scene(drawing, wishes.importing, _given(wishes))
-    opened = OpenedScene(Scene(drawn.walls, drawn.balls), None, None, drawing.kind or "drawing", drawn.problems)
+    scene = Scene(drawn.walls, drawn.balls, sensors=drawn.sensors)
+    opened = OpenedScene(scene, None, None, drawing.kind or "drawing", drawn.problems)
     opened.drawing = drawing
     return _completed(opened, drawn, wishes)
 
 
 def _of_walls(walls: Walls, wishes: Wishes) -> OpenedScene:
-    walls = _repaired(walls, wishes.importing, "walls")
-    return _completed(OpenedScene(Scene(walls), None, None, "walls", []), None, wishes)
+    walls, sensors = apart(_repaired(walls, wishes.importing, "walls"))
+    return _completed(OpenedScene(Scene(walls, sensors=sensors), None, None, "walls", []), None, wishes)
 
 
 def _of_scene_file(read: SceneFile, wishes: Wishes) -> OpenedScene:
@@ -238,8 +300,18 @@ def _completed(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> Open
         drag=scene.drag if wishes.drag is None else wishes.drag,
     )
     about_balls = [] if opened.found_place else ball_findings(walls, balls)
-    opened.problems = [*walls.problems, *opened.problems, *about_balls]
+    opened.problems = [*walls.problems, *opened.problems, *about_balls, *_bumpers(opened.scene.walls)]
     return opened
+
+
+def _bumpers(walls: Walls) -> list[Problem]:
+    """Say that energy grows, where it does."""
+    count = sum(material.restitution > 1.0 for material in walls.materials)
+    if not count:
+        return []
+    words = "1 wall has" if count == 1 else f"{count} walls have"
+    message = f"{words} a restitution above 1: each bounce there adds energy, and without an end a ball may collapse"
+    return [Problem("energy-grows", "info", message, "nothing to do for a bumper; else give 1 or less")]
 
 
 def _with_material(walls: Walls, wishes: Wishes) -> Walls:
@@ -260,6 +332,9 @@ def _walls_and_balls(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -
         return walls, Balls(np.array(wishes.ball), np.tile(velocity, (len(wishes.ball), 1)), wishes.radius or 0.0)
     if wishes.balls is None and len(balls):
         return walls, _changed(balls, drawn, wishes, assumed)
+    spawn = next((marker for marker in walls.markers if marker.kind == "spawn"), None)
+    if spawn is not None and wishes.balls is None:
+        return walls, _at_the_spawn(spawn, wishes, assumed)
     return _at_the_roomiest_spot(opened, wishes)
 
 
@@ -273,6 +348,14 @@ def _changed(balls: Balls, drawn: Drawn | None, wishes: Wishes, assumed: list[st
     if drawn is not None and drawn.used:
         assumed.append(f"{len(balls)} {'ball' if len(balls) == 1 else 'balls'} drawn on the layer 'balls'")
     return Balls(balls.position, balls.velocity, wishes.radius) if wishes.radius is not None else balls
+
+
+def _at_the_spawn(spawn: Marker, wishes: Wishes, assumed: list[str]) -> Balls:
+    """Give one ball where the drawing says that balls start, as large as the circle that says so."""
+    radius = spawn.radius if wishes.radius is None else wishes.radius
+    called = f"the spawn {spawn.name!r}" if spawn.name else "the spawn"
+    assumed.append(f"one ball of radius {radius:g} at {called}, ({spawn.x:.6g}, {spawn.y:.6g}) (--ball, --radius)")
+    return Balls([[spawn.x, spawn.y]], [_velocity(wishes, assumed)], radius)
 
 
 def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, Balls]:

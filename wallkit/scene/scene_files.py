@@ -19,9 +19,13 @@ import numpy as np
 
 from importers.limits import check_input_size
 from wallkit.geometry.arrays import FloatArray
+from wallkit.scene.drawn_scene import apart, drawn_scene, together
 from wallkit.scene.scene import Balls, Scene, SceneError
+from wallkit.scene.scene_rules import RULE_KEYS, Rule, Ruled, named, painted
 from wallkit.walls import Material, Walls
+from wallkit.walls.fields import MOST_RESTITUTION
 from wallkit.walls.import_options import ImportOptions, option_names
+from wallkit.walls.origins import ORIGIN_KEYS, Origin
 from wallkit.walls.walls import WallsError
 from wallkit.walls.walls_json import from_json, load, to_json
 
@@ -32,7 +36,6 @@ if TYPE_CHECKING:
 
 Kind = Literal["drawing", "walls", "scene"]
 
-_MATERIAL = ("restitution", "tangential_restitution", "static_friction")
 _TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
 
@@ -163,7 +166,7 @@ class _Reader:
 
     def scene_file(self, table: dict[str, Any]) -> SceneFile:
         known = {"format", "version", "walls", "drawing", "import", "gravity", "rolling_friction", "drag", "sensors",
-                 "materials", "balls", "run", "y_axis"}  # fmt: skip
+                 "materials", "colours", "balls", "run", "y_axis"}  # fmt: skip
         self.known_keys(table, known, "")
         if table.get("format", "wallkit-scene") != "wallkit-scene":
             self.wrong.append(f"format: {table['format']!r} is not 'wallkit-scene'")
@@ -177,10 +180,12 @@ class _Reader:
             balls = drawn.balls
         elif drawn is not None:
             drawn = replace(drawn, used=False, still=False)
-        self.materials(walls, table.get("materials", []))
+        self.materials(walls, table)
         gravity = self.pair(table["gravity"], "gravity") if "gravity" in table else None
         slowing = {key: self.number(table[key], key, least=0.0) for key in ("rolling_friction", "drag") if key in table}
-        walls, sensors = self.sensors(walls, table["sensors"]) if "sensors" in table else (walls, None)
+        walls, sensors = apart(walls) if drawn is None else (walls, drawn.sensors)
+        if "sensors" in table:
+            walls, sensors = self.sensors(walls, sensors, table["sensors"])
         run = self.table(table.get("run", {}), "run")
         self.known_keys(run, {"until", "bounces"}, "run.")
         until = self.number(run["until"], "run.until", least=0.0) if "until" in run else None
@@ -278,9 +283,8 @@ class _Reader:
         if path is None:
             return None
         from importers.read import read_drawing
-        from wallkit.scene.drawn_scene import drawn_scene
 
-        self.drawing = read_drawing(path)
+        self.drawing = read_drawing(path, page=self.options.page)
         return drawn_scene(self.drawing, self.options, balls if self.places is None else self.places)
 
     def path(self, value: Any, key: str) -> Path | None:
@@ -295,7 +299,7 @@ class _Reader:
     def polylines(self, value: Any, name: str = "walls") -> Walls | None:
         before = len(self.wrong)
         rows = self.rows(value, name)
-        keys = {"vertices", "bulges", "closed", "name", "layer", "sides", "material"}
+        keys = {"vertices", "bulges", "closed", "name", "layer", "sides", "material", *ORIGIN_KEYS}
         for key, row in rows:
             self.known_keys(row, keys, f"{key}.")
         if len(self.wrong) > before:
@@ -309,54 +313,57 @@ class _Reader:
                 material=[self.material(row.get("material", {}), f"{key}.material") for key, row in rows],
                 names=[self.text(row.get("name", ""), f"{key}.name") for key, row in rows],
                 layers=[self.text(row.get("layer", ""), f"{key}.layer") for key, row in rows],
+                origins=[Origin.of_json(row) for _, row in rows],
             )
         except (ValueError, TypeError):
-            self.wrong.append(f"{name}: vertices are lists of [x, y]")
+            self.wrong.append(f"{name}: vertices are lists of [x, y], groups and tags of texts")
             return None
 
-    def sensors(self, walls: Walls, value: Any) -> tuple[Walls, Walls | None]:
-        """Give the walls left, and the sensors: polylines of their own, or the walls that globs name."""
+    def sensors(self, walls: Walls, drawn: Walls | None, value: Any) -> tuple[Walls, Walls | None]:
+        """Give the walls left, and the sensors: saved ones, or those drawn and polylines or walls that globs name."""
         if isinstance(value, dict):
             return walls, from_json(value, self.file)
         if not isinstance(value, list) or not all(isinstance(glob, str) for glob in value):
-            return walls, self.polylines(value, "sensors")
+            return walls, together(drawn, self.polylines(value, "sensors"))
         fits = [any(fnmatchcase(word, glob) for word in (walls.layers[index], walls.names[index]) for glob in value)
                 for index in range(len(walls))]  # fmt: skip
         if len(walls) and not any(fits):
             self.wrong.append(f"sensors: no wall has a name or layer like {', '.join(map(repr, value))}")
-        return _chosen(walls, [not fit for fit in fits]), _chosen(walls, fits)
+        return walls.take(np.logical_not(fits)), together(drawn, walls.take(np.array(fits, dtype=np.bool_)))
 
-    def material(self, value: Any, key: str, base: Material | None = None) -> Material:
-        base = base or Material()
-        table = self.table(value, key)
-        names = ("restitution", "tangential_restitution")
-        given = {name: self.number(table[name], f"{key}.{name}", 0.0, 1.0) for name in names if name in table}
-        if "static_friction" in table:
-            given["static_friction"] = self.number(table["static_friction"], f"{key}.static_friction", 0.0)
-        return replace(base, **given)
+    def material(self, value: Any, key: str) -> Material:
+        return Material(**self.restitutions(self.table(value, key), key))
 
-    def materials(self, walls: Walls, value: Any) -> None:
-        """Give walls their materials by globs on layer and name; where several match, the last one wins."""
-        found = list(walls.materials)
-        for key, row in self.rows(value, "materials"):
-            self.known_keys(row, {"layer", "wall", *_MATERIAL}, f"{key}.")
-            layer, name = (
-                self.text(row.get("layer", "*"), f"{key}.layer"),
-                self.text(row.get("wall", "*"), f"{key}.wall"),
-            )
-            numbers = {word: row[word] for word in _MATERIAL if word in row}
-            before = len(self.wrong)
-            self.material(numbers, key)
-            if len(self.wrong) > before:
-                continue
-            matched = False
-            for index in range(len(walls)):
-                if fnmatchcase(walls.layers[index], layer) and fnmatchcase(walls.names[index], name):
-                    found[index] = self.material(numbers, key, found[index])
-                    matched = True
-            if not matched and len(walls):
-                self.wrong.append(f"{key}: no wall has the name {name!r} on a layer {layer!r}")
-        walls.materials = tuple(found)
+    def restitutions(self, table: dict[str, Any], key: str) -> dict[str, float]:
+        most = {"restitution": MOST_RESTITUTION, "tangential_restitution": 1.0, "static_friction": math.inf}
+        return {name: self.number(table[name], f"{key}.{name}", 0.0, most[name]) for name in most if name in table}
+
+    def materials(self, walls: Walls, table: dict[str, Any]) -> None:
+        """Give walls their materials and sides by their colours, then by globs; see scene_rules.py."""
+        ruled = Ruled(walls)
+        colours = self.table(table.get("colours", {}), "colours")
+        for colour, row in colours.items():
+            key = f"colours.{colour}"
+            rule = self.rule(row, key, RULE_KEYS)
+            fits = painted(walls, colour)
+            ruled.apply(rule, fits)
+            if not fits and len(walls):
+                self.wrong.append(f"{key}: no wall is painted so")
+        for key, row in self.rows(table.get("materials", []), "materials"):
+            rule = self.rule(row, key, ("layer", "group", "wall", *RULE_KEYS))
+            layer, group, name = (self.text(row.get(word, "*"), f"{key}.{word}") for word in ("layer", "group", "wall"))
+            fits = named(walls, layer, group, name)
+            ruled.apply(rule, fits)
+            if not fits and len(walls):
+                among = "" if group == "*" else f" in a group {group!r}"
+                self.wrong.append(f"{key}: no wall has the name {name!r}{among} on a layer {layer!r}")
+        ruled.finish()
+
+    def rule(self, value: Any, key: str, keys: tuple[str, ...]) -> Rule:
+        row = self.table(value, key)
+        self.known_keys(row, set(keys), f"{key}.")
+        sides = self.one_of(row["sides"], f"{key}.sides", ("both", "outward")) if "sides" in row else None
+        return Rule(**self.restitutions(row, key), sides=sides)
 
     def balls(self, value: Any) -> Balls:
         rows = self.rows(value, "balls")
@@ -367,23 +374,6 @@ class _Reader:
             velocity[index] = self.pair(row.get("velocity", [0.0, 0.0]), f"{key}.velocity")
             radius[index] = self.number(row.get("radius", 0.0), f"{key}.radius", least=0.0)
         return Balls(position, velocity, radius)
-
-
-def _chosen(walls: Walls, keep: list[bool]) -> Walls:
-    """Give some of the walls, everything else about them as it was."""
-    which = [index for index, kept in enumerate(keep) if kept]
-    spans = [slice(walls.offsets[index], walls.offsets[index + 1]) for index in which]
-    part = Walls.from_polylines(
-        [walls.vertices[span] for span in spans],
-        [bool(walls.closed[index]) for index in which],
-        bulges=[walls.bulges[span] for span in spans],
-        sides=[walls.sides[index] for index in which],
-        material=[walls.materials[index] for index in which],
-        names=[walls.names[index] for index in which],
-        layers=[walls.layers[index] for index in which],
-    )
-    taken = ("vertices", "offsets", "closed", "bulges", "sides", "materials", "names", "layers")
-    return replace(walls, depth=walls.depth[which], **{name: getattr(part, name) for name in taken})
 
 
 def scene_to_json(scene: Scene, until: float | None = None, bounces: int | None = None) -> dict[str, Any]:
@@ -402,5 +392,5 @@ def scene_to_json(scene: Scene, until: float | None = None, bounces: int | None 
         **({"sensors": to_json(scene.sensors)} if scene.sensors is not None else {}),
         **({"run": run} if run else {}),
         "balls": [{"position": p, "velocity": v, "radius": r} for p, v, r in balls],
-        "walls": to_json(scene.walls),
+        "walls": to_json(apart(scene.walls)[0]),
     }

@@ -8,9 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wallkit.scene.scene import Balls, Scene
+from wallkit.arguments import floats, number, of_type, refused, whole_number
+from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.simulation.prepared import prepare, prepare_again
-from wallkit.simulation.survey import Totals, survey
+from wallkit.simulation.simulate import limits
+from wallkit.simulation.survey import Totals, check_threads, survey
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,12 +27,26 @@ class RandomBalls:
         speed: of all, units per second.
         radius: of all.
         seed: any whole number, 0 or more.
+
+    Raises:
+        SceneError: the box is none, or a number is out of range.
     """
 
     box: tuple[float, float, float, float]
     speed: float = 1.0
     radius: float = 0.0
     seed: int = 0
+
+    def __post_init__(self) -> None:
+        may_be = "four finite numbers, (x_min, y_min, x_max, y_max)"
+        box = floats(self.box, "box", may_be, error=SceneError, code="bad-balls")
+        if box.shape != (4,) or not np.isfinite(box).all() or (box[2:] < box[:2]).any():
+            raise refused("box", self.box, may_be, SceneError, "bad-balls")
+        for name in ("speed", "radius"):
+            may_be = "a finite number, 0 or more"
+            number(getattr(self, name), name, may_be, error=SceneError, code="bad-balls", least=0.0)
+        may_be = "a whole number, 0 or more"
+        whole_number(self.seed, "seed", may_be, error=SceneError, code="bad-balls", least=0)
 
     def __call__(self, first: int, count: int) -> Balls:
         """Draw balls ``first`` to ``first + count``."""
@@ -61,7 +77,32 @@ def survey_stream(
         bounces: as for ``survey``.
         threads: as for ``survey``.
         chunk: balls at a time, at some 200 bytes each.
+
+    Raises:
+        SceneError: at once for an argument that is none of what may be; with the first chunk as ``survey``.
     """
+    of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
+    if not callable(draw):
+        may_be = "a function of a first number and a count that returns Balls, such as RandomBalls"
+        raise refused("draw", draw, may_be, SceneError, "bad-argument")
+    may_be = "a whole number, 0 or more"
+    count = whole_number(count, "count", may_be, error=SceneError, code="bad-argument", least=0)
+    may_be = "a whole number, 1 or more"
+    chunk = whole_number(chunk, "chunk", may_be, error=SceneError, code="bad-argument", least=1)
+    limits(until, bounces)
+    check_threads(threads)
+    return _surveyed(scene, draw, count, until, bounces, threads, chunk)
+
+
+def _surveyed(
+    scene: Scene,
+    draw: Callable[[int, int], Balls],
+    count: int,
+    until: float | None,
+    bounces: int | None,
+    threads: int | None,
+    chunk: int,
+) -> Iterator[Totals]:
     ready = None
     for first in range(0, count, chunk):
         balls = draw(first, min(chunk, count - first))

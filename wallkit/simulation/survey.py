@@ -80,9 +80,7 @@ def survey(
         SceneError: neither limit was given, an argument is none of what may be, or the scene cannot be simulated.
     """
     limit_time, limit_bounces = limits(until, bounces)
-    if threads is not None:
-        may_be = "a whole number, 1 or more, or None for one a core"
-        threads = whole_number(threads, "threads", may_be, error=SceneError, code="bad-threads", least=1)
+    threads = check_threads(threads)
     _check_executor(executor)
     of_type(
         scene, "scene", (Scene, Prepared), "a Scene, or what prepare() made of one", error=SceneError, code="bad-scene"
@@ -97,6 +95,14 @@ def survey(
         found += other
     hits, crossings = found[: len(scene.walls)], found[len(scene.walls) :].reshape(-1, 2)
     return Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings)
+
+
+def check_threads(threads: int | None) -> int | None:
+    """Return how many threads are wanted, None for one a core; refuse anything else."""
+    may_be = "a whole number, 1 or more, or None for one a core"
+    if threads is None:
+        return None
+    return whole_number(threads, "threads", may_be, error=SceneError, code="bad-threads", least=1)
 
 
 def _check_executor(executor: object) -> None:

@@ -11,14 +11,16 @@ import tempfile
 from collections import deque
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
 from importers.errors import WallkitError
+from wallkit.arguments import ABOVE_0, number, of_type, refused, word
 from wallkit.geometry.arrays import FloatArray
+from wallkit.simulation.run import Run
 from wallkit.view.canvas import Command, Disc, Item, Label, Shape
 from wallkit.view.frame import Frame
 from wallkit.view.picture import draw_walls, finish, round_length, started
@@ -26,9 +28,6 @@ from wallkit.view.raster import Raster
 from wallkit.view.run_picture import draw_sensors, scene_box
 from wallkit.view.theme import RAMP_STEPS, Theme
 from wallkit.view.tracks import arrays_of, tracks
-
-if TYPE_CHECKING:
-    from wallkit.simulation.run import Run
 
 Progress = Callable[[float], None]
 
@@ -64,8 +63,15 @@ def film(
         progress: called with the part done, 0 to 1.
 
     Raises:
-        FilmError: no ffmpeg, or it failed.
+        FilmError: no ffmpeg, or it failed, or an argument is none of what may be.
     """
+    of_type(run, "run", Run, "a Run", error=FilmError, code="bad-argument")
+    word(kind, "kind", tuple(_RATES), error=FilmError, code="bad-argument")
+    may_be = "seconds, more than 0 and at most 3600"
+    number(seconds, "seconds", may_be, error=FilmError, code="bad-argument", least=ABOVE_0, most=3600.0)
+    word(theme, "theme", get_args(Theme), error=FilmError, code="bad-argument")
+    if progress is not None and not callable(progress):
+        raise refused("progress", progress, "a function of one number, or None", FilmError, "bad-argument")
     frames = _Frames(run, _RATES[kind], seconds, theme, progress)
     return _gif(frames) if kind == "gif" else _mp4(frames)
 
@@ -101,8 +107,8 @@ class _Frames:
         times = contacts["time"]
         trails: list[deque[tuple[float, float, float]]] = [deque() for _ in self.run.ending[:_TRAILS]]
         passed = 0
-        for number in range(self.count):
-            time = number / self.fps * self.speedup
+        for frame in range(self.count):
+            time = frame / self.fps * self.speedup
             upto = int(np.searchsorted(times, time, side="right"))
             for contact in contacts[passed:upto] if len(self.run.ending) <= _TRAILS else ():
                 place = self.frame.point(float(contact["x"]), float(contact["y"]))
@@ -111,7 +117,7 @@ class _Frames:
             balls = self.frame.points(self.run.position(time))
             yield self._frame(time, balls, trails, contacts[max(0, upto - 200) : upto])
             if self.progress:
-                self.progress((number + 1) / self.count)
+                self.progress((frame + 1) / self.count)
 
     def _frame(
         self, time: float, balls: FloatArray, trails: list[deque[tuple[float, float, float]]], recent: NDArray[Any]

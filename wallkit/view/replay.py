@@ -9,6 +9,8 @@ from html import escape
 
 import numpy as np
 
+from importers.errors import WallkitError
+from wallkit.arguments import of_type, text, whole_number
 from wallkit.simulation.run import Run
 from wallkit.view.frame import Box
 from wallkit.view.page import look
@@ -31,7 +33,14 @@ def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS) 
         run: what is shown.
         title: the document's title; the source's name by default.
         max_contacts: the largest number of contacts to carry.
+
+    Raises:
+        WallkitError: an argument is none of what may be.
     """
+    of_type(run, "run", Run, "a Run", error=WallkitError, code="bad-argument")
+    text(title, "title", error=WallkitError, code="bad-argument")
+    may_be = "a whole number, 1 or more"
+    whole_number(max_contacts, "max_contacts", may_be, error=WallkitError, code="bad-argument", least=1)
     shown, left_out = thinned(run, max_contacts)
     name = title or run.scene.walls.source_file or "wallkit replay"
     data = {

@@ -13,6 +13,7 @@ from importers.errors import WallkitError
 from importers.problems import Problem
 from wallkit import arguments
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.walls.origins import Marker, Origin
 
 Sides = Literal["both", "outward"]
 
@@ -21,12 +22,16 @@ class WallsError(WallkitError):
     """Arrays given as walls do not describe walls."""
 
 
+MOST_RESTITUTION = 10.0
+
+
 @dataclass(frozen=True, slots=True)
 class Material:
     """How a wall gives a ball back.
 
     Attributes:
-        restitution: 0 to 1, the part of the normal speed that a bounce leaves.
+        restitution: 0 to 10, the part of the normal speed that a bounce leaves. Above 1 the wall is a bumper, and
+            energy grows: between bumpers a ball makes endless bounces in a finite time, and ends as a collapse.
         tangential_restitution: 0 to 1, the same along the wall. 0.9 for both slows a ball down by 10 %.
         static_friction: 0 or more, the coefficient of the friction that holds a ball which stands on the wall under
             gravity: the tangent of the steepest slope on which it stays. One that moves along the wall is not slowed.
@@ -37,9 +42,9 @@ class Material:
     static_friction: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("restitution", "tangential_restitution"):
-            given, may_be = getattr(self, name), "a number from 0 to 1"
-            arguments.number(given, name, may_be, error=WallsError, code="bad-material", least=0.0, most=1.0)
+        for name, most in (("restitution", MOST_RESTITUTION), ("tangential_restitution", 1.0)):
+            given, may_be = getattr(self, name), f"a number from 0 to {most:g}"
+            arguments.number(given, name, may_be, error=WallsError, code="bad-material", least=0.0, most=most)
         given, may_be = self.static_friction, "a finite number, 0 or more"
         arguments.number(given, "static_friction", may_be, error=WallsError, code="bad-material", least=0.0)
 
@@ -65,7 +70,7 @@ def bulges_of(bulges: ArrayLike | None, length: int, index: int) -> FloatArray:
         raise WallsError(
             f"bulges of polyline {index} have the shape {array.shape}", code="bad-bulges", fix=f"give {may_be}"
         )
-    return array
+    return array + 0.0  # a line has the bulge 0, not -0: files leave the bulges of lines away
 
 
 def each(value: Any, count: int, name: str) -> list[Any]:
@@ -176,6 +181,8 @@ CHECKS: dict[str, Callable[[Any], Any]] = {
     "materials": _all_of("materials", Material, "a Material, or one a wall"),
     "names": _all_of("names", str, "a text, or one a wall"),
     "layers": _all_of("layers", str, "a text, or one a wall"),
+    "origins": _all_of("origins", Origin, "an Origin, or one a wall"),
+    "markers": _all_of("markers", Marker, "a list of Markers"),
     "y_axis": _y_axis,
     "tolerance": _length("tolerance"),
     "measured_error": _length("measured_error"),

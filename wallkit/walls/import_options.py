@@ -10,17 +10,20 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Any, Literal, TypedDict
+from typing import Any, Literal, TypedDict, get_args
 
+from importers.page_choice import PageChoice
 from wallkit.walls.repairing.passes import Repairs
 from wallkit.walls.walls import Sides, WallsError
 
 Curves = Literal["lines", "arcs"]
+Units = Literal["", "px", "pt", "mm", "cm", "m", "in"]
+"""``""`` for those of the file."""
 
 _FLAGS = (
     "hidden", "unpainted", "outline_strokes", "arena", "solid", "flip_y", "join", "drop_duplicates", "resolve", "union",
 )  # fmt: skip
-_LENGTHS = ("snap", "min_width", "simplify")
+_LENGTHS = ("snap", "min_width", "simplify", "grid")
 REPAIRS = ("snap", "join", "drop_duplicates", "resolve", "union", "min_width", "simplify")
 """These act on walls that are no drawing any more, too."""
 
@@ -48,6 +51,10 @@ class ImportWishes(TypedDict, total=False):
     min_width: float
     simplify: float
     repairs: Repairs | None
+    page: PageChoice
+    units: Units
+    origin: str
+    grid: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +83,11 @@ class ImportOptions:
         union: repair: overlapping and touching solids become one.
         min_width: repair: closed walls that no disc of this diameter fits into go; drawing's units.
         simplify: repair: vertices go where the wall then moves by at most this; drawing's units.
+        page: which page or artboard, from 1; ``"all"`` for all; None as :func:`importers.read.read_drawing` has it.
+        units: of all lengths and places, by the drawing's physical size; then the drawing's units are these.
+        origin: what becomes (0, 0): ``"page"`` and ``"box"`` for the corner of smallest coordinates of the page, or of
+            the box of what is visible; ``"X,Y"`` for that point, in these units; ``""`` leaves it.
+        grid: vertices go to the nearest multiples of this, in the units of the result; 0 leaves them.
 
     Raises:
         WallsError: a value is none that may be; the message names the key, what was given and what may be.
@@ -100,6 +112,10 @@ class ImportOptions:
     union: bool = False
     min_width: float = 0.0
     simplify: float = 0.0
+    page: PageChoice = None
+    units: Units = ""
+    origin: str = ""
+    grid: float = 0.0
 
     def __post_init__(self) -> None:
         for name in _FLAGS:
@@ -112,6 +128,8 @@ class ImportOptions:
         self._number("scale", least=0.0, above=True)
         self._word("curves", ("lines", "arcs"))
         self._word("sides", ("both", "outward"))
+        self._word("units", get_args(Units))
+        self._place()
         self._names()
         said = [name for name in ("arena", "solid", "room") if getattr(self, name)]
         if len(said) > 1:
@@ -165,6 +183,16 @@ class ImportOptions:
         if getattr(self, name) not in words:
             raise self._wrong(name, "give " + " or ".join(f'"{word}"' for word in words))
 
+    def _place(self) -> None:
+        page = self.page
+        whole = isinstance(page, int) and not isinstance(page, bool) and page >= 1
+        if not (page is None or page == "all" or whole):
+            raise self._wrong("page", "give a number from 1, or all")
+        if not isinstance(self.origin, str) or (
+            self.origin not in ("", "page", "box") and point_of(self.origin) is None
+        ):
+            raise self._wrong("origin", "give page, box, or X,Y")
+
     def _names(self) -> None:
         if not isinstance(self.room, str):
             raise self._wrong("room", "give a wall's name or a glob")
@@ -177,6 +205,15 @@ class ImportOptions:
 
     def _wrong(self, name: str, fix: str) -> WallsError:
         return WallsError(f"{name} is {getattr(self, name)!r}", code="bad-option", fix=fix)
+
+
+def point_of(text: str) -> tuple[float, float] | None:
+    """Read ``X,Y``; None where it is something else."""
+    try:
+        x, y = map(float, text.split(","))
+    except ValueError:
+        return None
+    return (x, y) if math.isfinite(x) and math.isfinite(y) else None
 
 
 def option_names() -> tuple[str, ...]:

@@ -154,10 +154,15 @@ def _by_paint(nested: Nested, home: IntArray, agreed: bool) -> Solid | None:
 
 
 def _named(nested: Nested, name: str) -> Solid:
+    from wallkit.walls.roles import plain_name
     from wallkit.walls.walls import WallsError
 
     closed = np.flatnonzero(nested.edges.closed).tolist()
-    fits = [index for index in closed if fnmatchcase(nested.paths[index].name, name)]
+    fits = [
+        index
+        for index in closed
+        if any(fnmatchcase(called, name) for called in (nested.paths[index].name, plain_name(nested.paths[index].name)))
+    ]
     if not fits:
         known = ", ".join(sorted({repr(nested.paths[index].name) for index in closed if nested.paths[index].name}))
         raise WallsError(

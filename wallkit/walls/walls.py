@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import IO, Any, Literal
@@ -18,7 +18,13 @@ from wallkit.walls.fields import CHECKS, bulges_of, check_count, each, flags, po
 from wallkit.walls.fields import Material as Material
 from wallkit.walls.fields import Sides as Sides
 from wallkit.walls.fields import WallsError as WallsError
+from wallkit.walls.origins import NOWHERE
+from wallkit.walls.origins import Marker as Marker
+from wallkit.walls.origins import Origin as Origin
 from wallkit.walls.solid import Solid
+
+ARRAYS = ("vertices", "offsets", "closed", "bulges", "depth", "sides", "materials", "names", "layers", "origins")
+"""What there is of each vertex or wall, and not of all walls together."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -34,6 +40,7 @@ class Wall:
     vertices: FloatArray
     bulges: FloatArray
     normals: FloatArray
+    origin: Origin = NOWHERE
 
     def __repr__(self) -> str:
         words = "closed" if self.closed else "open"
@@ -83,6 +90,10 @@ class Walls(Pictured):
         source_sha256: hex digest of the drawing's bytes, or ``""``.
         problems: what was found on the way from the drawing.
         solid: whether the outermost walls are rooms, how that was decided and why; None for walls given as numbers.
+        origins: W origins: the title, groups, colours and tags of each wall.
+        markers: named places: spawns and targets.
+        sensors: what words of the drawing made sensors, in the same units; None without any. ``open_scene`` moves
+            them into the scene.
 
     Raises:
         WallsError: an array has a wrong shape or a number that is not finite, or a word or a material is none.
@@ -106,15 +117,22 @@ class Walls(Pictured):
     source_sha256: str = ""
     problems: list[Problem] = field(default_factory=list)
     solid: Solid | None = None
+    origins: tuple[Origin, ...] = ()
+    markers: tuple[Marker, ...] = ()
+    sensors: Walls | None = None
 
     def __setattr__(self, name: str, value: Any) -> None:
+        if name == "solid" and not (value is None or isinstance(value, Solid)):
+            raise wrong("solid", value, "a Solid, or None")
         object.__setattr__(self, name, CHECKS[name](value) if name in CHECKS else value)
 
     def __post_init__(self) -> None:
         ends = self.offsets[:1].tolist() + self.offsets[-1:].tolist()
         if ends != [0, len(self.vertices)] or (np.diff(self.offsets) < 1).any():
             raise wrong("offsets", self.offsets, f"whole numbers that rise from 0 to the {len(self.vertices)} vertices")
-        for name in ("depth", "sides", "materials", "names", "layers"):
+        if not self.origins:
+            self.origins = (NOWHERE,) * len(self.closed)
+        for name in ("depth", "sides", "materials", "names", "layers", "origins"):
             check_count(name, len(getattr(self, name)), len(self.closed), "walls")
         check_count("closed", len(self.closed), len(self.offsets) - 1, "walls between offsets")
         check_count("bulges", len(self.bulges), len(self.vertices), "vertices")
@@ -130,6 +148,7 @@ class Walls(Pictured):
         material: Material | Sequence[Material] | None = None,
         names: Sequence[str] | None = None,
         layers: Sequence[str] | None = None,
+        origins: Sequence[Origin] | None = None,
     ) -> Walls:
         """Make walls of arrays of points, kept as they are: no reordering, no repair.
 
@@ -141,6 +160,7 @@ class Walls(Pictured):
             material: one material, or one a polyline.
             names: one name a polyline.
             layers: one layer name a polyline.
+            origins: what is known of each polyline beyond its shape.
 
         Raises:
             WallsError: a shape is wrong, a number is not finite, or a word or a material is none.
@@ -163,6 +183,7 @@ class Walls(Pictured):
             materials=tuple(each(Material() if material is None else material, count, "material")),
             names=tuple(each(names if names is not None else "", count, "names")),
             layers=tuple(each(layers if layers is not None else "", count, "layers")),
+            origins=tuple(each([NOWHERE] * count if origins is None else origins, count, "origins")),
         )
 
     def __len__(self) -> int:
@@ -204,6 +225,7 @@ class Walls(Pictured):
             vertices=vertices,
             bulges=self.bulges[span],
             normals=_normals(vertices[: len(following)], following),
+            origin=self.origins[index],
         )
 
     def take(self, walls: ArrayLike | slice) -> Walls:
@@ -218,7 +240,7 @@ class Walls(Pictured):
         lengths = np.diff(self.offsets)[which]
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
         vertex = np.arange(offsets[-1]) + np.repeat(self.offsets[which] - offsets[:-1], lengths)
-        words = ("sides", "materials", "names", "layers")
+        words = ("sides", "materials", "names", "layers", "origins")
         taken: dict[str, Any] = {name: tuple(getattr(self, name)[index] for index in which.tolist()) for name in words}
         arrays: dict[str, Any] = {name: getattr(self, name)[which] for name in ("closed", "depth")}
         arrays |= {name: getattr(self, name)[vertex] for name in ("vertices", "bulges")}
@@ -248,6 +270,11 @@ class Walls(Pictured):
     def normals(self) -> FloatArray:
         """(E, 2) outward unit normals, at the chord for an arc; zero for an edge without length."""
         return _normals(self.vertices[self.edge_starts], self.vertices[self.edge_ends])
+
+    @property
+    def tags(self) -> tuple[Mapping[str, str], ...]:
+        """The words of each wall, by key; see docs/tags.md."""
+        return tuple(origin.tags for origin in self.origins)
 
     @property
     def has_arcs(self) -> bool:
@@ -286,6 +313,7 @@ class Walls(Pictured):
         """Write the walls as a level for an engine or editor, see :func:`wallkit.export.export`."""
         from wallkit.export import export
 
+        arguments.of_type(path, "path", (str, Path), "a path", error=WallsError, code="bad-path")
         return export(self, path, format, **options)
 
     def to_shapely(self, tolerance: float | None = None) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import IO, Any
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from importers.problems import Problem
 from wallkit.walls.solid import Solid
-from wallkit.walls.walls import Material, Wall, Walls, WallsError
+from wallkit.walls.walls import ARRAYS, Marker, Material, Origin, Wall, Walls, WallsError
 from wallkit.write_file import write_whole
 
 FORMAT, VERSION = "wallkit-walls", 1
@@ -31,6 +32,10 @@ def to_json(walls: Walls) -> dict[str, Any]:
     result["source"] = {"file": walls.source_file, "sha256": walls.source_sha256}
     if walls.solid is not None:
         result["solid"] = walls.solid.to_json()
+    if walls.markers:
+        result["markers"] = [marker.to_json() for marker in walls.markers]
+    if walls.sensors is not None:
+        result["sensors"] = [_wall_json(wall) for wall in walls.sensors]
     result["walls"] = [_wall_json(wall) for wall in walls]
     result["problems"] = [problem_json(problem) for problem in walls.problems]
     return result
@@ -48,6 +53,7 @@ def _wall_json(wall: Wall) -> dict[str, Any]:
         "closed": wall.closed,
         "depth": wall.depth,
         "sides": wall.sides,
+        **wall.origin.to_json(),
         "material": _material_json(wall.material),
         "vertices": wall.vertices.tolist(),
     }
@@ -65,7 +71,9 @@ def _material_json(material: Material) -> dict[str, float]:
 def dumps(walls: Walls) -> str:
     """Write walls as JSON text: one wall a line, so that people can look into it and diff it."""
     whole = to_json(walls)
-    lists = {key: [_compact(entry) for entry in whole.pop(key)] for key in ("walls", "problems")}
+    lists = {
+        key: [_compact(entry) for entry in whole.pop(key)] for key in ("sensors", "walls", "problems") if key in whole
+    }
     head = [f"{json.dumps(key)}: {_compact(value)}" for key, value in whole.items()]
     tail = [f"{json.dumps(key)}: [" + ",".join(f"\n  {line}" for line in lines) + "]" for key, lines in lists.items()]
     return "{" + ",\n ".join(head + tail) + "}\n"
@@ -130,17 +138,7 @@ def _from_json(value: Any) -> Walls:
     if value.get("version") != VERSION:
         fix = "read it with a newer wallkit"
         raise WallsError(f"version {value.get('version')!r} of the format is not known", code="bad-walls", fix=fix)
-    entries = value["walls"]
-    walls = Walls.from_polylines(
-        [entry["vertices"] for entry in entries],
-        [bool(entry["closed"]) for entry in entries],
-        bulges=[entry.get("bulges") for entry in entries],
-        sides=[_sides(entry.get("sides", "both")) for entry in entries],
-        material=[Material(**{k: float(v) for k, v in entry.get("material", {}).items()}) for entry in entries],
-        names=[str(entry.get("name", "")) for entry in entries],
-        layers=[str(entry.get("layer", "")) for entry in entries],
-    )
-    walls.depth = np.array([int(entry.get("depth", 0)) for entry in entries], dtype=np.int64)
+    walls = _walls_of(value["walls"])
     walls.units, walls.y_axis = str(value.get("units", "")), "down" if value.get("y_axis") == "down" else "up"
     walls.tolerance, walls.measured_error = float(value.get("tolerance", 0)), float(value.get("measured_error", 0))
     normal_error = value.get("measured_normal_error")
@@ -150,6 +148,33 @@ def _from_json(value: Any) -> Walls:
     walls.problems = [Problem(**problem) for problem in value.get("problems", [])]
     solid = value.get("solid")
     walls.solid = None if solid is None else Solid(bool(solid["room"]), solid["how"], str(solid["why"]))
+    walls.markers = tuple(Marker.of_json(marker) for marker in value.get("markers", []))
+    if "sensors" in value:
+        walls.sensors = sensors_like(walls, _walls_of(value["sensors"]))
+    return walls
+
+
+def sensors_like(walls: Walls, sensors: Walls) -> Walls:
+    """Give sensors the units, axes, tolerance and source of the walls that they belong to."""
+    return replace(
+        Walls.from_polylines([]),
+        **{name: getattr(sensors, name) for name in ARRAYS},
+        **{name: getattr(walls, name) for name in ("units", "y_axis", "tolerance", "source_file", "source_sha256")},
+    )
+
+
+def _walls_of(entries: list[dict[str, Any]]) -> Walls:
+    walls = Walls.from_polylines(
+        [entry["vertices"] for entry in entries],
+        [bool(entry["closed"]) for entry in entries],
+        bulges=[entry.get("bulges") for entry in entries],
+        sides=[_sides(entry.get("sides", "both")) for entry in entries],
+        material=[Material(**{k: float(v) for k, v in entry.get("material", {}).items()}) for entry in entries],
+        names=[str(entry.get("name", "")) for entry in entries],
+        layers=[str(entry.get("layer", "")) for entry in entries],
+        origins=[Origin.of_json(entry) for entry in entries],
+    )
+    walls.depth = np.array([int(entry.get("depth", 0)) for entry in entries], dtype=np.int64)
     return walls
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from importers.errors import WallkitError
 from importers.limits import MAX_COORDINATE
-from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
+from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene, read_file
 from wallkit.scene.samples import samples
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation.run import Ending, Run
@@ -21,7 +21,9 @@ from wallkit.view.page.documents import Document, Reader, Shelf
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
 from wallkit.view.page.warmth import Warmth
 from wallkit.walls import Walls
+from wallkit.walls.fields import MOST_RESTITUTION
 from wallkit.walls.import_options import ImportOptions
+from wallkit.watch_file import Watch
 
 MOST_BALLS = 1_000
 MOST_CONTACTS = 100_000
@@ -55,17 +57,42 @@ class Answers:
         self.by_name: dict[str, Callable[[Table], Table | Download]] = {
             "sample": self.sample,
             "walls": self.walls,
+            "saved": self.saved,
             "simulate": self.simulate,
             "save": self.save,
         }
 
-    def open(self, data: bytes, name: str, folder: Path | None = None, importing: ImportOptions = USUAL) -> Table:
-        """Open a file's bytes; only a file of this machine's own owner may name others, in its folder."""
+    def open(
+        self,
+        data: bytes,
+        name: str,
+        folder: Path | None = None,
+        importing: ImportOptions = USUAL,
+        watch: Watch | None = None,
+    ) -> Table:
+        """Open a file's bytes; only one of this machine's own owner may name others, in its folder, or be watched."""
         wishes = Wishes(importing=importing, may_be_empty=True)
         opened = with_a_ball(open_scene(data, wishes, name=name, folder=folder))
-        document = Document(name, opened, importing)
+        document = Document(name, opened, importing, watch=watch, folder=folder)
         self.shelf.put(document)
         return self.document_table(document)
+
+    def saved(self, body: Table) -> Table:
+        """Give a watched document anew if its file was saved since the page's version of it; else nothing.
+
+        Raises:
+            WallkitError: what was saved cannot be read; the document stays as it was.
+        """
+        document = self.shelf.get(body.get("document"))
+        if document.watch is None:
+            return {}
+        with document.lock:
+            if document.watch.changed():
+                wishes = Wishes(importing=document.importing, may_be_empty=True)
+                data = read_file(document.watch.file)
+                document.opened = with_a_ball(open_scene(data, wishes, name=document.name, folder=document.folder))
+                document.version += 1
+        return {} if body.get("version") == document.version else self.document_table(document)
 
     def sample(self, body: Table) -> Table:
         """Open a sample by name."""
@@ -156,6 +183,8 @@ class Answers:
         return {
             "id": document.key,
             "name": document.name,
+            "watched": document.watch is not None,
+            "version": document.version,
             "facts": facts(walls, opened.kind),
             "exactness": exactness(walls),
             "assumed": opened.assumed,
@@ -229,8 +258,8 @@ def balls_of(body: Table) -> Balls:
 def with_material(walls: Walls, body: Table) -> Walls:
     """Set the restitutions that the page asks for on every wall; null leaves them as they are."""
     changes = {
-        name: number(body[name], name, 0.0, 1.0)
-        for name in ("restitution", "tangential_restitution")
+        name: number(body[name], name, 0.0, most)
+        for name, most in (("restitution", MOST_RESTITUTION), ("tangential_restitution", 1.0))
         if body.get(name) is not None
     }
     if not changes:

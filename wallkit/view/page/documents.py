@@ -7,11 +7,13 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from importers.errors import WallkitError
 from importers.problems import Problem
 from wallkit.scene.opening import OpenedScene
 from wallkit.walls.import_options import ImportOptions
+from wallkit.watch_file import Watch
 
 MOST_DOCUMENTS = 8
 
@@ -38,12 +40,20 @@ class Document:
         opened: its scene as imported last.
         importing: how its drawing was imported then.
         key: by which the page names it.
+        watch: tells when its file was saved again; None for what is no file of this machine.
+        folder: where the files that it names are.
+        version: counts how often it was read again.
+        lock: held while that is found out, for several pages may show it.
     """
 
     name: str
     opened: OpenedScene
     importing: ImportOptions
     key: str = field(default_factory=lambda: secrets.token_urlsafe(9))
+    watch: Watch | None = None
+    folder: Path | None = None
+    version: int = 0
+    lock: threading.Lock = field(default_factory=threading.Lock)
 
 
 class NotOpenError(WallkitError):

@@ -19,6 +19,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from wallkit.arguments import ABOVE_0, number, of_type
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.conforming_delaunay import SHORTEST, Triangulation, triangulate
 from wallkit.walls.as_shapely import straightened
@@ -28,10 +29,12 @@ from wallkit.walls.checking.narrow_places import with_feet
 from wallkit.walls.checking.parts import Parts
 from wallkit.walls.checking.room_circles import larger_circles
 from wallkit.walls.checking.self_check import diagonal
+from wallkit.walls.crossings import find_contacts
 from wallkit.walls.edge_tree import Edges
-from wallkit.walls.walls import Walls
+from wallkit.walls.walls import Walls, WallsError
 
 MOST_EDGES = 200_000
+MOST_CROSSINGS = 20_000
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
@@ -68,7 +71,7 @@ class FreeSpace:
     Attributes:
         gaps: narrowest first.
         closed_rooms: (n, 3) x, y, radius of the roomiest circle of each part that no way leads out of.
-        complete: false when the drawing was too large or too tangled to be sure.
+        complete: false when the drawing was too large or too tangled; then nothing is told.
         parts: what walls part from one another; None where there are no walls, or too many.
         solids: where material is, for balls that stand in it; None likewise.
         inside: no room is outside material, so that the rooms are those that the walls enclose.
@@ -102,14 +105,23 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
             are then made exact.
         narrow: an opening is a gap up to this part of the width of the room behind it. Rooms narrower than the
             tolerance are none, nor are gaps below 4e-7 of the drawing's diagonal.
+
+    Raises:
+        WallsError: these are no walls, or ``narrow`` is no number above 0.
     """
+    of_type(walls, "walls", Walls, "Walls", error=WallsError, code="bad-walls")
+    may_be = "a number above 0"
+    number(narrow, "narrow", may_be, error=WallsError, code="bad-argument", least=ABOVE_0)
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
     edges = Edges(vertices, offsets, walls.closed)
     nothing = not len(edges) or diagonal(vertices) == 0
-    if nothing or len(edges) > MOST_EDGES:
+    if nothing or len(edges) > MOST_EDGES or _is_tangle(edges):
         return FreeSpace([], np.empty((0, 3)), nothing)
     a, b = _noded(edges)
-    mesh = with_feet(triangulate(a, b))
+    coarse = triangulate(a, b)
+    mesh = None if coarse is None else with_feet(coarse)
+    if mesh is None:
+        return FreeSpace([], np.empty((0, 3)), False)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
     found = _rooms(mesh, narrow, least)
     seam = 4 * SHORTEST * diagonal(vertices)
@@ -127,6 +139,12 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
         chosen = replace(_where_free(found, solids, False), inside=True)
     chosen = _roomier(chosen, mesh)
     return _sharpened(chosen, walls, vertices) if walls.has_arcs else chosen
+
+
+def _is_tangle(edges: Edges) -> bool:
+    """More crossings than can be looked at: all edges cut where they cross would be too many."""
+    contacts = find_contacts(edges)
+    return not contacts.complete or len(contacts.crossing_at) > MOST_CROSSINGS
 
 
 def _where_free(found: FreeSpace, solids: Solids, free: bool) -> FreeSpace:
@@ -262,7 +280,7 @@ def _rooms(mesh: Triangulation, narrow: float, least: float) -> FreeSpace:
     roots = np.unique([_find(parent, edge) for edge in np.flatnonzero(~mesh.wall).tolist()])
     closed = best[roots[np.isfinite(size[best[roots]]) & (size[best[roots]] > least)]]
     gaps = sorted(_gaps(mesh, turns, tree, notes, size, place, outside), key=lambda gap: gap.width)
-    return FreeSpace(gaps, np.column_stack([place[closed], size[closed]]), mesh.complete)
+    return FreeSpace(gaps, np.column_stack([place[closed], size[closed]]))
 
 
 def _gaps(

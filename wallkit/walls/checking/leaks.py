@@ -57,8 +57,8 @@ def leak_problems(space: FreeSpace, reach: Reach) -> list[Problem]:
     problems = [_leak(gap, reach.radius) for gap in reach.leaks]
     problems += [_shut(gap, radius) for gap in reach.shut] + [_holding(gap, radius) for gap in reach.holding]
     if not space.complete:
-        message = "the drawing is too large or too tangled to find every gap"
-        problems.append(Problem("gaps-not-all-known", "info", message, "take fewer layers, or repair it first"))
+        message = "the walls are too many, or too close together and tangled, to find rooms and gaps between them"
+        problems.append(Problem("tangled", "warning", message, "take fewer layers, or repair it first"))
     return problems
 
 

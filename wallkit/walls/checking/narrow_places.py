@@ -51,10 +51,8 @@ def narrow_feet(mesh: Triangulation) -> tuple[IntArray, FloatArray]:
     return np.concatenate(edges)[empty], result[empty]
 
 
-def with_feet(mesh: Triangulation) -> Triangulation:
-    """Triangulate walls once more, with :func:`narrow_feet` among the points; not those that came to no end."""
-    if not mesh.complete:
-        return mesh
+def with_feet(mesh: Triangulation) -> Triangulation | None:
+    """Triangulate walls once more, with :func:`narrow_feet` among the points; None where that comes to no end."""
     edge, feet = narrow_feet(mesh)
     return cut_further(mesh, edge, feet) if len(edge) else mesh
 

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.conforming_delaunay import Triangulation
 
-MOST_WORK = 20_000_000  # triangles looked at for all rooms together; further rooms keep the circle that was found
+MOST_ROOMS = 16  # the roomiest; the others keep the circle that was found
+MOST_WORK = 4_000_000  # triangles looked at for all rooms together
 _FINE = 1e-7  # of the radius: the tolerance that shapely is asked for (it bounds its own steps)
 _HAIR = 1e-9  # of the size of everything: half the width of an open wall inside a room
 _HALF_DISC = np.linspace(0, np.pi, 9)[1:-1]
@@ -35,7 +36,7 @@ def larger_circles(mesh: Triangulation, places: FloatArray, radius: FloatArray, 
     result = np.column_stack([places, radius])
     start = triangles_at(mesh, places)
     length = np.hypot(*(mesh.points[mesh.ends[:, 1]] - mesh.points[mesh.ends[:, 0]]).T)
-    most = max(MOST_WORK // max(len(mesh.corners), 1), 1)
+    most = min(max(MOST_WORK // max(len(mesh.corners), 1), 1), MOST_ROOMS)
     for row in np.argsort(-radius, kind="stable")[:most].tolist():
         if start[row] < 0:
             continue
@@ -86,25 +87,28 @@ def _area(mesh: Triangulation, inside: NDArray[np.bool_], place: FloatArray) -> 
     rim, within = sides == 1, (sides == 2) & mesh.wall
     if (rim & mesh.outer).any():
         return None
-    segments = shapely.linestrings(mesh.points[mesh.ends])
-    faces = shapely.get_parts(shapely.polygonize(segments[rim]))
+    faces = shapely.get_parts(shapely.polygonize(_segments(mesh, rim)))
     here = faces[shapely.intersects_xy(faces, *place)]
     if not len(here):
         return None
     area = here[0]
-    walls = segments[mesh.wall]
     caps = _half_discs(mesh, np.flatnonzero(rim & ~mesh.wall), inside)
     if len(caps):
-        tree = shapely.STRtree(walls)
+        tree = shapely.STRtree(_segments(mesh, mesh.wall))
         closed = np.unique(tree.query(shapely.buffer(caps, -_HAIR * mesh.cut.size), predicate="intersects")[0])
         area = shapely.union_all([area, *np.delete(caps, closed)])
     if within.any():
         area = shapely.difference(
-            area, shapely.buffer(shapely.multilinestrings(segments[within]), _HAIR * mesh.cut.size)
+            area, shapely.buffer(shapely.multilinestrings(_segments(mesh, within)), _HAIR * mesh.cut.size)
         )
         parts = shapely.get_parts(area)
         area = parts[shapely.distance(parts, shapely.points(place)).argmin()]
     return area
+
+
+def _segments(mesh: Triangulation, chosen: NDArray[np.bool_]) -> NDArray[np.object_]:
+    lines: NDArray[np.object_] = shapely.linestrings(mesh.points[mesh.ends[chosen]])
+    return lines
 
 
 def _half_discs(mesh: Triangulation, edge: IntArray, inside: NDArray[np.bool_]) -> NDArray[np.object_]:

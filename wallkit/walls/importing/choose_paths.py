@@ -4,45 +4,67 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from importers.drawing import Drawing, DrawnPath
 from importers.problems import Problem
 from wallkit.walls.import_options import ImportOptions
 from wallkit.walls.importing.drawn_balls import DrawnBall, marks_a_ball
-from wallkit.walls.roles import role_of
+from wallkit.walls.roles import plain_name, role_of, tag_problems
 from wallkit.walls.walls import WallsError
 
 _REASONS = {
     "guide": ("{} left out: a guide is not art", "turn guides into paths if they are meant as walls"),
     "clip": ("{} left out: it only clips other art", "release the clipping mask if it is meant as a wall"),
     "hidden": ("{} left out: hidden in the drawing", "show it in the drawing, or include hidden paths (--hidden)"),
+    "ignored": ("{} left out: said to be ignored", "remove the word 'ignore' if it is meant as a wall"),
     "balls": ("{} left out: read as balls", "rename the layer or group 'balls' if they are walls"),
     "marker": ("{} left out: a ring around a ball marks its place", "make it wider than two balls if it is a wall"),
     "unpainted": ("{} left out: neither filled nor stroked", "give it a fill or a stroke, or take it (--unpainted)"),
     "other-layer": ("{} left out: on none of the layers asked for", "add the layer (--layer)"),
 }
+_ELSEWHERE = {"ball": "balls", "ignore": "ignored"}
+"""Why a path of such a role is left out here."""
+_TAGGED = ("sensor", "target", "spawn")
 
 
-def choose(drawing: Drawing, options: ImportOptions, balls: list[DrawnBall]) -> tuple[list[DrawnPath], list[Problem]]:
-    """Take the paths that are walls.
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """Which paths become what, each in the file's order.
+
+    Attributes:
+        walls: paths that are walls.
+        sensors: paths that report a ball, targets among them.
+        places: paths that are spawns and targets.
+        problems: one info problem for each reason why others were left out, and for each word that means nothing.
+    """
+
+    walls: list[DrawnPath]
+    sensors: list[DrawnPath]
+    places: list[DrawnPath]
+    problems: list[Problem]
+
+
+def choose(drawing: Drawing, options: ImportOptions, balls: list[DrawnBall]) -> Chosen:
+    """Take the paths that are walls, sensors or places.
 
     A path that paints nothing is none, unless no path that could be a wall is painted (pasted text, exported
-    clipping paths). A ring that marks a ball is none, unless it is all that there is.
+    clipping paths). A ring that marks a ball is none, unless it is all that there is. What words make a sensor or a
+    place is taken from all layers, painted or not, unless it is hidden.
 
     Args:
         drawing: as read.
         options: ``layers``, ``hidden`` and ``unpainted`` are asked.
         balls: that are drawn, unscaled.
 
-    Returns:
-        The paths in the file's order, and one info problem for each reason why others were left out.
-
     Raises:
         WallsError: a glob fits no layer of the drawing.
     """
     _check_globs(drawing, options.layers)
     sorted_out = [(path, _reason(path, options)) for path in drawing.paths]
+    told = [(path, reason) for path, reason in sorted_out if reason in _TAGGED]
+    sorted_out = [pair for pair in sorted_out if pair[1] not in _TAGGED]
     candidates = [path for path, reason in sorted_out if reason in ("", "other-layer")]
     if not options.unpainted and any(_painted(path) for path in candidates):
         sorted_out = [(p, reason or ("" if _painted(p) else "unpainted")) for p, reason in sorted_out]
@@ -54,7 +76,10 @@ def choose(drawing: Drawing, options: ImportOptions, balls: list[DrawnBall]) -> 
     for path, reason in sorted_out:
         first.setdefault(reason, path)
     taken = [path for path, reason in sorted_out if not reason]
-    return taken, [_problem(reason, count, first[reason]) for reason, count in left.items()]
+    problems = [_problem(reason, count, first[reason]) for reason, count in left.items()]
+    sensors = [path for path, role in told if role in ("sensor", "target")]
+    places = [path for path, role in told if role in ("spawn", "target")]
+    return Chosen(taken, sensors, places, problems + tag_problems([*taken, *(path for path, _ in told)]))
 
 
 def _painted(path: DrawnPath) -> bool:
@@ -66,15 +91,23 @@ def _reason(path: DrawnPath, options: ImportOptions) -> str:
         return "guide"
     if path.clip:
         return "clip"
-    if role_of(path) == "ball":
-        return "balls"
+    role = role_of(path)
+    if role in _ELSEWHERE:
+        return _ELSEWHERE[role]
+    if role in _TAGGED:
+        return role if path.visible or options.hidden else "hidden"
     if options.layers is not None and not _on_layer(path, options.layers):
         return "other-layer"
     return "hidden" if not path.visible and not options.hidden else ""
 
 
 def _on_layer(path: DrawnPath, globs: Sequence[str]) -> bool:
-    return any(fnmatchcase(name, glob) for name in (path.layer, *path.groups) for glob in globs)
+    return any(_fits(name, glob) for name in (path.layer, *path.groups) for glob in globs)
+
+
+def _fits(name: str, glob: str) -> bool:
+    """Tell whether a glob fits a name, with the words in it or without."""
+    return fnmatchcase(name, glob) or fnmatchcase(plain_name(name), glob)
 
 
 def _check_globs(drawing: Drawing, globs: Sequence[str] | None) -> None:
@@ -82,7 +115,7 @@ def _check_globs(drawing: Drawing, globs: Sequence[str] | None) -> None:
         return
     names = {layer.name for layer in drawing.layers}.union(*((p.layer, *p.groups) for p in drawing.paths))
     for glob in globs:
-        if not any(fnmatchcase(name, glob) for name in names):
+        if not any(_fits(name, glob) for name in names):
             known = ", ".join(repr(name) for name in sorted(names) if name) or "none"
             raise WallsError(f"no layer fits {glob!r}", code="no-such-layer", fix=f"the layers are: {known}")
 

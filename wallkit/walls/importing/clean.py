@@ -12,6 +12,7 @@ from wallkit.geometry.arrays import IntArray
 from wallkit.geometry.rings import signed_areas
 from wallkit.walls.checking.self_check import at_least
 from wallkit.walls.importing.outlines import Outlines, without_vertices
+from wallkit.walls.roles import said_of, sides_of
 
 
 def clean(outlines: Outlines) -> Outlines:
@@ -131,7 +132,7 @@ def _report_open(outlines: Outlines) -> Outlines:
                 index,
                 "open-path",
                 "warning" if nearly else "info",
-                f"an open path: its ends are {gap:.6g} apart; taken as an open, two-sided wall",
+                f"an open path: its ends are {gap:.6g} apart; taken as an open, {_sided(outlines, index)} wall",
                 f"close it in the drawing, or with --snap {at_least(gap)}"
                 if nearly
                 else "nothing to do if it is meant as a line",
@@ -139,6 +140,11 @@ def _report_open(outlines: Outlines) -> Outlines:
             )
         )
     return replace(outlines, problems=outlines.problems + problems)
+
+
+def _sided(outlines: Outlines, index: int) -> str:
+    one_way = sides_of(said_of(outlines.paths[outlines.owner[index]]).tags) == "outward"
+    return "one-sided" if one_way else "two-sided"
 
 
 def _gap(outlines: Outlines, index: int) -> float:

@@ -48,8 +48,8 @@ def drawn_balls(drawing: Drawing, scale: float = 1.0, flip_y: bool = False) -> t
         if role_of(path) != "ball" or not path.visible or path.guide or path.clip:
             continue
         for sub in path.subpaths:
-            points = _sampled(sub.segments) * (fx, fy)
-            circle = _circle(points)
+            points = points_along(sub.segments) * (fx, fy)
+            circle = circle_of(points)
             if circle:
                 circles.append(circle)
             elif not sub.closed and len(sub.segments) > 1:
@@ -87,7 +87,7 @@ def _owner(circles: list[tuple[float, float, float]], start: tuple[float, float]
     return min(inside, key=distances.__getitem__, default=None)
 
 
-def _circle(points: FloatArray) -> tuple[float, float, float] | None:
+def circle_of(points: FloatArray) -> tuple[float, float, float] | None:
     """Give centre and radius where the points of a path lie around one centre, all sides of it."""
     if len(points) < 9:  # a curve has more; a square would pass otherwise
         return None
@@ -99,7 +99,7 @@ def _circle(points: FloatArray) -> tuple[float, float, float] | None:
     return float(centre[0]), float(centre[1]), radius
 
 
-def _sampled(segments: list[Segment]) -> FloatArray:
+def points_along(segments: list[Segment]) -> FloatArray:
     """Give points along a subpath."""
     parts = [np.array([segments[0][1:3]], dtype=np.float64)]
     for segment in segments[1:]:
@@ -119,7 +119,7 @@ def marks_a_ball(path: DrawnPath, balls: list[DrawnBall]) -> bool:
     segments = path.subpaths[0].segments
     x, y = segments[0][1:3]
     near = [ball for ball in balls if math.hypot(x - ball.x, y - ball.y) <= (_MARKER + 2 * _CENTRED) * ball.radius]
-    circle = _circle(_sampled(segments)) if near else None
+    circle = circle_of(points_along(segments)) if near else None
     return circle is not None and any(
         math.hypot(circle[0] - ball.x, circle[1] - ball.y) <= _CENTRED * ball.radius
         and circle[2] <= _MARKER * ball.radius

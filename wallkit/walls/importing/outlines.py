@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -12,6 +13,8 @@ from importers.problems import Problem, Severity
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.importing.curves_to_lines import Pieces
 from wallkit.walls.importing.segments import Strokes
+from wallkit.walls.origins import Origin
+from wallkit.walls.roles import material_of, said_of, sides_of
 from wallkit.walls.walls import Material, Sides, Walls
 
 
@@ -72,9 +75,11 @@ class Outlines:
         )
 
     def to_walls(self, sides: Sides) -> Walls:
-        """Make walls of them, in this order."""
+        """Make walls of them, in this order; what words say of one goes before ``sides``, for open ones too."""
         walls = Walls.from_polylines([])
         count = len(self)
+        told = [_told(path, sides) for path in self.paths]
+        owner = self.owner.tolist()
         return replace(
             walls,
             vertices=np.ascontiguousarray(self.vertices),
@@ -82,11 +87,66 @@ class Outlines:
             offsets=self.offsets.astype(np.int64),
             closed=self.closed,
             depth=np.zeros(count, dtype=np.int64),
-            sides=tuple(sides if closed else "both" for closed in self.closed.tolist()),
-            materials=(Material(),) * count,
-            names=tuple(self.paths[i].name for i in self.owner.tolist()),
-            layers=tuple(self.paths[i].layer for i in self.owner.tolist()),
+            sides=tuple(
+                told[i].closed if closed else told[i].open
+                for i, closed in zip(owner, self.closed.tolist(), strict=True)
+            ),
+            materials=tuple(told[i].material for i in owner),
+            names=tuple(told[i].name for i in owner),
+            layers=tuple(told[i].layer for i in owner),
+            origins=tuple(told[i].origin for i in owner),
         )
+
+
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """What all walls of one path share."""
+
+    name: str
+    layer: str
+    closed: Sides
+    open: Sides
+    material: Material
+    origin: Origin
+
+
+_PLAIN = Material()
+
+
+def _told(path: DrawnPath, sides: Sides) -> _Told:
+    said = said_of(path)
+    tags = said.tags
+    own = sides_of(tags) if tags else None
+    material = material_of(tags) if tags else _PLAIN
+    origin = Origin(path.title, said.groups, path.fill, path.stroke, tags)
+    return _Told(said.name, said.layer, own or sides, own or "both", material, origin)
+
+
+def keep_sides(outlines: Outlines) -> Outlines:
+    """Turn open outlines that are solid from one side, for the mirror has put the free side on the other."""
+    vertices, bulges = outlines.vertices.copy(), outlines.bulges.copy()
+    one_way = [sides_of(said_of(path).tags) == "outward" for path in outlines.paths]
+    for index in np.flatnonzero(~outlines.closed).tolist():
+        if one_way[outlines.owner[index]]:
+            begin, end = int(outlines.offsets[index]), int(outlines.offsets[index + 1])
+            vertices[begin:end] = outlines.vertices[begin:end][::-1]
+            bulges[begin : end - 1] = 0.0 - outlines.bulges[begin : end - 1][::-1]
+    return replace(outlines, vertices=vertices, bulges=bulges)
+
+
+def on_grid(outlines: Outlines, grid: float) -> tuple[Outlines, float]:
+    """Move vertices to the nearest multiples of ``grid``; a grid of 1 / n gives them as k / n, without an error more.
+
+    Returns:
+        The outlines, and how far any point of them moved at most. With its ends an arc is turned, scaled and moved:
+        its point at z (0 at a, 1 at b, complex) moves by (1 - z) da + z db, and |1 - z| + |z| <= sqrt(2) up to a half
+        circle.
+    """
+    parts = round(1.0 / grid) if grid < 1.0 else 0
+    whole = bool(parts) and abs(parts * grid - 1.0) <= 2.0**-50
+    vertices = np.round(outlines.vertices * parts) / parts if whole else np.round(outlines.vertices / grid) * grid
+    moved = float(np.hypot(*(vertices - outlines.vertices).T).max(initial=0.0))
+    return replace(outlines, vertices=vertices + 0.0), moved * (math.sqrt(2.0) if outlines.bulges.any() else 1.0)
 
 
 def assemble(strokes: Strokes, pieces: Pieces, paths: list[DrawnPath]) -> Outlines:

@@ -17,16 +17,19 @@ from wallkit.walls.import_options import ImportOptions, ImportWishes
 from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_arcs
 from wallkit.walls.importing.choose_paths import choose
 from wallkit.walls.importing.clean import clean
-from wallkit.walls.importing.curves_to_lines import flatten
+from wallkit.walls.importing.curves_to_lines import Pieces, flatten
 from wallkit.walls.importing.drawn_balls import drawn_balls
+from wallkit.walls.importing.drawn_sensors import drawn_places, drawn_sensors
 from wallkit.walls.importing.fill_rule import material_rings
-from wallkit.walls.importing.outlines import Outlines, assemble
+from wallkit.walls.importing.outlines import Outlines, assemble, keep_sides, on_grid
+from wallkit.walls.importing.placing import placed
 from wallkit.walls.importing.segments import Strokes, gather
 from wallkit.walls.nesting import depths
 from wallkit.walls.orient import turned_to
 from wallkit.walls.repairing.passes import repair
 from wallkit.walls.solid import Nested, decide
 from wallkit.walls.walls import Walls, WallsError
+from wallkit.walls.walls_json import sensors_like
 
 Source = str | Path | IO[bytes] | IO[str] | Drawing
 
@@ -52,14 +55,15 @@ def import_walls(source: Source, options: ImportOptions | None = None, /, **wish
     if options is not None and wishes:
         raise WallsError("options come in one value or as keywords", code="bad-option", fix="give one of the two")
     chosen = ImportOptions.of(**wishes) if options is None else options
-    return build_walls(source if isinstance(source, Drawing) else _read(source), chosen)
+    drawing = source if isinstance(source, Drawing) else _read(source, chosen)
+    return build_walls(placed(drawing, chosen), chosen)
 
 
 def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | None = None) -> Walls:
     """Turn a drawing into walls, with balls that are not drawn.
 
     Args:
-        drawing: as read.
+        drawing: in its place, see :func:`wallkit.walls.importing.placing.placed`.
         options: how.
         balls: (n, 2) centres in the units of the result; where none are drawn they help to decide what is solid.
     """
@@ -67,33 +71,66 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
     drawn, _ = drawn_balls(drawing)
     if drawn or balls is None:
         balls = np.array([(ball.x, ball.y) for ball in drawn]).reshape(-1, 2) * (scale, -scale if flip_y else scale)
-    chosen, problems = choose(drawing, options, drawn)
-    chosen, pointless = _with_segments(chosen)
+    choice = choose(drawing, options, drawn)
+    chosen, pointless = _with_segments(choice.walls)
     if options.outline_strokes:
         chosen, outlined = _outlined(chosen, options.tolerance)
         pointless += outlined
     strokes = gather((sub for path in chosen for sub in path.subpaths), scale, flip_y)
     within = default_tolerance(strokes) if options.tolerance is None else options.tolerance * scale
-    pieces = fit_arcs(strokes, within) if options.curves == "arcs" else flatten(strokes, within)
-    walls = nested(clean(assemble(strokes, pieces, chosen)), options, within, balls)
-    found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *problems, *pointless)]
-    return replace(
+    pieces = _pieces(strokes, within, options)
+    markers = drawn_places(choice.places, scale, flip_y)
+    if not len(balls):
+        balls = np.array([(marker.x, marker.y) for marker in markers if marker.kind == "spawn"]).reshape(-1, 2)
+    outlines, moved = _outlines(strokes, pieces, chosen, options)
+    walls = nested(keep_sides(outlines) if flip_y else outlines, options, within, balls)
+    sensors, doubtful = _sensors(choice.sensors, options, within)
+    found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *choice.problems, *pointless)]
+    walls = replace(
         walls,
         units=drawing.units if scale == 1 else "",
         y_axis=_flipped(drawing.y_axis) if flip_y else drawing.y_axis,
         tolerance=within,
-        measured_error=walls.measured_error + pieces.error,
+        measured_error=walls.measured_error + pieces.error + moved,
         measured_normal_error=pieces.normal_error,
         source_file=drawing.file,
         source_sha256=drawing.sha256,
-        problems=found + walls.problems,
+        problems=found + walls.problems + doubtful,
+        markers=markers,
     )
+    return walls if sensors is None else replace(walls, sensors=sensors_like(walls, sensors))
 
 
-def _read(source: str | Path | IO[bytes] | IO[str]) -> Drawing:
+def _pieces(strokes: Strokes, within: float, options: ImportOptions) -> Pieces:
+    return fit_arcs(strokes, within) if options.curves == "arcs" else flatten(strokes, within)
+
+
+def _outlines(
+    strokes: Strokes, pieces: Pieces, paths: list[DrawnPath], options: ImportOptions
+) -> tuple[Outlines, float]:
+    """Make clean polylines, on the grid that is asked for: them, and how far that moved anything at most."""
+    outlines = assemble(strokes, pieces, paths)
+    if not options.grid:
+        return clean(outlines), 0.0
+    outlines, moved = on_grid(outlines, options.grid)
+    return clean(outlines), moved
+
+
+def _sensors(paths: list[DrawnPath], options: ImportOptions, within: float) -> tuple[Walls | None, list[Problem]]:
+    """Make sensors as exact as the walls; what is cleaned of them is told as for walls."""
+    paths, pointless = _with_segments(paths)
+    if not paths:
+        return None, pointless
+    strokes = gather((sub for path in paths for sub in path.subpaths), options.scale, options.flip_y)
+    outlines, _ = _outlines(strokes, _pieces(strokes, within, options), paths, options)
+    sensors, problems = drawn_sensors(outlines)
+    return sensors, [_moved(problem, options.scale, options.flip_y) for problem in pointless] + problems
+
+
+def _read(source: str | Path | IO[bytes] | IO[str], options: ImportOptions) -> Drawing:
     from importers.read import read_drawing  # late: it brings the readers of all formats
 
-    drawing: Drawing = read_drawing(source)
+    drawing: Drawing = read_drawing(source, page=options.page)
     return drawing
 
 

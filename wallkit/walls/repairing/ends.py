@@ -53,7 +53,7 @@ def join_ends(lines: list[Line]) -> Outcome:
             if len(ends) != 2 or {index for index, _ in ends} & used:
                 continue
             (one, one_end), (two, two_end) = ends
-            if pool[one].material != pool[two].material:
+            if (pool[one].material, pool[one].sides) != (pool[two].material, pool[two].sides):
                 continue
             joined = _close(pool[one]) if one == two else _append(pool[one], one_end, pool[two], two_end)
             if joined is None:

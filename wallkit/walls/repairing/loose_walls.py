@@ -10,7 +10,8 @@ import numpy as np
 from wallkit.geometry.arrays import FloatArray
 from wallkit.walls.as_shapely import straightened
 from wallkit.walls.edge_tree import Edges
-from wallkit.walls.walls import Material, Sides, Walls
+from wallkit.walls.origins import NOWHERE, Origin
+from wallkit.walls.walls import ARRAYS, Material, Sides, Walls
 
 
 @dataclass(slots=True)
@@ -25,6 +26,7 @@ class Line:
         layer: of the wall.
         sides: of the wall.
         material: of the wall.
+        origin: of the wall.
         even_odd: how its self-crossings part material from none.
         file_line: line in the file, or None.
     """
@@ -36,6 +38,7 @@ class Line:
     layer: str
     sides: Sides
     material: Material
+    origin: Origin = NOWHERE
     even_odd: bool = False
     file_line: int | None = None
 
@@ -51,6 +54,7 @@ def to_lines(walls: Walls, even_odd: Sequence[bool] = (), file_lines: Sequence[i
             wall.layer,
             wall.sides,
             wall.material,
+            wall.origin,
             even_odd[index] if even_odd else False,
             file_lines[index] if file_lines else None,
         )
@@ -68,9 +72,9 @@ def from_lines(walls: Walls, lines: Sequence[Line]) -> Walls:
         material=[line.material for line in lines],
         names=[line.name for line in lines],
         layers=[line.layer for line in lines],
+        origins=[line.origin for line in lines],
     )
-    kept = ("vertices", "offsets", "closed", "bulges", "depth", "sides", "materials", "names", "layers")
-    return replace(walls, **{name: getattr(made, name) for name in kept})
+    return replace(walls, **{name: getattr(made, name) for name in ARRAYS})
 
 
 def edges_of(lines: Sequence[Line], tolerance: float = 0.0) -> Edges:

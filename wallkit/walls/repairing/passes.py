@@ -10,9 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
 from importers.problems import Problem
+from wallkit.arguments import flag, number
 from wallkit.walls.checking.self_check import straight_edges, validate
 from wallkit.walls.crossings import find_contacts
 from wallkit.walls.orient import is_arena, oriented
@@ -36,6 +35,9 @@ class Repairs:
         union: overlapping and touching solids become one.
         min_width: closed walls that no disc of this diameter fits into go; 0 keeps them.
         simplify: vertices go where the wall then moves by at most this; 0 keeps them.
+
+    Raises:
+        WallsError: a length is no finite number from 0, or a flag is neither True nor False.
     """
 
     snap: float = 0.0
@@ -48,9 +50,9 @@ class Repairs:
 
     def __post_init__(self) -> None:
         for name in ("snap", "min_width", "simplify"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value >= 0):
-                raise WallsError(f"{name} is {value!r}", code="bad-option", fix="give a number from 0")
+            number(getattr(self, name), name, "a number from 0", error=WallsError, code="bad-option", least=0.0)
+        for name in ("join", "drop_duplicates", "resolve", "union"):
+            flag(getattr(self, name), name, error=WallsError, code="bad-option")
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@
 
   const FAN = 100;
   const COMPUTING = "Computing…";
+  const LOOK = 200; // milliseconds between two questions whether the file was saved
   const FIRST = 12; // crossings of the picture that the first request covers; more is asked for while it plays
 
   class Page {
@@ -24,6 +25,7 @@
       this.foretelling = new W.Lane("api/simulate", (answer) => this.foretold(answer), (words) => this.unclear(words));
       this.flying = new W.Lane("api/simulate", (answer, asked) => this.flown(answer, asked), (words) => this.complain(words));
       this.importing = new W.Lane("api/walls", (answer) => this.show(answer, true), (words) => this.complain(words));
+      this.following = new W.Lane("api/saved", (answer) => this.followed(answer), (words) => this.unread(words));
       W.viewButtons(this.stage);
       W.showBoxes(this.player);
       this.gallery = new W.Gallery(this);
@@ -75,6 +77,29 @@
       this.controls.show(document, again);
       if (this.shot) this.rerun();
       else this.foretell();
+      this.follow();
+    }
+
+    // A file of this machine: ask now and then whether it was saved, and show it anew from where we stand.
+    follow() {
+      clearTimeout(this.follower);
+      if (!this.document.watched) return;
+      const { id, version } = this.document;
+      this.follower = setTimeout(() => this.following.ask({ document: id, version }), LOOK);
+    }
+
+    followed(answer) {
+      if (answer.id !== this.document.id) return void this.follow();
+      const world = ({ gravity, materials }) => JSON.stringify([gravity, materials]);
+      const changed = world(answer) !== world(this.document);
+      this.document = answer;
+      if (changed) this.controls.showWorld(answer); // the file says so; else what the person chose stays
+      this.show(answer, true);
+    }
+
+    unread(words) {
+      this.complain(words);
+      this.follow();
     }
 
     get size() {

@@ -78,8 +78,9 @@
         $(id).style.setProperty("--done", `${100 * Number($(id).value)}%`);
       }
       for (const id of ["restitution", "tangential"]) {
-        const mixed = this.page.document?.materials.mixed && !this.touched.has(id);
-        document.querySelector(`output[for=${id}]`).textContent = mixed ? "mixed" : Number($(id).value).toFixed(2);
+        const made = this.touched.has(id) ? null : this.page.document?.materials; // a bumper's is beyond the slider
+        const value = made ? made[id === "restitution" ? id : "tangential_restitution"] : Number($(id).value);
+        document.querySelector(`output[for=${id}]`).textContent = made?.mixed ? "mixed" : value.toFixed(2);
       }
     }
 

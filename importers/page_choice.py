@@ -11,11 +11,24 @@ from importers.problems import Problem
 PageChoice = int | Literal["all"] | None
 
 
-def check_page(page: PageChoice, file: str = "") -> None:
+def check_page(page: object, file: str = "") -> None:
     """Raise DrawingError for what is no choice of a page: numbers begin with 1."""
     if page is None or page == "all" or (isinstance(page, int) and not isinstance(page, bool) and page >= 1):
         return
     raise DrawingError(f"{page!r} is no page", code="no-such-page", fix="give a number from 1, or all", file=file)
+
+
+def page_choice(text: str, file: str = "") -> PageChoice:
+    """Give the choice that a text such as ``"2"`` or ``"all"`` stands for; ``""`` chooses nothing.
+
+    Raises:
+        DrawingError: it stands for none.
+    """
+    if text in ("", "all"):
+        return "all" if text else None
+    page = int(text) if text.isascii() and text.isdigit() and len(text) < 10 else 0
+    check_page(page or text, file)
+    return page
 
 
 def no_such_page(page: int, pages: int, file: str = "") -> DrawingError:
@@ -35,11 +48,12 @@ def keep_artboard(drawing: Drawing, page: int) -> None:
     Raises:
         DrawingError: there is no such artboard.
     """
+    drawing.page = page
     if not drawing.artboards and page == 1:
         return
     if page > len(drawing.artboards):
         raise no_such_page(page, max(len(drawing.artboards), 1), drawing.file)
-    artboard = drawing.artboards[page - 1]
+    artboard = drawing.sheet = drawing.artboards[page - 1]
     kept = []
     for path in drawing.paths:
         points = [point for subpath in path.subpaths for point in control_points(subpath.segments)]

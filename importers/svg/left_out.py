@@ -1,0 +1,136 @@
+"""What is said about the elements that draw nothing, or not all of what they mean to draw."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from importers.boxes import box_of
+from importers.drawing import DrawnPath
+from importers.svg.matrix import Matrix, transform
+from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS
+from importers.svg.notes import Notes
+from importers.svg.references import References
+from importers.svg.regions import EVERYWHERE, Region
+from importers.svg.shapes import Lengths, Shape
+
+_NEVER = frozenset(("defs", "clipPath", "mask", "pattern", "marker", "symbol"))
+_SILENT = frozenset(
+    (
+        "title",
+        "desc",
+        "metadata",
+        "style",
+        "linearGradient",
+        "radialGradient",
+        "filter",
+        "view",
+        "cursor",
+        "font",
+        "font-face",
+        "solidcolor",
+        "color-profile",
+        "hatch",
+        "meshgradient",
+        "missing-glyph",
+        "glyph",
+    )
+)
+# What is seen but has no outlines: the code of its problem, and what to do
+NO_GEOMETRY = {
+    "text": ("text-left-out", "to make walls of letters, convert the text to paths before saving"),
+    "image": ("image-left-out", "trace the image if its shapes are to be walls"),
+    "foreignObject": ("object-left-out", "draw its content as shapes if it is to be walls"),
+}
+
+
+def note_skipped(tag: str, element: Any, notes: Notes, references: References) -> None:
+    """Say that an element of SVG draws nothing by itself."""
+    if tag in NO_GEOMETRY:
+        code, fix = NO_GEOMETRY[tag]
+        notes.count(code, "info", f"<{tag}> has no outlines and is left out", element, fix=fix)
+    elif tag in _NEVER:
+        references.kept_back.setdefault(element)
+    elif tag in ("script", "animate", "animateTransform", "animateMotion", "animateColor", "set"):
+        message = f"<{tag}> is not run: the drawing is read as it is at the start"
+        notes.count("not-run", "info", message, element)
+    elif tag not in _SILENT:
+        notes.count("unknown-element", "info", f"<{tag[:60]}> is unknown to SVG, browsers skip it", element)
+
+
+def note_foreign(element: Any, notes: Notes) -> None:
+    """Say that an element is not SVG."""
+    tag = str(element.tag)
+    if tag[0] != "{":
+        fix = f'give it the namespace "{SVG_NS}"'
+        message = f"<{tag[:60]}> is in no namespace, so browsers skip it"
+        notes.count("unknown-element", "warning", message, element, fix=fix)
+    elif not tag.startswith((INKSCAPE, SODIPODI, "{http://ns.adobe.com/", "{&ns_", "{http://www.w3.org/1999/02/")):
+        message = f"<{tag.rpartition('}')[2][:60]}> is not SVG and is left out"
+        notes.count("foreign-element", "info", message, element)
+
+
+def note_shape(
+    tag: str, element: Any, shape: Shape, lengths: Lengths, layer: str, name: str, matrix: Matrix, notes: Notes
+) -> None:
+    """Say what is wrong with a shape: its lengths, its data, or that it draws nothing."""
+    for attribute in lengths.invalid:
+        value = str(element.get(attribute))[:40]
+        message = f"{attribute}={value!r} is no length and is not used"
+        notes.add("bad-length", "warning", message, element, attribute=attribute, layer=layer, name=name)
+    if lengths.assumed:
+        message = f"<{tag}> is measured in a window or a font, which a file does not have"
+        fix = "write its lengths in px or mm"
+        notes.count("assumed-unit", "warning", message, element, fix=fix)
+    if shape.fault is not None:
+        at = None
+        if shape.subpaths:
+            end = shape.subpaths[-1].segments[-1][-2:]
+            at = transform([("L", *end)], matrix)[0][1:]
+        fix = "what stands before it is used" if shape.subpaths else "nothing of it is drawn"
+        notes.add(
+            "bad-path-data" if shape.attribute == "d" else "bad-points",
+            "error",
+            shape.fault.message,
+            element,
+            fix=f"{fix}; correct the {shape.attribute} attribute here",
+            attribute=shape.attribute,
+            offset=shape.fault.offset,
+            layer=layer,
+            name=name,
+            at=at,
+        )
+    elif not shape.subpaths:
+        notes.count("nothing-drawn", "info", f"<{tag}> draws nothing: {shape.nothing}", element)
+
+
+def note_unseen(tag: str, element: Any, path: DrawnPath, page: Region, clip: Region, notes: Notes) -> None:
+    """Say that not all of a shape, or nothing of it, is seen for a clip, a mask or the end of the picture.
+
+    Args:
+        tag: of the element.
+        element: the shape.
+        path: what it draws.
+        page: what the picture and the viewports in it show.
+        clip: what clips and masks leave of it.
+        notes: to say it to.
+    """
+    x, y = start = path.subpaths[0].segments[0][1:]
+    if clip.box == EVERYWHERE and clip.exact and not page.misses((x, y, x, y)):
+        return  # its first point is seen, and nothing cuts it
+    box = box_of([path])
+    if box is None:
+        return
+    reach = 2.0 * (path.stroke_width or 0.0)  # half the width, as far as a corner of it may jut out
+    wide = (box[0] - reach, box[1] - reach, box[2] + reach, box[3] + reach)
+    if clip.misses(wide):
+        message = f"<{tag}> is wholly outside its clip, so nothing of it is seen"
+        fix = "delete it if it is to be no wall"
+        notes.add("outside-clip", "warning", message, element, fix=fix, layer=path.layer, name=path.name, at=start)
+    elif page.misses(wide):
+        message = f"<{tag}> is wholly outside the picture, so nothing of it is seen"
+        fix = "delete it if it is to be no wall, or make the picture larger"
+        notes.add("outside-picture", "warning", message, element, fix=fix, layer=path.layer, name=path.name, at=start)
+    if clip.cuts(wide):
+        message = "a shape under a clip path or a mask is taken whole"
+        fix = "cut it in the drawing program if its walls are to end there"
+        notes.count("clip-not-applied", "warning", message, element, fix=fix)

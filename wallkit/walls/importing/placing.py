@@ -1,0 +1,119 @@
+"""Places: a drawing on the page, in the units and with the origin that are asked for, before anything is made of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from importers.boxes import Box, box_of
+from importers.drawing import Artboard, Drawing, DrawnPath, Segment, Subpath
+from importers.page_choice import keep_artboard
+from importers.problems import Problem
+from wallkit.walls.import_options import ImportOptions, point_of
+from wallkit.walls.walls import WallsError
+
+INCH = {"px": 96.0, "pt": 72.0, "mm": 25.4, "cm": 2.54, "m": 0.0254, "in": 1.0}
+"""So many of each are an inch: CSS fixes the px, PostScript the point."""
+
+Point = Callable[[float, float], tuple[float, float]]
+
+
+def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
+    """Give the part of a drawing that is asked for, in its units, with its origin.
+
+    A length l of the file is l * a / b in the units asked for, where a and b of both are an inch. Then the origin is
+    taken away; scale and flip, which come later, leave it where it is.
+
+    Args:
+        drawing: as read; it stays as it is.
+        options: ``page``, ``units``, ``origin`` and ``flip_y`` are asked.
+
+    Raises:
+        DrawingError: there is no such page.
+        WallsError: the origin is to be a page or box that the drawing has not, or its units are no lengths.
+    """
+    if isinstance(options.page, int) and drawing.page != options.page:
+        drawing = replace(drawing, problems=list(drawing.problems))
+        keep_artboard(drawing, options.page)
+    elif options.page is None and len(drawing.artboards) > 1:
+        drawing = replace(drawing, problems=[*drawing.problems, _several(drawing)])
+    units = options.units or drawing.units
+    if units == drawing.units and not options.origin:
+        return drawing
+    for word in (units, drawing.units):
+        if word not in INCH:
+            raise WallsError(f"units {word!r} have no size", code="bad-option", fix=f"one of: {', '.join(INCH)}")
+    a, b = (1.0, 1.0) if units == drawing.units else (INCH[units], INCH[drawing.units])
+    x0, y0 = point_of(options.origin) or _corner(drawing, options, a, b)
+    factor = a / b
+
+    def moved(x: float, y: float) -> tuple[float, float]:
+        return x * a / b - x0, y * a / b - y0
+
+    return replace(
+        drawing,
+        units=units,
+        paths=[_path(path, moved, factor) for path in drawing.paths],
+        problems=[_problem(problem, moved) for problem in drawing.problems],
+        artboards=[_artboard(board, moved) for board in drawing.artboards],
+        sheet=None if drawing.sheet is None else _artboard(drawing.sheet, moved),
+    )
+
+
+def _several(drawing: Drawing) -> Problem:
+    names = ", ".join(f"{index + 1} {board.name!r}" for index, board in enumerate(drawing.artboards[:8]))
+    count = len(drawing.artboards)
+    more = "" if count <= 8 else f" and {count - 8} more"
+    message = f"{count} pages are one level: {names}{more}"
+    return Problem(
+        "several-artboards", "info", message, "choose one with --page N; or say that all are meant, --page all"
+    )
+
+
+def _corner(drawing: Drawing, options: ImportOptions, a: float, b: float) -> tuple[float, float]:
+    """Give the corner of page or box that becomes (0, 0), of smallest coordinates in the result and in its units."""
+    if not options.origin:
+        return 0.0, 0.0
+    box = _page_box(drawing) if options.origin == "page" else _art_box(drawing)
+    if box is None:
+        other = "box" if options.origin == "page" else "X,Y"
+        what = "says no page" if options.origin == "page" else "is empty"
+        raise WallsError(f"the drawing {what}", code="no-origin", fix=f"give --origin {other}", file=drawing.file)
+    return box[0] * a / b, (box[3] if options.flip_y else box[1]) * a / b
+
+
+def _page_box(drawing: Drawing) -> Box | None:
+    sheets = [drawing.sheet] if drawing.sheet is not None else drawing.artboards
+    if not sheets:
+        return None
+    low_x, low_y = min(sheet.x_min for sheet in sheets), min(sheet.y_min for sheet in sheets)
+    return low_x, low_y, max(sheet.x_max for sheet in sheets), max(sheet.y_max for sheet in sheets)
+
+
+def _art_box(drawing: Drawing) -> Box | None:
+    return box_of(path for path in drawing.paths if path.visible and not path.guide and not path.clip)
+
+
+def _path(path: DrawnPath, moved: Point, factor: float) -> DrawnPath:
+    width = None if path.stroke_width is None else path.stroke_width * factor
+    subpaths = [Subpath([_segment(part, moved, factor) for part in sub.segments], sub.closed) for sub in path.subpaths]
+    return replace(path, subpaths=subpaths, stroke_width=width)
+
+
+def _segment(segment: Segment, moved: Point, factor: float) -> Segment:
+    if segment[0] == "A":
+        _, rx, ry, rotation, large, sweep, x, y = segment
+        return ("A", rx * factor, ry * factor, rotation, large, sweep, *moved(x, y))
+    numbers = segment[1:]
+    return (segment[0], *(part for x, y in zip(numbers[::2], numbers[1::2], strict=True) for part in moved(x, y)))
+
+
+def _artboard(board: Artboard, moved: Point) -> Artboard:
+    return Artboard(board.name, *moved(board.x_min, board.y_min), *moved(board.x_max, board.y_max))
+
+
+def _problem(problem: Problem, moved: Point) -> Problem:
+    if problem.x is None or problem.y is None:
+        return problem
+    x, y = moved(problem.x, problem.y)
+    return replace(problem, x=x, y=y)
