@@ -12,9 +12,9 @@ from wallkit.cli import app as cli
 PAGE = Path(__file__).parent / "cli.md"
 HEAD = """# The commands and their options
 
-Made by `python docs/make_cli.py` from the commands' own help. FILE is a drawing, walls or a scene, told by its content; `-`
-stands for standard input or output. Exit codes: 0 fine, 1 findings (`wallkit check`), 2 unreadable input or wrong usage, 3 a
-limit was hit, 130 interrupted.
+Made by `python docs/make_cli.py` from the commands' own help. FILE is a drawing, walls or a scene, told by its content;
+`-` stands for standard input or output. Exit codes: 0 fine, 1 findings (`wallkit check`), 2 unreadable input or wrong
+usage, 3 a limit was hit, 130 interrupted.
 """
 
 

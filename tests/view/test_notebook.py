@@ -23,6 +23,9 @@ SCENE = wallkit.Scene(WALLS, wallkit.Balls([[3, 3]], [[1.0, 2]], 1))
 )
 def test_a_notebook_shows_it_as_svg(thing):
     assert ET.fromstring(thing._repr_svg_()).tag == "{http://www.w3.org/2000/svg}svg"
+    drawn = ET.fromstring(thing.to_svg(title="Seen", width=333))
+    assert drawn.get("width") == "333"
+    assert "Seen" in "".join(drawn.itertext())
 
 
 def test_the_importers_alone_know_no_painter():
@@ -32,3 +35,12 @@ def test_the_importers_alone_know_no_painter():
     )
     said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert said.stdout == "None False\n"
+
+
+def test_to_svg_without_a_painter_is_an_error_that_says_what_to_do():
+    script = (
+        "from importers.drawing import Drawing\nfrom importers.errors import WallkitError\n"
+        "try:\n    Drawing('pt', 'up').to_svg()\nexcept WallkitError as error:\n    print(error.code, error.fix)"
+    )
+    said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert said.stdout == "no-painter import wallkit\n"

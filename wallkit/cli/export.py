@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from wallkit.cli import import_options as options
+from wallkit.cli.watching import watchable
 
 if TYPE_CHECKING:
     from importers.drawing import Drawing
@@ -33,6 +34,7 @@ def _list_formats(wanted: bool) -> None:
 
 
 @options.with_import_options("arcs")
+@watchable
 def export_level(
     file: Annotated[str, typer.Argument(metavar="FILE", help="Drawing, walls or scene; - is standard input.")],
     out: Annotated[str, typer.Option("-o", "--out", metavar="OUT", help="Where to write; - is standard output.")] = "-",
