@@ -115,17 +115,55 @@ def cusps(control):
 @example((0.0, 0.0), (50.0, 1e-9), (70.0, 0.0), (100.0, 0.0), 1e-3)  # all but straight
 @example((0.0, 0.0), (0.0, 50.0), (0.0, 50.0), (0.0, 0.0), 1e-3)  # out and back on itself
 @example((1e-5, 0.0), (0.0, 0.0), (5.0, 0.0), (0.0, 0.0), 1.0)  # with a cusp at its start, to rounding
+@example(  # on a line to rounding; it stops in the middle and goes on
+    (4.120505, 25.775478), (25.775478, -4.432374), (4.120505, 25.775478), (25.775478, -4.432374), 1.0
+)
+@example((0.0, -6.1e-5), (0.0, -6.1e-5), (0.0, 0.0), (1.0, -1.0), 1.0)  # turns slowly, by 135 degrees within 1e-12
 def test_every_cubic_stays_within_the_tolerance(p0, p1, p2, p3, tol):
-    control = [p0, p1, p2, p3]
-    vertices, bulges, pieces = fit([("M", *p0), ("C", *p1, *p2, *p3)], tol)
+    check_cubic([p0, p1, p2, p3], tol)
+
+
+def check_cubic(control, tol):
+    """Distance both ways, ends, half circles at most, no kinks but at cusps."""
+    control = [tuple(map(float, p)) for p in control]
+    vertices, bulges, pieces = fit([("M", *control[0]), ("C", *control[1], *control[2], *control[3])], tol)
     exact = bezier(control, np.linspace(0, 1, DENSE))
     slack = sampling_error(exact) + 1e-12
     assert hausdorff(exact, vertices, bulges) <= tol + slack
     assert pieces.error <= tol
     assert np.abs(bulges).max() <= 1
-    assert tuple(vertices[0]) == p0
-    assert tuple(vertices[-1]) == p3
+    assert tuple(vertices[0]) == control[0]
+    assert tuple(vertices[-1]) == control[3]
     check_smooth(vertices, bulges, cusps(control))
+
+
+short = st.integers(-120, -10).map(lambda tenths: 10 ** (tenths / 10))  # from 1e-12 to 0.1
+angle = st.floats(0, 2 * math.pi)
+
+
+@settings(max_examples=60)
+@given(point, angle, st.floats(-300, 300), st.floats(-0.2, 1.2), st.just(0.0) | short, st.integers(5, 16), tolerance)
+@example((0.0, 0.0), 0.7, 100.0, 0.5, 0.0, 16, 1.0)
+@example((30.0, -20.0), 2.0, 200.0, 0.3, 1e-5, 16, 1e-4)  # to and fro by less than rounding
+@example((30.0, -20.0), 2.0, 200.0, 0.3, 1e-4, 16, 1e-4)  # by a little more
+@example((0.0, 0.0), 1.0, 100.0, 1e-7, 0.5, 16, 1.0)  # a turning point as good as at the start
+def test_every_cubic_to_and_fro_on_a_line_stays_within_the_tolerance(start, turn, size, stop, apart, digits, tol):
+    """The speed is size (t - r) (t - s) with both places given, up to the rounding of control points to digits."""
+    r, s = stop, stop + apart
+    speeds = size * np.array([r * s, r * s - (r + s) / 2, (1 - r) * (1 - s)])  # of Bernstein's form
+    along = np.concatenate([[0.0], np.cumsum(speeds / 3)])
+    control = np.array(start) + along[:, None] * [math.cos(turn), math.sin(turn)]
+    check_cubic(np.round(control, digits - 2), tol)
+
+
+@settings(max_examples=60)
+@given(point, angle, short, angle, short, point, tolerance)
+@example((0.0, 0.0), 1.0, 1e-8, 2.0, 1e-8, (100.0, 0.0), 1e-3)
+def test_every_cubic_with_short_arms_stays_within_the_tolerance(p0, turn0, arm0, turn1, arm1, p3, tol):
+    p1 = np.array(p0) + arm0 * np.array([math.cos(turn0), math.sin(turn0)])
+    p2 = p1 + arm1 * np.array([math.cos(turn1), math.sin(turn1)])
+    check_cubic([p0, p1, p2, p3], tol)
+    check_cubic([p3, p2, p1, p0], tol)
 
 
 @settings(max_examples=30)
