@@ -18,7 +18,6 @@ from wallkit.geometry.ragged import numbered
 from wallkit.walls.importing.arc_fitting.biarcs import (
     CHUNK,
     Biarcs,
-    BoolArray,
     Fit,
     Spans,
     biarcs,
@@ -27,7 +26,7 @@ from wallkit.walls.importing.arc_fitting.biarcs import (
     measure,
     offsets,
 )
-from wallkit.walls.importing.arc_fitting.curves import ROUNDING
+from wallkit.walls.importing.arc_fitting.curves import ROUNDING, BoolArray
 from wallkit.walls.importing.arc_fitting.joint_directions import lean
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
 from wallkit.walls.importing.curves_to_lines import within_limit
