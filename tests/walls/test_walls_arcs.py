@@ -78,7 +78,8 @@ angle = st.floats(0, 2 * math.pi)
 
 @settings(max_examples=60)
 @given(point, angle, st.floats(-300, 300), st.floats(-0.2, 1.2), st.just(0.0) | short, st.integers(5, 16), tolerance)
-@example((0.0, 0.0), 0.7, 100.0, 0.5, 0.0, 16, 1.0)
+@example((-90.103243, 36.287691), 2.76, -50.0, 0.79, 0.0, 11, 1e-2)  # stops and goes on
+@example((-77.365168, -6.813352), 0.58, 79.0, 0.66, 6.30957344480193e-06, 15, 1e-3)
 @example((30.0, -20.0), 2.0, 200.0, 0.3, 1e-5, 16, 1e-4)  # to and fro by less than rounding
 @example((30.0, -20.0), 2.0, 200.0, 0.3, 1e-4, 16, 1e-4)  # by a little more
 @example((0.0, 0.0), 1.0, 100.0, 1e-7, 0.5, 16, 1.0)  # a turning point as good as at the start
@@ -93,7 +94,8 @@ def test_every_cubic_to_and_fro_on_a_line_stays_within_the_tolerance(start, turn
 
 @settings(max_examples=60)
 @given(point, angle, short, angle, short, point, tolerance)
-@example((0.0, 0.0), 1.0, 1e-8, 2.0, 1e-8, (100.0, 0.0), 1e-3)
+@example((-13.75465, 73.464101), 3.97, 7.943282347242821e-12, 2.15, 7.943282347242813e-4, (8.733858, -60.740623), 1e-3)
+@example((-84.957778, 92.572916), 3.39, 5e-10, 4.86, 5e-12, (22.315946, -93.22155), 1e-2)
 def test_every_cubic_with_short_arms_stays_within_the_tolerance(p0, turn0, arm0, turn1, arm1, p3, tol):
     p1 = np.array(p0) + arm0 * np.array([math.cos(turn0), math.sin(turn0)])
     p2 = p1 + arm1 * np.array([math.cos(turn1), math.sin(turn1)])
