@@ -5,6 +5,17 @@ import math
 import numpy as np
 import pytest
 import shapely
+from arcs_judged import (
+    DENSE,
+    arc_points,
+    bezier,
+    check_smooth,
+    cusps,
+    directions,
+    hausdorff,
+    sampling_error,
+    to_line,
+)
 from drawn import circle, drawing, four_cubics, path, polygon
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -17,88 +28,12 @@ from wallkit.walls.importing.segments import gather
 coordinate = st.floats(-100, 100, allow_nan=False).map(lambda x: round(x, 6))
 point = st.tuples(coordinate, coordinate)
 tolerance = st.sampled_from([1.0, 0.1, 1e-2, 1e-3, 1e-4])
-# Points are sampled this densely on both sides; distances are taken to the chords between the samples.
-DENSE = 1500
 
 
 def fit(segments, tol):
     """Vertices (n + 1, 2), bulges (n,), and the result for the segments of one open subpath."""
     pieces = fit_arcs(gather([Subpath(segments, False)]), tol)
     return np.vstack([segments[0][1:3], pieces.ends]), pieces.bulges, pieces
-
-
-def bezier(control, t):
-    """Bernstein sum of any degree at t, as (n, 2)."""
-    control, n = np.asarray(control, dtype=float), len(control) - 1
-    weights = [math.comb(n, k) * t**k * (1 - t) ** (n - k) for k in range(n + 1)]
-    return np.stack(weights, axis=1) @ control
-
-
-def arc_points(a, b, bulge, count):
-    """Points of a bulge edge by its centre and radius, from a to b."""
-    part = np.linspace(0, 1, count)
-    if bulge == 0:
-        return a + (b - a) * part[:, None]
-    angle = 4 * math.atan(bulge)
-    a, b = complex(*a), complex(*b)
-    centre = a + (b - a) / (1 - np.exp(1j * angle)) if abs(angle) > 1e-9 else None
-    if centre is None:  # too flat for a centre: its height is bulge / 2 of the chord, a parabola to rounding
-        z = a + (b - a) * (part - 2j * bulge * part * (1 - part))
-    else:
-        z = centre + (a - centre) * np.exp(1j * angle * part)
-    return np.stack([z.real, z.imag], axis=1)
-
-
-def directions(vertices, bulges):
-    """Directions of each edge at its start and its end, in radians."""
-    chord = np.diff(vertices, axis=0)
-    middle, half = np.arctan2(chord[:, 1], chord[:, 0]), 2 * np.arctan(bulges)
-    return middle - half, middle + half
-
-
-def to_line(points, line):
-    """Largest distance of points to the line through ``line``, by shapely's tree over its pieces."""
-    tree = shapely.STRtree(shapely.linestrings(np.stack([line[:-1], line[1:]], axis=1)))
-    _, distance = tree.query_nearest(shapely.points(points), return_distance=True, all_matches=False)
-    return distance.max()
-
-
-def hausdorff(exact, vertices, bulges):
-    """Largest distance both ways between dense points of the curve and of the arcs."""
-    each = max(200, DENSE // len(bulges))
-    arcs = np.vstack([arc_points(vertices[i], vertices[i + 1], bulges[i], each) for i in range(len(bulges))])
-    return max(to_line(exact, arcs), to_line(arcs, exact))
-
-
-def sampling_error(points):
-    """How far a curve may be from the chords between its samples: an eighth of the largest second difference."""
-    return np.abs(np.diff(points, 2, axis=0)).max() if len(points) > 2 else 0.0
-
-
-def check_smooth(vertices, bulges, cusps_allowed=0):
-    """No kink between edges beyond 1e-9 and what the rounding of vertices does to short chords.
-
-    An edge without a length, which a cusp at the very end of a curve may leave, has no direction: those around count.
-    """
-    some = np.diff(vertices, axis=0).any(axis=1)
-    vertices, bulges = np.vstack([vertices[:1], vertices[1:][some]]), bulges[some]
-    start, end = directions(vertices, bulges)
-    kink = np.abs((start[1:] - end[:-1] + math.pi) % (2 * math.pi) - math.pi)
-    chord = np.hypot(*np.diff(vertices, axis=0).T)
-    size = np.abs(vertices).max()
-    allowed = 1e-9 + 4 * np.finfo(float).eps * size * (1 / chord[1:] + 1 / chord[:-1])
-    assert np.count_nonzero(kink > allowed) <= cusps_allowed
-
-
-def cusps(control):
-    """How often the velocity all but vanishes inside, among the places where the derivative of its square is 0."""
-    d = 3 * np.diff(np.asarray(control, dtype=float), axis=0)
-    powers = np.stack([d[0], 2 * (d[1] - d[0]), d[0] - 2 * d[1] + d[2]])
-    slope = sum(np.polynomial.Polynomial(p) * np.polynomial.Polynomial(p).deriv() for p in powers.T)
-    t = slope.roots() if slope.coef.any() else np.empty(0)
-    t = t[np.abs(t.imag) < 1e-6].real
-    t = t[(t > 1e-9) & (t < 1 - 1e-9)]
-    return np.count_nonzero(np.hypot(*bezier(d, t).T) <= 1e-6 * np.abs(d).max())
 
 
 @settings(max_examples=100)
@@ -115,17 +50,57 @@ def cusps(control):
 @example((0.0, 0.0), (50.0, 1e-9), (70.0, 0.0), (100.0, 0.0), 1e-3)  # all but straight
 @example((0.0, 0.0), (0.0, 50.0), (0.0, 50.0), (0.0, 0.0), 1e-3)  # out and back on itself
 @example((1e-5, 0.0), (0.0, 0.0), (5.0, 0.0), (0.0, 0.0), 1.0)  # with a cusp at its start, to rounding
+@example(  # on a line to rounding; it stops in the middle and goes on
+    (4.120505, 25.775478), (25.775478, -4.432374), (4.120505, 25.775478), (25.775478, -4.432374), 1.0
+)
+@example((0.0, -6.1e-5), (0.0, -6.1e-5), (0.0, 0.0), (1.0, -1.0), 1.0)  # turns slowly, by 135 degrees within 1e-12
 def test_every_cubic_stays_within_the_tolerance(p0, p1, p2, p3, tol):
-    control = [p0, p1, p2, p3]
-    vertices, bulges, pieces = fit([("M", *p0), ("C", *p1, *p2, *p3)], tol)
+    check_cubic([p0, p1, p2, p3], tol)
+
+
+def check_cubic(control, tol):
+    """Distance both ways, ends, half circles at most, no kinks but at cusps."""
+    control = [tuple(map(float, p)) for p in control]
+    vertices, bulges, pieces = fit([("M", *control[0]), ("C", *control[1], *control[2], *control[3])], tol)
     exact = bezier(control, np.linspace(0, 1, DENSE))
     slack = sampling_error(exact) + 1e-12
     assert hausdorff(exact, vertices, bulges) <= tol + slack
     assert pieces.error <= tol
     assert np.abs(bulges).max() <= 1
-    assert tuple(vertices[0]) == p0
-    assert tuple(vertices[-1]) == p3
+    assert tuple(vertices[0]) == control[0]
+    assert tuple(vertices[-1]) == control[3]
     check_smooth(vertices, bulges, cusps(control))
+
+
+short = st.integers(-120, -10).map(lambda tenths: 10 ** (tenths / 10))  # from 1e-12 to 0.1
+angle = st.floats(0, 2 * math.pi)
+
+
+@settings(max_examples=60)
+@given(point, angle, st.floats(-300, 300), st.floats(-0.2, 1.2), st.just(0.0) | short, st.integers(5, 16), tolerance)
+@example((-90.103243, 36.287691), 2.76, -50.0, 0.79, 0.0, 11, 1e-2)  # stops and goes on
+@example((-77.365168, -6.813352), 0.58, 79.0, 0.66, 6.30957344480193e-06, 15, 1e-3)
+@example((30.0, -20.0), 2.0, 200.0, 0.3, 1e-5, 16, 1e-4)  # to and fro by less than rounding
+@example((30.0, -20.0), 2.0, 200.0, 0.3, 1e-4, 16, 1e-4)  # by a little more
+@example((0.0, 0.0), 1.0, 100.0, 1e-7, 0.5, 16, 1.0)  # a turning point as good as at the start
+def test_every_cubic_to_and_fro_on_a_line_stays_within_the_tolerance(start, turn, size, stop, apart, digits, tol):
+    """The speed is size (t - r) (t - s) with both places given, up to the rounding of control points to digits."""
+    r, s = stop, stop + apart
+    speeds = size * np.array([r * s, r * s - (r + s) / 2, (1 - r) * (1 - s)])  # of Bernstein's form
+    along = np.concatenate([[0.0], np.cumsum(speeds / 3)])
+    control = np.array(start) + along[:, None] * [math.cos(turn), math.sin(turn)]
+    check_cubic(np.round(control, digits - 2), tol)
+
+
+@settings(max_examples=30)
+@given(point, angle, short, angle, short, point, tolerance)
+@example((-13.75465, 73.464101), 3.97, 7.943282347242821e-12, 2.15, 7.943282347242813e-4, (8.733858, -60.740623), 1e-3)
+@example((-84.957778, 92.572916), 3.39, 5e-10, 4.86, 5e-12, (22.315946, -93.22155), 1e-2)
+def test_every_cubic_with_short_arms_stays_within_the_tolerance(p0, turn0, arm0, turn1, arm1, p3, tol):
+    p1 = np.array(p0) + arm0 * np.array([math.cos(turn0), math.sin(turn0)])
+    p2 = p1 + arm1 * np.array([math.cos(turn1), math.sin(turn1)])
+    check_cubic([p0, p1, p2, p3], tol)
+    check_cubic([p3, p2, p1, p0], tol)
 
 
 @settings(max_examples=30)

@@ -20,10 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.walls.importing.arc_fitting.curves import ComplexArray, cross, dot, unit
+from wallkit.walls.importing.arc_fitting.curves import BoolArray, ComplexArray, cross, dot, unit
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
-
-BoolArray = NDArray[np.bool_]
 
 # Directions that are equal within this make the two arcs one. The kink that is left in the middle of nowhere,
 # at the piece's ends, is half of it: an order below the 1e-9 that is promised for joints.
@@ -145,6 +143,17 @@ def biarcs(spans: Spans, loose: BoolArray | None = None) -> Biarcs:
         bulge0, bulge1 = np.where(single, bulge, bulge0), np.where(single, 0.0, bulge1)
     sound &= (np.abs(bulge0) <= 1) & (np.abs(bulge1) <= 1)
     return Biarcs(joint, along, bend0, bend1, _rounded(bulge0), _rounded(bulge1), single, sound)
+
+
+def flatten(spans: Spans, arcs: Biarcs) -> bool:
+    """Make a line, in place, of each span without arcs, too short for a direction; tell whether there was any."""
+    v = spans.p1 - spans.p0
+    rows = np.flatnonzero(~arcs.sound & (v != 0))
+    arcs.joint[rows], arcs.along[rows] = (spans.p0[rows] + spans.p1[rows]) / 2, unit(v[rows])
+    for part in (arcs.bend0, arcs.bend1, arcs.bulge0, arcs.bulge1):
+        part[rows] = 0.0
+    arcs.single[rows] = True
+    return len(rows) > 0
 
 
 def _from(direction: ComplexArray, chord: ComplexArray) -> tuple[FloatArray, FloatArray]:

@@ -17,10 +17,29 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.importing.segments import Arcs
 
 ComplexArray = NDArray[np.complex128]
+BoolArray = NDArray[np.bool_]
 
-# A speed below this part of the curve's largest counts as a cusp. The tip that is cut off there is as small as
-# the square of it, 1e-16 of the curve: below the rounding of its coordinates.
-_CUSP = 1e-8
+# Of a curve's size: places on it are known to some eps of that (2e-16), so that a part as short as this has no
+# direction to speak of.
+ROUNDING = 1e-14
+_FLAT = 1e-8  # half axes in this ratio make an ellipse a line: what its tips turn in is the square of it, 1e-16
+
+
+@dataclass(slots=True)
+class Cusps:
+    """Places inside of curves where these come to a stop, arrays of one length.
+
+    Attributes:
+        ids: the curve of each.
+        t: its parameter there.
+        coming: direction just before.
+        leaving: direction just after: the opposite one, but where the curve stops and goes on.
+    """
+
+    ids: IntArray
+    t: FloatArray
+    coming: ComplexArray
+    leaving: ComplexArray
 
 
 class Curves(Protocol):
@@ -55,8 +74,8 @@ class Curves(Protocol):
         """(n,) directions at the two ends, of length one; 0 for a curve that is a point."""
         ...
 
-    def cusps(self) -> tuple[IntArray, FloatArray]:
-        """Where the direction turns back on the spot, inside: curve and t of each, in rising order."""
+    def cusps(self) -> Cusps:
+        """Where the curve comes to a stop, inside, in rising order."""
         ...
 
 
@@ -76,6 +95,26 @@ def dot(a: ComplexArray, b: ComplexArray) -> FloatArray:
 def cross(a: ComplexArray, b: ComplexArray) -> FloatArray:
     """Positive where b is left of a."""
     result: FloatArray = a.real * b.imag - a.imag * b.real
+    return result
+
+
+def leading(velocity: ComplexArray, acceleration: ComplexArray, jerk: ComplexArray, least: FloatArray) -> IntArray:
+    """Tell which derivative has the direction of a cubic motion v + a h + j h^2 / 2 once it is ``least`` away.
+
+    The velocity has it until the others can have undone it: a h + j h^2 / 2 = v (all of them lengths), so that
+    h = 2 v / (a + sqrt(a^2 + 2 j v)), after the way v h - a h^2 / 2 - j h^3 / 6. From standing the acceleration has it
+    until h = 2 a / j, after the way a h^2 / 2 - j h^3 / 6 = 2 a^3 / (3 j^2). On a straight line the second is the
+    way between two turning points.
+
+    Returns:
+        0 for the velocity, 1 for the acceleration, 2 for the jerk; 0 where the velocity is not a number.
+    """
+    v, a, j = np.abs(velocity), np.abs(acceleration), np.abs(jerk)
+    rate = a + np.sqrt(a * a + 2 * j * v)
+    h = np.divide(2 * v, rate, out=np.where(v > 0, np.inf, 0.0), where=rate > 0)
+    with np.errstate(invalid="ignore"):  # inf where nothing undoes the velocity
+        stopped = h * (v - h * (a / 2 + j * h / 6)) <= least
+    result: IntArray = np.where(stopped, np.where(2 * a**3 <= 3 * j * j * least, 2, 1), 0)
     return result
 
 
@@ -142,43 +181,72 @@ class Cubics:
         a, b, _ = self._powers(ids)
         return 6 * a * t + 2 * b
 
+    def _leading(self, ids: IntArray, t: FloatArray) -> IntArray:
+        """Tell which derivative has the direction just beside t (n, k): (n, k)."""
+        jerk = 6 * self._powers(ids)[0]
+        least = ROUNDING * self.sizes[ids, None]
+        return leading(self.motion(ids, t)[1], self.accelerations(ids, t), jerk, least)
+
     def end_tangents(self) -> tuple[ComplexArray, ComplexArray]:
-        """Direction to the next control point that is somewhere else."""
+        """Direction to the next control point, but for arms too short to matter beyond the rounding of places."""
         p = self.control
+        order = self._leading(np.arange(len(p)), np.broadcast_to(np.array([0.0, 1.0]), (len(p), 2)))
         first, last = np.zeros(len(p), dtype=np.complex128), np.zeros(len(p), dtype=np.complex128)
-        for near, far in ((1, 2), (2, 1), (3, 0)):
-            first = np.where(first == 0, unit(p[:, near] - p[:, 0]), first)
-            last = np.where(last == 0, unit(p[:, 3] - p[:, far]), last)
+        for rank, (near, far) in enumerate(((1, 2), (2, 1), (3, 0))):
+            first = np.where((first == 0) & (order[:, 0] <= rank), unit(p[:, near] - p[:, 0]), first)
+            last = np.where((last == 0) & (order[:, 1] <= rank), unit(p[:, 3] - p[:, far]), last)
         return first, last
 
-    def cusps(self) -> tuple[IntArray, FloatArray]:
-        """Where the velocity vanishes.
+    def cusps(self) -> Cusps:
+        """Where the velocity vanishes, but for what the rounding of places hides.
 
-        The candidates: the vertex of the quadratic (velocity x acceleration), which has a double root at a cusp;
-        and for a curve on a straight line the turning points along it.
+        It turns back there against the acceleration. Where that vanishes as well, the curve is a straight line and
+        goes on in the direction of the third derivative; two turning points with no way between them are the same.
         """
-        if not len(self):
-            return np.empty(0, dtype=np.int64), np.empty(0)
         ids = np.arange(len(self))
-        a, b, c = (part[:, 0] for part in self._powers(ids))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            # velocity x acceleration = 2 (c x b + 3 t (c x a) + 3 t^2 (b x a))
-            found = [-cross(c, a) / (2 * cross(b, a))]
-        spokes = self.control[:, 1:]
-        longest = np.abs(spokes).argmax(axis=1)
-        along = unit(spokes[ids, longest])
-        found += _roots(3 * dot(along, a), dot(along, b), dot(along, c))
-        t = np.stack(found, axis=1)
-        # nearer to an end it is that end's: a curve that stands still there has double roots, known to 1e-8
-        t = np.where((t > 1e-6) & (t < 1 - 1e-6), t, np.nan)
-        size = np.abs(np.diff(self.control, axis=1)).max(axis=1, keepdims=True) * 3
-        with np.errstate(invalid="ignore"):
-            still = np.abs(self.motion(ids, t)[1]) <= _CUSP * size
-        t = np.sort(np.where(still, t, np.nan), axis=1)  # nan goes last
+        a, _, _ = self._powers(ids)
+        t = self._standing()
+        order = self._leading(ids, t)
+        on = order[:, -1] == 2  # the middle of two turning points: these are the same place
+        t[:, :-1][on] = np.nan
+        t = np.where((order > 0) & ~self._at_ends(t), t, np.nan)
+        t = np.sort(t, axis=1)  # nan goes last
         with np.errstate(invalid="ignore"):
             t[:, 1:][np.diff(t, axis=1) < 1e-7] = np.nan  # the same cusp found twice
         which, column = np.nonzero(~np.isnan(t))
-        return which, t[which, column]
+        found = t[which, column]
+        back, onward = unit(self.accelerations(which, found[:, None])[:, 0]), unit(a[which, 0])
+        return Cusps(which, found, np.where(on[which], onward, -back), np.where(on[which], onward, back))
+
+    def _standing(self) -> FloatArray:
+        """Where the velocity may vanish (n, 4), nan for none.
+
+        The vertex of the quadratic (velocity x acceleration), which has a double root at a cusp; and for a curve on
+        a straight line the turning points along it, and last the middle of these.
+        """
+        ids = np.arange(len(self))
+        a, b, c = (part[:, 0] for part in self._powers(ids))
+        spokes = self.control[:, 1:]
+        along = unit(spokes[ids, np.abs(spokes).argmax(axis=1)])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            # velocity x acceleration = 2 (c x b + 3 t (c x a) + 3 t^2 (b x a))
+            vertex = -cross(c, a) / (2 * cross(b, a))
+            middle = -dot(along, b) / (3 * dot(along, a))
+        turning = _roots(3 * dot(along, a), dot(along, b), dot(along, c))
+        t = np.stack([vertex, *turning, middle], axis=1)
+        return np.where((t > 0) & (t < 1), t, np.nan)
+
+    def _at_ends(self, t: FloatArray) -> BoolArray:
+        """Tell where the whole way from t (n, k) to one of the ends is lost in rounding.
+
+        A cubic whose velocity vanishes at t cannot come back both there and half way to the end.
+        """
+        ids, least = np.arange(len(self)), ROUNDING * self.sizes[:, None]
+        here, low, high = (self.motion(ids, place)[0] for place in (t, t / 2, (t + 1) / 2))
+        last = self.last[:, None]
+        start = np.maximum(np.abs(here), np.abs(low)) <= least
+        result: BoolArray = start | (np.maximum(np.abs(here - last), np.abs(high - last)) <= least)
+        return result
 
 
 def _roots(a: FloatArray, b: FloatArray, c: FloatArray) -> list[FloatArray]:
@@ -242,10 +310,10 @@ class Ellipses:
         directions = unit(self.motion(np.arange(len(self)), ends)[1])
         return directions[:, 0], directions[:, 1]
 
-    def cusps(self) -> tuple[IntArray, FloatArray]:
+    def cusps(self) -> Cusps:
         """The tips of an ellipse that is as thin as a line."""
         long, short = self.arcs.radii
-        flat, upright = short <= _CUSP * long, long <= _CUSP * short
+        flat, upright = short <= _FLAT * long, long <= _FLAT * short
         which, ts = [], []
         for row in np.flatnonzero(flat | upright).tolist():
             start, turn = float(self.arcs.start[row]), float(self.arcs.turn[row])
@@ -258,4 +326,6 @@ class Ellipses:
             t = t[(t > 1e-9) & (t < 1 - 1e-9)]
             which += [row] * len(t)
             ts += t.tolist()
-        return np.array(which, dtype=np.int64), np.array(ts)
+        ids, at = np.array(which, dtype=np.int64), np.array(ts)
+        back = unit(self.accelerations(ids, at[:, None])[:, 0])
+        return Cusps(ids, at, -back, back)

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.walls.importing.arc_fitting.biarcs import BoolArray, Fit, Spans
-from wallkit.walls.importing.arc_fitting.curves import Cubics, Curves, Ellipses, as_complex, cross
+from wallkit.walls.importing.arc_fitting.biarcs import Fit, Spans
+from wallkit.walls.importing.arc_fitting.curves import BoolArray, Cubics, Curves, Ellipses, as_complex, cross
 from wallkit.walls.importing.arc_fitting.cuts import (
     between_cusps,
     even_out,

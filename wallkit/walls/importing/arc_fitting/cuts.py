@@ -18,15 +18,15 @@ from wallkit.geometry.ragged import numbered
 from wallkit.walls.importing.arc_fitting.biarcs import (
     CHUNK,
     Biarcs,
-    BoolArray,
     Fit,
     Spans,
     biarcs,
+    flatten,
     largest,
     measure,
     offsets,
 )
-from wallkit.walls.importing.arc_fitting.curves import unit
+from wallkit.walls.importing.arc_fitting.curves import ROUNDING, BoolArray
 from wallkit.walls.importing.arc_fitting.joint_directions import lean
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
 from wallkit.walls.importing.curves_to_lines import within_limit
@@ -42,27 +42,26 @@ _ROUNDS = 8
 _ROUGH = 2.0  # times the tolerance: cuts that leave a span as far off after three rounds will not even out
 _CUT_ANEW = 2  # rounds of the close look that do so; then halving, which always ends
 _GENTLE = 1.2  # times the tolerance: errors up to it come down by a few more spans evenly spread
-_ROUNDING = 1e-14  # of a chain's size: a span as short has no direction to speak of
 _LEANING = 0.8  # what leaning makes of the number of spans, 0.69, and some for the ends of stretches
 
 
 def between_cusps(chains: Chains) -> Spans:
-    """Cut every curve at its cusps; there the direction comes in against the acceleration and leaves along it."""
+    """Cut every curve at its cusps."""
     curves = chains.curves
-    which, t = curves.cusps()
+    cusps = curves.cusps()
+    which, t = cusps.ids, cusps.t
     n = len(curves)
     first, last = curves.end_tangents()
-    back = unit(curves.accelerations(which, t[:, None])[:, 0])
     point = curves.motion(which, t[:, None])[0][:, 0]
     ids = np.concatenate([np.arange(n), which])
     order = np.lexsort((np.concatenate([np.zeros(n), t]), ids))
     low = np.concatenate([np.zeros(n), t])[order]
     p0 = np.concatenate([np.zeros(n, dtype=np.complex128), point])[order]
-    t0 = np.concatenate([first, back])[order]
+    t0 = np.concatenate([first, cusps.leaving])[order]
     order = np.lexsort((np.concatenate([np.ones(n), t]), ids))
     high = np.concatenate([np.ones(n), t])[order]
     p1 = np.concatenate([curves.last, point])[order]
-    t1 = np.concatenate([last, -back])[order]
+    t1 = np.concatenate([last, cusps.coming])[order]
     return Spans(ids[order], np.arange(len(ids)), low, high, p0, p1, t0, t1)
 
 
@@ -113,7 +112,7 @@ def _look(chains: Chains, spans: Spans) -> Fit:
 def _wrong(chains: Chains, fit: Fit, spans: Spans, tolerance: float) -> BoolArray:
     """Tell which spans must be cut further: not within the tolerance, unless there is nothing left to cut."""
     still = spans.t0 == 0  # the curve is a point
-    short = np.abs(spans.p1 - spans.p0) <= _ROUNDING * chains.sizes[spans.ids]  # or comes back to its start
+    short = np.abs(spans.p1 - spans.p0) <= ROUNDING * chains.sizes[spans.ids]  # or comes back to its start
     narrow = spans.high - spans.low < 1e-6 * chains.lengths[spans.ids]
     wrong: BoolArray = ~(fit.sound & (fit.distance <= tolerance)) & ~still & ~(short & narrow)
     return wrong
@@ -227,7 +226,10 @@ def settle(chains: Chains, spans: Spans, whole: Spans, tolerance: float) -> tupl
         else:
             spans = _halved(chains, spans.take(wrong))
     spans, fit = _in_order(settled)
-    return spans, fitted(chains, spans), replace(fit, turn=np.maximum(fit.turn, _turned(chains, spans)))
+    arcs = fitted(chains, spans)
+    if flatten(spans, arcs):
+        fit = _close_look(chains, spans, arcs)
+    return spans, arcs, replace(fit, turn=np.maximum(fit.turn, _turned(chains, spans)))
 
 
 def _turned(chains: Chains, spans: Spans) -> FloatArray:
