@@ -8,8 +8,8 @@ import pytest
 
 from wallkit import Balls, Scene, Walls, simulate
 from wallkit.cli.play import reader
-from wallkit.view.page.answers import Answers
 from wallkit.view.page.server import PageServer
+from wallkit.view.page.workers import Workers
 from wallkit.walls.walls_json import to_json
 
 pytestmark = pytest.mark.browser
@@ -27,7 +27,7 @@ NAME = (
 
 @pytest.fixture(scope="module")
 def server():
-    with PageServer(Answers(reader())) as running:
+    with PageServer(Workers(reader())) as running:
         threading.Thread(target=running.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True).start()
         yield running
         running.shutdown()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -17,11 +16,11 @@ from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
 from wallkit.scene.samples import samples
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation.run import Ending, Run
-from wallkit.view.page.documents import Document, Reader, Shelf
+from wallkit.view.page.documents import Document, Reader
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
+from wallkit.view.page.questions import Opening
 from wallkit.view.page.warmth import Warmth
 from wallkit.walls import Walls
-from wallkit.walls.import_options import ImportOptions
 
 MOST_BALLS = 1_000
 MOST_CONTACTS = 100_000
@@ -46,37 +45,27 @@ class Download:
 
 
 class Answers:
-    """All questions by name; the server knows nothing of what they mean."""
+    """What a worker knows to answer; the server knows nothing of what the questions mean."""
 
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
-        self.shelf = Shelf()
         self.warmth = Warmth()
-        self.by_name: dict[str, Callable[[Table], Table | Download]] = {
-            "sample": self.sample,
-            "walls": self.walls,
-            "simulate": self.simulate,
-            "save": self.save,
-        }
 
-    def open(self, data: bytes, name: str, folder: Path | None = None, importing: ImportOptions = USUAL) -> Table:
+    def open(self, file: Opening) -> Document:
         """Open a file's bytes; only a file of this machine's own owner may name others, in its folder."""
-        wishes = Wishes(importing=importing, may_be_empty=True)
-        opened = with_a_ball(open_scene(data, wishes, name=name, folder=folder))
-        document = Document(name, opened, importing)
-        self.shelf.put(document)
-        return self.document_table(document)
+        wishes = Wishes(importing=file.importing, may_be_empty=True)
+        opened = with_a_ball(open_scene(file.data, wishes, name=file.name, folder=file.folder))
+        return Document(file.name, opened, file.importing)
 
-    def sample(self, body: Table) -> Table:
+    def sample(self, body: Table) -> Document:
         """Open a sample by name."""
         for sample in samples():
             if sample.name == body.get("name"):
-                return self.open(sample.path.read_bytes(), sample.name, sample.path.parent)
+                return self.open(Opening(sample.path.read_bytes(), sample.name, sample.path.parent, USUAL))
         raise QuestionError("there is no such sample", code="no-sample", fix="choose one of the gallery")
 
-    def walls(self, body: Table) -> Table:
+    def walls(self, body: Table, document: Document) -> Document:
         """Import a document's drawing again, with another tolerance or other curves."""
-        document = self.shelf.get(body.get("document"))
         if document.opened.drawing is None or document.opened.kind == "scene":
             raise QuestionError("these walls do not come from a drawing", code="no-drawing", fix="open the drawing")
         curves = body.get("curves", "arcs")
@@ -84,17 +73,17 @@ class Answers:
             raise QuestionError(f"curves is {curves!r}", code="bad-request", fix='give "lines" or "arcs"')
         tolerance = body.get("tolerance")
         within = None if tolerance is None else number(tolerance, "tolerance", 0.0, MAX_COORDINATE)
-        document.importing = replace(document.importing, curves=curves, tolerance=within)
-        wishes = Wishes(importing=document.importing, may_be_empty=True)
-        document.opened = with_a_ball(open_scene(document.opened.drawing, wishes))
-        return self.document_table(document)
+        importing = replace(document.importing, curves=curves, tolerance=within)
+        wishes = Wishes(importing=importing, may_be_empty=True)
+        opened = with_a_ball(open_scene(document.opened.drawing, wishes))
+        return Document(document.name, opened, importing, document.key)
 
-    def simulate(self, body: Table) -> Table:
+    def simulate(self, body: Table, document: Document) -> Table:
         """Fly balls: to a time, or for a number of bounces each."""
         from wallkit.simulation.simulate import simulate
 
-        scene = self.scene_of(body)
-        until, bounces = self.limits_of(body, len(scene.balls))
+        scene = scene_of(body, document)
+        until, bounces = limits_of(body, len(scene.balls))
         mode = self.warmth.mode(scene)
         most = bounces if mode == "auto" else min(bounces, max(1, INTERPRETED_CONTACTS // len(scene.balls)))
         run = simulate(scene, until, most, mode=mode)
@@ -103,17 +92,16 @@ class Answers:
             table |= {"partial": True, "duration": float(run.final["time"].min())}
         return table
 
-    def save(self, body: Table) -> Download:
+    def save(self, body: Table, document: Document) -> Download:
         """Give the scene, the replay of its run or the walls as a file."""
-        document = self.shelf.get(body.get("document"))
         stem = re.sub(r"[^A-Za-z0-9_-]+", "-", Path(document.name).stem).strip("-")[:60] or "wallkit"
         what = body.get("what")
         if what == "walls":
             from wallkit.walls.walls_json import to_json
 
             return Download(f"{stem}.walls.json", json.dumps(to_json(document.opened.scene.walls)), "application/json")
-        scene = self.scene_of(body)
-        until, bounces = self.limits_of(body, len(scene.balls))
+        scene = scene_of(body, document)
+        until, bounces = limits_of(body, len(scene.balls))
         if what == "scene":
             from wallkit.scene.scene_files import scene_to_json
 
@@ -127,22 +115,6 @@ class Answers:
             page = replay_html(run, title=document.name)
             return Download(f"{stem}.html", page, "text/html; charset=utf-8")
         raise QuestionError(f"what is {what!r}", code="bad-request", fix='give "scene", "replay" or "walls"')
-
-    def scene_of(self, body: Table) -> Scene:
-        """Make the scene that a question is about: the document's, with the balls and the world of the page."""
-        document = self.shelf.get(body.get("document"))
-        scene = document.opened.scene
-        walls = with_material(scene.walls, body)
-        return replace(scene, walls=walls, balls=balls_of(body), gravity=pair_or_none(body.get("gravity"), "gravity"))
-
-    def limits_of(self, body: Table, balls: int) -> tuple[float | None, int]:
-        """Bound a run: at most MOST_CONTACTS bounces of all balls together, whatever was asked for."""
-        until = body.get("until")
-        end = None if until is None else number(until, "until", 0.0, MOST_TIME)
-        bounces = body.get("bounces")
-        most = MOST_CONTACTS // max(balls, 1)
-        asked = most if bounces is None else int(number(bounces, "bounces", 0, MOST_CONTACTS))
-        return end, min(asked, most)
 
     def document_table(self, document: Document) -> Table:
         """Give all that the page shows of a document."""
@@ -188,6 +160,23 @@ class Answers:
         return table
 
 
+def scene_of(body: Table, document: Document) -> Scene:
+    """Make the scene that a question is about: the document's, with the balls and the world of the page."""
+    scene = document.opened.scene
+    walls = with_material(scene.walls, body)
+    return replace(scene, walls=walls, balls=balls_of(body), gravity=pair_or_none(body.get("gravity"), "gravity"))
+
+
+def limits_of(body: Table, balls: int) -> tuple[float | None, int]:
+    """Bound a run: at most MOST_CONTACTS bounces of all balls together, whatever was asked for."""
+    until = body.get("until")
+    end = None if until is None else number(until, "until", 0.0, MOST_TIME)
+    bounces = body.get("bounces")
+    most = MOST_CONTACTS // max(balls, 1)
+    asked = most if bounces is None else int(number(bounces, "bounces", 0, MOST_CONTACTS))
+    return end, min(asked, most)
+
+
 def number(value: object, name: str, least: float = -math.inf, most: float = math.inf) -> float:
     """Take a finite number within bounds.
 
@@ -195,7 +184,7 @@ def number(value: object, name: str, least: float = -math.inf, most: float = mat
         QuestionError: it is something else.
     """
     real = value if isinstance(value, int | float) and not isinstance(value, bool) else math.nan
-    if not (math.isfinite(real) and least <= real <= most):
+    if not (least <= real <= most and abs(real) < math.inf):  # compared: no float holds a number of 400 digits
         words = str(value)[:60]
         raise QuestionError(f"{name} is {words}", code="bad-request", fix=f"give a number, {least:g} to {most:g}")
     return float(real)

@@ -1,4 +1,4 @@
-"""Documents: what is open on the page, kept by the server so that a question need not carry its walls."""
+"""Documents: what is open on the page. A worker makes and reads them, the server keeps them packed on its shelf."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from importers.errors import WallkitError
 from importers.problems import Problem
 from wallkit.scene.opening import OpenedScene
+from wallkit.view.page.questions import Kept
 from wallkit.walls.import_options import ImportOptions
 
 MOST_DOCUMENTS = 8
@@ -38,12 +39,14 @@ class Document:
         opened: its scene as imported last.
         importing: how its drawing was imported then.
         key: by which the page names it.
+        edition: changes with each import of it.
     """
 
     name: str
     opened: OpenedScene
     importing: ImportOptions
     key: str = field(default_factory=lambda: secrets.token_urlsafe(9))
+    edition: str = field(default_factory=lambda: secrets.token_urlsafe(9))
 
 
 class NotOpenError(WallkitError):
@@ -54,17 +57,17 @@ class Shelf:
     """The last few documents; the one that was not asked for longest goes first."""
 
     def __init__(self) -> None:
-        self._documents: OrderedDict[str, Document] = OrderedDict()
+        self._documents: OrderedDict[str, Kept] = OrderedDict()
         self._lock = threading.Lock()
 
-    def put(self, document: Document) -> None:
+    def put(self, document: Kept) -> None:
         """Keep a document."""
         with self._lock:
             self._documents[document.key] = document
             while len(self._documents) > MOST_DOCUMENTS:
                 self._documents.popitem(last=False)
 
-    def get(self, key: object) -> Document:
+    def get(self, key: object) -> Kept:
         """Find a document.
 
         Raises:
