@@ -21,6 +21,7 @@ from wallkit.view.page.payload import Table, run_table, starts, walls_table
 from wallkit.view.page.questions import Opening
 from wallkit.view.page.warmth import Warmth
 from wallkit.walls import Walls
+from wallkit.walls.import_options import ImportOptions
 
 MOST_BALLS = 1_000
 MOST_CONTACTS = 100_000
@@ -53,7 +54,7 @@ class Answers:
 
     def open(self, file: Opening) -> Document:
         """Open a file's bytes; only a file of this machine's own owner may name others, in its folder."""
-        wishes = Wishes(importing=file.importing, may_be_empty=True)
+        wishes = wishes_of(file.importing)
         opened = with_a_ball(open_scene(file.data, wishes, name=file.name, folder=file.folder))
         return Document(file.name, opened, file.importing)
 
@@ -74,8 +75,7 @@ class Answers:
         tolerance = body.get("tolerance")
         within = None if tolerance is None else number(tolerance, "tolerance", 0.0, MAX_COORDINATE)
         importing = replace(document.importing, curves=curves, tolerance=within)
-        wishes = Wishes(importing=importing, may_be_empty=True)
-        opened = with_a_ball(open_scene(document.opened.drawing, wishes))
+        opened = with_a_ball(open_scene(document.opened.drawing, wishes_of(importing)))
         return Document(document.name, opened, importing, document.key)
 
     def simulate(self, body: Table, document: Document) -> Table:
@@ -130,7 +130,7 @@ class Answers:
             "name": document.name,
             "facts": facts(walls, opened.kind),
             "exactness": exactness(walls),
-            "assumed": opened.assumed,
+            "assumed": [re.sub(r" \(--[^()]*\)$", "", words) for words in opened.assumed],  # no options on the page
             "drawn": opened.drawing is not None and opened.kind != "scene",
             "curves": document.importing.curves if opened.drawing is not None else curves_of(walls),
             "tolerance": walls.tolerance,
@@ -158,6 +158,11 @@ class Answers:
             table.append({**table[-1], "severity": "info", "message": more, "fix": "", "text": more, "layer": "",
                           "name": "", "x": None, "y": None})  # fmt: skip
         return table
+
+
+def wishes_of(importing: ImportOptions) -> Wishes:
+    """Wish for what the page needs; how far balls fly each question says itself, so that nothing is assumed of it."""
+    return Wishes(importing=importing, may_be_empty=True, bounces=MOST_CONTACTS)
 
 
 def scene_of(body: Table, document: Document) -> Scene:
