@@ -17,8 +17,8 @@ from typing import Any
 from playwright.sync_api import sync_playwright
 
 from wallkit.cli.play import reader
-from wallkit.view.page.answers import Answers
 from wallkit.view.page.server import PageServer
+from wallkit.view.page.workers import Workers
 
 IMAGES = Path(__file__).parent / "images"
 NAMES = ("chromium", "chromium-browser", "google-chrome")
@@ -123,7 +123,7 @@ def main() -> int:
         print(f"no browser: none of {', '.join(NAMES)} is on the PATH", file=sys.stderr)
         return 2
     IMAGES.mkdir(exist_ok=True)
-    with PageServer(Answers(reader())) as server, sync_playwright() as driver:
+    with PageServer(Workers(reader())) as server, sync_playwright() as driver:
         threading.Thread(target=server.serve_forever, daemon=True).start()
         browser = driver.chromium.launch(executable_path=found, args=ARGUMENTS)
         for shot in SHOTS:

@@ -15,7 +15,9 @@ import pytest
 import wallkit
 from wallkit.cli import main
 from wallkit.cli.play import reader
+from wallkit.scene.opening import USUAL
 from wallkit.view.page.answers import Answers
+from wallkit.view.page.questions import Opening
 from wallkit.walls.checking.free_space import free_space
 from wallkit.walls.walls_json import to_json
 
@@ -64,8 +66,9 @@ def test_a_drawing_is_the_same_level_through_every_door(file, tmp_path, said):
     assert [(p.code, p.x, p.y) for p in named.problems] == [(p.code, p.x, p.y) for p in opened.problems]
 
     answers = Answers(reader())
-    table = answers.open(file.read_bytes(), file.name)
-    assert bits(answers.shelf.get(table["id"]).opened.scene) == mine
+    document = answers.open(Opening(file.read_bytes(), file.name, None, USUAL))
+    table = answers.document_table(document)
+    assert bits(document.opened.scene) == mine
     assert table["balls"][0]["vx"] == np.asarray(opened.scene.balls.velocity)[0, 0]
     assert [(p["code"], p["x"], p["y"]) for p in table["problems"]] == [(p.code, p.x, p.y) for p in opened.problems]
 

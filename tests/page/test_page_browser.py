@@ -8,8 +8,9 @@ import pytest
 
 from wallkit import Balls, Scene, Walls, simulate
 from wallkit.cli.play import reader
-from wallkit.view.page.answers import Answers
+from wallkit.scene.opening import open_scene
 from wallkit.view.page.server import PageServer
+from wallkit.view.page.workers import Workers
 from wallkit.walls.walls_json import to_json
 
 pytestmark = pytest.mark.browser
@@ -27,7 +28,7 @@ NAME = (
 
 @pytest.fixture(scope="module")
 def server():
-    with PageServer(Answers(reader())) as running:
+    with PageServer(Workers(reader())) as running:
         threading.Thread(target=running.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True).start()
         yield running
         running.shutdown()
@@ -324,7 +325,7 @@ def test_scene_replay_and_walls_can_be_saved(room, until, tmp_path):
         download.value.save_as(tmp_path / name)
         assert (tmp_path / name).stat().st_size > 200
     walls = json.loads((tmp_path / "room.walls.json").read_text())
-    mine = to_json(reader().open(ROOM.encode(), "room.svg", None).scene.walls)  # the command line's own way
+    mine = to_json(open_scene(ROOM.encode(), name="room.svg").scene.walls)
     assert [wall["vertices"] for wall in walls["walls"]] == [wall["vertices"] for wall in mine["walls"]]
 
 
@@ -399,3 +400,14 @@ def test_ten_thousand_edges_and_a_hundred_balls_keep_thirty_frames_a_second(page
         for _ in range(3)
     ]
     assert min(medians) < 33.0
+
+
+def test_what_was_assumed_stands_under_the_problems_without_options_of_the_command_line(page, drop):
+    drop(
+        page,
+        "plain.svg",
+        '<svg xmlns="http://www.w3.org/2000/svg"><path fill="none" stroke="red" d="M0 0H9V9H0Z"/></svg>',
+    )
+    words = page.locator("#assumed li").all_inner_texts()
+    assert any("roomiest spot" in line for line in words)
+    assert not any("--" in line or "bounces" in line for line in words)

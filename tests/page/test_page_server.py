@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 
 from wallkit.cli.play import reader
 from wallkit.scene.samples import samples
-from wallkit.view.page.answers import MOST_BALLS, MOST_CONTACTS, Answers
+from wallkit.view.page.answers import MOST_BALLS, MOST_CONTACTS
 from wallkit.view.page.server import MAX_BODY, PAGE_SCRIPTS, PAGE_STYLES, PageServer
+from wallkit.view.page.workers import Workers
 
 ROOM = b"""<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100">
 <path id="room" d="M0 0H200V100H0Z"/><circle id="pin" cx="100" cy="50" r="10"/></svg>"""
@@ -22,7 +23,7 @@ ROOM = b"""<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100">
 
 @pytest.fixture(scope="module")
 def server():
-    with PageServer(Answers(reader())) as running:
+    with PageServer(Workers(reader())) as running:
         threading.Thread(target=running.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True).start()
         yield running
         running.shutdown()
@@ -205,7 +206,10 @@ def test_a_body_that_is_no_question(post, body):
         {"balls": ["ball"]},
         {"until": -1},
         {"until": 1e300},
+        {"until": 10**400},
         {"bounces": 10**9},
+        {"bounces": 10**400},
+        {"gravity": [0, -(10**400)]},
         {"gravity": [1]},
         {"gravity": [1, None]},
         {"restitution": 1.5},
@@ -218,6 +222,13 @@ def test_a_question_out_of_bounds_is_refused_in_words(post, room, change):
     assert status == 422
     assert answer["error"]
     assert "Traceback" not in answer["error"]
+
+
+@pytest.mark.parametrize(("change", "range_"), [({"until": 10**400}, "0 to 1e+12"), ({"bounces": 1e9}, "0 to 100000")])
+def test_a_number_that_is_too_large_is_told_its_range(post, room, change, range_):
+    status, answer = post("/api/simulate", {"document": room["id"], "balls": [ball()], "bounces": 5} | change)
+    assert status == 422
+    assert range_ in answer["error"]
 
 
 def test_a_run_is_bounded_whatever_was_asked_for(post, room):

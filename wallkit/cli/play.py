@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import re
 import webbrowser
 from pathlib import Path
@@ -14,8 +15,8 @@ from importers.errors import WallkitError
 from wallkit.cli import import_options as options
 
 if TYPE_CHECKING:
-    from wallkit.view.page.answers import Answers
     from wallkit.view.page.documents import Reader
+    from wallkit.view.page.workers import Workers
     from wallkit.walls.import_options import ImportOptions
 
 
@@ -34,13 +35,13 @@ def play(
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Open the local page: see walls, aim, shoot, step from bounce to bounce. It follows FILE when that is saved."""
-    from wallkit.view.page.answers import Answers
     from wallkit.view.page.server import PageServer
+    from wallkit.view.page.workers import Workers
 
-    answers = Answers(reader())
-    document = _first(answers, file, options.options_of(importing or {})) if file else None
+    workers = Workers(reader())
+    document = _first(workers, file, options.options_of(importing or {})) if file else None
     try:
-        server = PageServer(answers, port, document)
+        server = PageServer(workers, port, document)
     except OSError as error:
         raise WallkitError(
             f"cannot listen on port {port}: {error.strerror}", code="no-port", fix="give another --port, or none"
@@ -53,14 +54,16 @@ def play(
         server.serve_forever(poll_interval=0.2)
 
 
-def _first(answers: Answers, file: str, importing: ImportOptions) -> dict[str, Any]:
+def _first(workers: Workers, file: str, importing: ImportOptions) -> dict[str, Any]:
     from wallkit.cli.scene_input import read_input
+    from wallkit.view.page.questions import Opening
     from wallkit.watch_file import Watch
 
+    watch = None if file == "-" else Watch(file)
     name = "standard input" if file == "-" else Path(file).name
-    if file == "-":
-        return answers.open(read_input(file), name, Path(), importing)
-    return answers.open(read_input(file), name, Path(file).parent, importing, Watch(file))
+    opening = Opening(read_input(file), name, Path() if file == "-" else Path(file).parent, importing)
+    table: dict[str, Any] = json.loads(workers.open(opening, bounded=False, watch=watch).content)
+    return table
 
 
 def reader() -> Reader:

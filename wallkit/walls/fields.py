@@ -171,6 +171,13 @@ def _y_axis(value: Any) -> str:
     return arguments.word(value, "y_axis", ("up", "down"), error=WallsError, code="bad-walls")
 
 
+def _optional(name: str, value: Any, kind: str) -> Any:
+    """Take None, or what is of a kind whose module stands above this one."""
+    if value is not None and type(value).__name__ != kind:
+        raise wrong(name, value, f"{kind}, or None")
+    return value
+
+
 CHECKS: dict[str, Callable[[Any], Any]] = {
     "vertices": _finite("vertices", "a (V, 2) array of finite numbers", 2),
     "offsets": _whole("offsets", "W + 1 whole numbers"),
@@ -183,6 +190,8 @@ CHECKS: dict[str, Callable[[Any], Any]] = {
     "layers": _all_of("layers", str, "a text, or one a wall"),
     "origins": _all_of("origins", Origin, "an Origin, or one a wall"),
     "markers": _all_of("markers", Marker, "a list of Markers"),
+    "sensors": lambda value: _optional("sensors", value, "Walls"),
+    "solid": lambda value: _optional("solid", value, "Solid"),
     "y_axis": _y_axis,
     "tolerance": _length("tolerance"),
     "measured_error": _length("measured_error"),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,17 +12,17 @@ import numpy as np
 
 from importers.errors import WallkitError
 from importers.limits import MAX_COORDINATE
-from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene, read_file
+from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
 from wallkit.scene.samples import samples
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation.run import Ending, Run
-from wallkit.view.page.documents import Document, Reader, Shelf
+from wallkit.view.page.documents import Document, Reader
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
+from wallkit.view.page.questions import Opening
 from wallkit.view.page.warmth import Warmth
 from wallkit.walls import Walls
 from wallkit.walls.fields import MOST_RESTITUTION
 from wallkit.walls.import_options import ImportOptions
-from wallkit.watch_file import Watch
 
 MOST_BALLS = 1_000
 MOST_CONTACTS = 100_000
@@ -48,62 +47,33 @@ class Download:
 
 
 class Answers:
-    """All questions by name; the server knows nothing of what they mean."""
+    """What a worker knows to answer; the server knows nothing of what the questions mean."""
 
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
-        self.shelf = Shelf()
         self.warmth = Warmth()
-        self.by_name: dict[str, Callable[[Table], Table | Download]] = {
-            "sample": self.sample,
-            "walls": self.walls,
-            "saved": self.saved,
-            "simulate": self.simulate,
-            "save": self.save,
-        }
 
-    def open(
-        self,
-        data: bytes,
-        name: str,
-        folder: Path | None = None,
-        importing: ImportOptions = USUAL,
-        watch: Watch | None = None,
-    ) -> Table:
-        """Open a file's bytes; only one of this machine's own owner may name others, in its folder, or be watched."""
-        wishes = Wishes(importing=importing, may_be_empty=True)
-        opened = with_a_ball(open_scene(data, wishes, name=name, folder=folder))
-        document = Document(name, opened, importing, watch=watch, folder=folder)
-        self.shelf.put(document)
-        return self.document_table(document)
+    def open(self, file: Opening, watched: bool = False) -> Document:
+        """Open a file's bytes; only a file of this machine's own owner may name others, in its folder."""
+        wishes = wishes_of(file.importing)
+        opened = with_a_ball(open_scene(file.data, wishes, name=file.name, folder=file.folder))
+        return Document(file.name, opened, file.importing, folder=file.folder, watched=watched)
 
-    def saved(self, body: Table) -> Table:
-        """Give a watched document anew if its file was saved since the page's version of it; else nothing.
+    def saved(self, data: bytes, document: Document) -> Document:
+        """Open a document's file anew, as it was saved now and imported as before."""
+        wishes = wishes_of(document.importing)
+        opened = with_a_ball(open_scene(data, wishes, name=document.name, folder=document.folder))
+        return document.anew(opened, version=document.version + 1)
 
-        Raises:
-            WallkitError: what was saved cannot be read; the document stays as it was.
-        """
-        document = self.shelf.get(body.get("document"))
-        if document.watch is None:
-            return {}
-        with document.lock:
-            if document.watch.changed():
-                wishes = Wishes(importing=document.importing, may_be_empty=True)
-                data = read_file(document.watch.file)
-                document.opened = with_a_ball(open_scene(data, wishes, name=document.name, folder=document.folder))
-                document.version += 1
-        return {} if body.get("version") == document.version else self.document_table(document)
-
-    def sample(self, body: Table) -> Table:
+    def sample(self, body: Table) -> Document:
         """Open a sample by name."""
         for sample in samples():
             if sample.name == body.get("name"):
-                return self.open(sample.path.read_bytes(), sample.name, sample.path.parent)
+                return self.open(Opening(sample.path.read_bytes(), sample.name, sample.path.parent, USUAL))
         raise QuestionError("there is no such sample", code="no-sample", fix="choose one of the gallery")
 
-    def walls(self, body: Table) -> Table:
+    def walls(self, body: Table, document: Document) -> Document:
         """Import a document's drawing again, with another tolerance or other curves."""
-        document = self.shelf.get(body.get("document"))
         if document.opened.drawing is None or document.opened.kind == "scene":
             raise QuestionError("these walls do not come from a drawing", code="no-drawing", fix="open the drawing")
         curves = body.get("curves", "arcs")
@@ -111,17 +81,16 @@ class Answers:
             raise QuestionError(f"curves is {curves!r}", code="bad-request", fix='give "lines" or "arcs"')
         tolerance = body.get("tolerance")
         within = None if tolerance is None else number(tolerance, "tolerance", 0.0, MAX_COORDINATE)
-        document.importing = replace(document.importing, curves=curves, tolerance=within)
-        wishes = Wishes(importing=document.importing, may_be_empty=True)
-        document.opened = with_a_ball(open_scene(document.opened.drawing, wishes))
-        return self.document_table(document)
+        importing = replace(document.importing, curves=curves, tolerance=within)
+        opened = with_a_ball(open_scene(document.opened.drawing, wishes_of(importing)))
+        return document.anew(opened, importing=importing)
 
-    def simulate(self, body: Table) -> Table:
+    def simulate(self, body: Table, document: Document) -> Table:
         """Fly balls: to a time, or for a number of bounces each."""
         from wallkit.simulation.simulate import simulate
 
-        scene = self.scene_of(body)
-        until, bounces = self.limits_of(body, len(scene.balls))
+        scene = scene_of(body, document)
+        until, bounces = limits_of(body, len(scene.balls))
         mode = self.warmth.mode(scene)
         most = bounces if mode == "auto" else min(bounces, max(1, INTERPRETED_CONTACTS // len(scene.balls)))
         run = simulate(scene, until, most, mode=mode)
@@ -130,17 +99,16 @@ class Answers:
             table |= {"partial": True, "duration": float(run.final["time"].min())}
         return table
 
-    def save(self, body: Table) -> Download:
+    def save(self, body: Table, document: Document) -> Download:
         """Give the scene, the replay of its run or the walls as a file."""
-        document = self.shelf.get(body.get("document"))
         stem = re.sub(r"[^A-Za-z0-9_-]+", "-", Path(document.name).stem).strip("-")[:60] or "wallkit"
         what = body.get("what")
         if what == "walls":
             from wallkit.walls.walls_json import to_json
 
             return Download(f"{stem}.walls.json", json.dumps(to_json(document.opened.scene.walls)), "application/json")
-        scene = self.scene_of(body)
-        until, bounces = self.limits_of(body, len(scene.balls))
+        scene = scene_of(body, document)
+        until, bounces = limits_of(body, len(scene.balls))
         if what == "scene":
             from wallkit.scene.scene_files import scene_to_json
 
@@ -155,22 +123,6 @@ class Answers:
             return Download(f"{stem}.html", page, "text/html; charset=utf-8")
         raise QuestionError(f"what is {what!r}", code="bad-request", fix='give "scene", "replay" or "walls"')
 
-    def scene_of(self, body: Table) -> Scene:
-        """Make the scene that a question is about: the document's, with the balls and the world of the page."""
-        document = self.shelf.get(body.get("document"))
-        scene = document.opened.scene
-        walls = with_material(scene.walls, body)
-        return replace(scene, walls=walls, balls=balls_of(body), gravity=pair_or_none(body.get("gravity"), "gravity"))
-
-    def limits_of(self, body: Table, balls: int) -> tuple[float | None, int]:
-        """Bound a run: at most MOST_CONTACTS bounces of all balls together, whatever was asked for."""
-        until = body.get("until")
-        end = None if until is None else number(until, "until", 0.0, MOST_TIME)
-        bounces = body.get("bounces")
-        most = MOST_CONTACTS // max(balls, 1)
-        asked = most if bounces is None else int(number(bounces, "bounces", 0, MOST_CONTACTS))
-        return end, min(asked, most)
-
     def document_table(self, document: Document) -> Table:
         """Give all that the page shows of a document."""
         from wallkit.view.frame import united, walls_box
@@ -183,11 +135,11 @@ class Answers:
         return {
             "id": document.key,
             "name": document.name,
-            "watched": document.watch is not None,
+            "watched": document.watched,
             "version": document.version,
             "facts": facts(walls, opened.kind),
             "exactness": exactness(walls),
-            "assumed": opened.assumed,
+            "assumed": [re.sub(r" \(--[^()]*\)$", "", words) for words in opened.assumed],  # no options on the page
             "drawn": opened.drawing is not None and opened.kind != "scene",
             "curves": document.importing.curves if opened.drawing is not None else curves_of(walls),
             "tolerance": walls.tolerance,
@@ -217,6 +169,28 @@ class Answers:
         return table
 
 
+def wishes_of(importing: ImportOptions) -> Wishes:
+    """Wish for what the page needs; how far balls fly each question says itself, so that nothing is assumed of it."""
+    return Wishes(importing=importing, may_be_empty=True, bounces=MOST_CONTACTS)
+
+
+def scene_of(body: Table, document: Document) -> Scene:
+    """Make the scene that a question is about: the document's, with the balls and the world of the page."""
+    scene = document.opened.scene
+    walls = with_material(scene.walls, body)
+    return replace(scene, walls=walls, balls=balls_of(body), gravity=pair_or_none(body.get("gravity"), "gravity"))
+
+
+def limits_of(body: Table, balls: int) -> tuple[float | None, int]:
+    """Bound a run: at most MOST_CONTACTS bounces of all balls together, whatever was asked for."""
+    until = body.get("until")
+    end = None if until is None else number(until, "until", 0.0, MOST_TIME)
+    bounces = body.get("bounces")
+    most = MOST_CONTACTS // max(balls, 1)
+    asked = most if bounces is None else int(number(bounces, "bounces", 0, MOST_CONTACTS))
+    return end, min(asked, most)
+
+
 def number(value: object, name: str, least: float = -math.inf, most: float = math.inf) -> float:
     """Take a finite number within bounds.
 
@@ -224,7 +198,7 @@ def number(value: object, name: str, least: float = -math.inf, most: float = mat
         QuestionError: it is something else.
     """
     real = value if isinstance(value, int | float) and not isinstance(value, bool) else math.nan
-    if not (math.isfinite(real) and least <= real <= most):
+    if not (least <= real <= most and abs(real) < math.inf):  # compared: no float holds a number of 400 digits
         words = str(value)[:60]
         raise QuestionError(f"{name} is {words}", code="bad-request", fix=f"give a number, {least:g} to {most:g}")
     return float(real)

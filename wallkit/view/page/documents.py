@@ -1,4 +1,4 @@
-"""Documents: what is open on the page, kept by the server so that a question need not carry its walls."""
+"""Documents: what is open on the page. A worker makes and reads them, the server keeps them packed on its shelf."""
 
 from __future__ import annotations
 
@@ -6,14 +6,15 @@ import secrets
 import threading
 from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from importers.errors import WallkitError
 from importers.problems import Problem
 from wallkit.scene.opening import OpenedScene
+from wallkit.view.page.questions import Kept
 from wallkit.walls.import_options import ImportOptions
-from wallkit.watch_file import Watch
 
 MOST_DOCUMENTS = 8
 
@@ -40,20 +41,24 @@ class Document:
         opened: its scene as imported last.
         importing: how its drawing was imported then.
         key: by which the page names it.
-        watch: tells when its file was saved again; None for what is no file of this machine.
-        folder: where the files that it names are.
+        edition: changes with each import of it.
+        folder: where the files that it names are; None forbids any.
+        watched: it is a file of this machine that may be saved again.
         version: counts how often it was read again.
-        lock: held while that is found out, for several pages may show it.
     """
 
     name: str
     opened: OpenedScene
     importing: ImportOptions
     key: str = field(default_factory=lambda: secrets.token_urlsafe(9))
-    watch: Watch | None = None
+    edition: str = field(default_factory=lambda: secrets.token_urlsafe(9))
     folder: Path | None = None
+    watched: bool = False
     version: int = 0
-    lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def anew(self, opened: OpenedScene, **changes: Any) -> Document:
+        """Give the document with another import of it: a new edition under the same key."""
+        return replace(self, opened=opened, edition=secrets.token_urlsafe(9), **changes)
 
 
 class NotOpenError(WallkitError):
@@ -64,17 +69,17 @@ class Shelf:
     """The last few documents; the one that was not asked for longest goes first."""
 
     def __init__(self) -> None:
-        self._documents: OrderedDict[str, Document] = OrderedDict()
+        self._documents: OrderedDict[str, Kept] = OrderedDict()
         self._lock = threading.Lock()
 
-    def put(self, document: Document) -> None:
+    def put(self, document: Kept) -> None:
         """Keep a document."""
         with self._lock:
             self._documents[document.key] = document
             while len(self._documents) > MOST_DOCUMENTS:
                 self._documents.popitem(last=False)
 
-    def get(self, key: object) -> Document:
+    def get(self, key: object) -> Kept:
         """Find a document.
 
         Raises:

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 import secrets
-import threading
+import select
+import socket
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
@@ -17,13 +18,15 @@ from urllib.parse import parse_qs, quote, urlsplit
 import numpy as np
 
 from importers.errors import WallkitError
+from wallkit.scene.opening import USUAL
 from wallkit.scene.samples import Sample, samples
 from wallkit.view.page import look
-from wallkit.view.page.answers import MOST_CONTACTS, Answers, Download
+from wallkit.view.page.answers import MOST_CONTACTS
 from wallkit.view.page.payload import Table, inlined
+from wallkit.view.page.questions import Opening
+from wallkit.view.page.workers import QUESTIONS, InternalError, LostError, Workers
 
 MAX_BODY = 32 * 1024 * 1024
-MOST_AT_ONCE = 3  # questions that are worked on; the others wait
 PATIENCE = 30.0  # seconds that a connection may say nothing
 PAGE_SCRIPTS = (*look.SHARED_SCRIPTS, "desk.js", "aim.js", "panel.js", "gallery.js", "page.js")
 PAGE_STYLES = ("theme.css", "look.css", "page.css")
@@ -40,6 +43,7 @@ _HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Cross-Origin-Opener-Policy": "same-origin",
 }
+_STATUS = {LostError: HTTPStatus.SERVICE_UNAVAILABLE, InternalError: HTTPStatus.INTERNAL_SERVER_ERROR}
 _TYPES = {"css": "text/css; charset=utf-8", "js": "text/javascript; charset=utf-8"}
 
 
@@ -56,7 +60,7 @@ class PageServer(ThreadingHTTPServer):
     """Serves one page to whoever has the token.
 
     Attributes:
-        answers: what the page may ask.
+        workers: what answers, in processes of their own; they end with the server.
         token: in the URL of the page; every request carries it.
         document: the table of the file that is open from the start, or None.
         refused: why that file could not be opened, in the command line's words, or ``""``.
@@ -65,13 +69,12 @@ class PageServer(ThreadingHTTPServer):
     daemon_threads = True
     allow_reuse_address = False
 
-    def __init__(self, answers: Answers, port: int = 0, document: Table | None = None, refused: str = "") -> None:
+    def __init__(self, workers: Workers, port: int = 0, document: Table | None = None, refused: str = "") -> None:
+        self.workers = workers  # first: where the port is in use, the server closes at once, and they with it
         super().__init__(("127.0.0.1", port), Handler)
-        self.answers = answers
         self.token = secrets.token_urlsafe(24)
         self.document = document
         self.refused = refused
-        self.turns = threading.BoundedSemaphore(MOST_AT_ONCE)
         port = self.server_address[1]
         self.hosts = {f"127.0.0.1:{port}", f"localhost:{port}"}
         self.origins = {f"http://{host}" for host in self.hosts}
@@ -81,6 +84,11 @@ class PageServer(ThreadingHTTPServer):
     def url(self) -> str:
         """The page's address with its token."""
         return f"http://127.0.0.1:{self.server_address[1]}/?token={self.token}"
+
+    def server_close(self) -> None:
+        """Close the socket and end the workers."""
+        super().server_close()
+        self.workers.close()
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Say nothing about a browser that went away in the middle of an answer."""
@@ -135,8 +143,8 @@ class Handler(BaseHTTPRequestHandler):
         except RefusedError as refused:
             self._refuse(refused.status, refused.words)
         except WallkitError as error:
-            words = self.server.answers.reader.describe(error)
-            self._send_json({"error": words}, HTTPStatus.UNPROCESSABLE_ENTITY)
+            words = self.server.workers.reader.describe(error)
+            self._send_json({"error": words}, _STATUS.get(type(error), HTTPStatus.UNPROCESSABLE_ENTITY))
         except OSError:  # the browser went away, or said nothing for too long
             self.close_connection = True
         except Exception as error:  # whatever it is, the page hears of it and the server goes on
@@ -178,19 +186,24 @@ class Handler(BaseHTTPRequestHandler):
 
     def _post(self, path: str, query: dict[str, list[str]]) -> None:
         body = self._body()
-        answers = self.server.answers
+        workers = self.server.workers
         name = path.removeprefix("/api/")
-        with self.server.turns:
-            if path == "/api/open":
-                answer: Table | Download = answers.open(body, query.get("name", ["drawing"])[0][:200])
-            elif path.startswith("/api/") and name in answers.by_name:
-                answer = answers.by_name[name](_parsed(body))
-            else:
-                raise RefusedError(HTTPStatus.NOT_FOUND, "there is nothing of that name")
-        if isinstance(answer, Download):
-            self._send(answer.content, answer.media, download=answer.name)
+        if path == "/api/open":
+            called = query.get("name", ["drawing"])[0][:200]
+            reply = workers.open(Opening(body, called, None, USUAL), self._gone)
+        elif path.startswith("/api/") and name in QUESTIONS:
+            reply = workers.ask(name, _parsed(body), self._gone)
         else:
-            self._send_json(answer)
+            raise RefusedError(HTTPStatus.NOT_FOUND, "there is nothing of that name")
+        self._send(reply.content, reply.media, download=reply.download)
+
+    def _gone(self) -> bool:
+        """Tell whether the browser has closed this connection: it does when the page goes or takes a question back."""
+        readable, _, _ = select.select([self.connection], [], [], 0)
+        try:
+            return bool(readable) and not self.connection.recv(1, socket.MSG_PEEK)
+        except OSError:
+            return True
 
     def _body(self) -> bytes:
         """Read a body of stated length.

@@ -1,20 +1,25 @@
 // Desk: how the page asks the library. Every request carries the token; of requests that overtake one another
-// only the latest counts.
+// only the latest counts, and one that nobody waits for any more is taken back: the library ends its work.
 (() => {
   "use strict";
   const W = (globalThis.Wallkit ??= {});
 
+  const GRACE = 1000; // ms in which an answer may still come before its request is taken back
+
   class Refused extends Error {}
 
   // Posts JSON (or a file's bytes) and gives the answer; a refusal is an error with the library's own words.
-  W.ask = async (path, body) => {
+  // `signal` takes the request back: the error is the browser's own AbortError then.
+  W.ask = async (path, body, signal) => {
     const raw = body instanceof Blob;
     const response = await fetch(path, {
       method: "POST",
       headers: { "X-Wallkit-Token": W.data.token, "Content-Type": raw ? "application/octet-stream" : "application/json" },
       body: raw ? body : JSON.stringify(body ?? {}),
       cache: "no-store",
-    }).catch(() => {
+      signal,
+    }).catch((error) => {
+      if (signal?.aborted) throw error;
       throw new Refused("wallkit does not answer: is the command still running?");
     });
     const json = response.headers.get("Content-Type")?.startsWith("application/json");
@@ -27,7 +32,10 @@
     return response;
   };
 
-  // A lane has one request on its way and one that waits: the latest. Older ones are forgotten.
+  W.takenBack = (error) => error.name === "AbortError";
+
+  // A lane has one request on its way and one that waits: the latest. Older ones are forgotten. One on its way that
+  // nobody wants any more has its grace, since most answers are nearly there; then it is taken back.
   class Lane {
     constructor(path, answered, refused) {
       Object.assign(this, { path, answered, refused, waiting: null, busy: false });
@@ -35,12 +43,19 @@
 
     ask(body) {
       this.waiting = { body };
-      if (!this.busy) this.go();
+      if (this.busy) this.hurry();
+      else this.go();
     }
 
     forget() {
       this.waiting = null;
       this.stale = this.busy;
+      if (this.busy) this.hurry();
+    }
+
+    hurry() {
+      const { way } = this;
+      way.timer ??= setTimeout(() => way.controller.abort(), Math.max(0, way.begun + GRACE - performance.now()));
     }
 
     async go() {
@@ -49,12 +64,15 @@
         const { body } = this.waiting;
         this.waiting = null;
         this.stale = false;
+        const way = (this.way = { begun: performance.now(), controller: new AbortController() });
         try {
-          const answer = await W.ask(this.path, body);
+          const answer = await W.ask(this.path, body, way.controller.signal);
           if (!this.stale && !this.waiting) this.answered(answer, body);
         } catch (error) {
-          if (!(error instanceof Refused)) throw error;
+          if (!(error instanceof Refused) && !W.takenBack(error)) throw error;
           if (!this.stale && !this.waiting) this.refused(error.message, body);
+        } finally {
+          clearTimeout(way.timer);
         }
       }
       this.busy = false;

@@ -254,15 +254,18 @@
       await this.asked(`api/open?name=${encodeURIComponent(name)}`, blob);
     }
 
+    // Opens something; what was still being opened is given up.
     async asked(path, body) {
+      this.opening?.abort();
+      const opening = (this.opening = new AbortController());
       document.body.classList.add("busy");
       try {
-        this.show(await W.ask(path, body));
+        this.show(await W.ask(path, body, opening.signal));
       } catch (error) {
-        if (!(error instanceof W.Refused)) throw error;
-        this.complain(error.message);
+        if (error instanceof W.Refused) this.complain(error.message);
+        else if (!W.takenBack(error)) throw error;
       } finally {
-        document.body.classList.remove("busy");
+        if (this.opening === opening) document.body.classList.remove("busy");
       }
     }
 

@@ -124,6 +124,8 @@
       this.showAim();
       this.showSliders();
       this.list(made.problems);
+      $("assumed").hidden = !made.assumed.length;
+      $("assumed").querySelector("ul").replaceChildren(...made.assumed.map((words) => element("li", "", words)));
     }
 
     showWorld(made) {
