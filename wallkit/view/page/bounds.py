@@ -24,7 +24,7 @@ class Bounds:
 
 HEAVY = Bounds(20.0)
 """Of files that are opened, imports, long runs and what is saved."""
-LIGHT = Bounds(5.0)
+LIGHT = Bounds(20.0)
 """Of what is asked while somebody aims."""
 LIGHT_CONTACTS = 1_000
 """A run of at most so many contacts, of all balls together, is light; aiming asks for 24."""
