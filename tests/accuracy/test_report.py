@@ -50,7 +50,7 @@ def test_an_engine_that_escapes_is_seen():
     truth = Subject.of(scenes.built_in()[0]).truth(400.0)
     times = np.arange(1.0, 8.0)
     places = np.full((7, 2), 100.0)
-    point = module._judged(gone, gone.fly(times, 1), places, 400.0, module._room(truth.walls), truth)
+    point = module._judged(gone, gone.fly(times, 1), places, 400.0, module._room(truth), truth)
     assert point.escaped
     assert point.wrong == 1
     assert point.error == pytest.approx(np.hypot(2900.0, 100.0))

@@ -264,8 +264,10 @@ class Run(Pictured):
         for row, contact in enumerate(begun):
             if contact is not None and contact["kind"] == Kind.SLIDE:
                 normal, bend = np.array([contact["nx"], contact["ny"]]), self._bends[ball][passed[row] - 1]
-                for k in np.flatnonzero((which == row) & (span > 0.0)).tolist():
+                for k in np.flatnonzero((which == row) & (span > 0.0) & (times < end)).tolist():
                     flown[k] = glide(self._gravity, state[k], normal, bend, float(span[k]))
+                last = self.final[ball]
+                flown[(which == row) & (times >= end)] = last["x"], last["y"], last["vx"], last["vy"]
         return flown
 
     @cached_property

@@ -100,28 +100,34 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                 met = settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still)
                 if met != NO_HIT:
                     t, feature = 0.0, met
-            if feature in (NO_HIT, AMBIGUOUS) or (feature == COLLAPSES and before == NO_HIT):
+            if feature in (NO_HIT, AMBIGUOUS) or (feature == COLLAPSES and (gravity is None or before == NO_HIT)):
                 ending = ending_without(model.damping, feature, until)
                 break
             passed, kept = slowed(model.damping, energy, t, remaining)
+            if gravity is None:  # a collapse is where the last bounce was
+                still = 0 if passes(time, passed, t, vx, vy, tolerance) else still + 1
+                if still > still_limit(model.restitution):
+                    ending = COLLAPSE
+                    break
             if t > 0.0:
                 from_x, from_y = x, y
                 from_vx, from_vy = lifted(model, gravity, radius, held, hold, side, x, y, vx, vy)
                 x, y, vx, vy = move(gravity, x, y, vx, vy, t)
                 vx, vy, energy = kept * vx, kept * vy, kept * kept * energy
                 time, lost = advance(time, lost, passed)
-        still = 0 if passes(time, passed, t, vx, vy, tolerance) else still + 1
-        if feature == COLLAPSES:
-            still += still_limit(model.restitution)
-        if still > still_limit(model.restitution):
-            ending = COLLAPSE
-            if gravity is not None and model.restitution is not None:
-                vx, vy, still = 0.0, 0.0, 0
-                held, hold, side, ending = stopped_between(
-                    model, gravity, radius, last, side, before, x, y, (from_x, from_y, from_vx, from_vy), tolerance
-                )
-                energy = kept_energy(gravity, x, y, 0.0, 0.0)
-            continue
+        if gravity is not None:
+            still = 0 if passes(time, passed, t, vx, vy, tolerance) else still + 1
+            if feature == COLLAPSES:
+                still += still_limit(model.restitution)
+            if still > still_limit(model.restitution):
+                ending = COLLAPSE
+                if model.restitution is not None:
+                    vx, vy, still = 0.0, 0.0, 0
+                    held, hold, side, ending = stopped_between(
+                        model, gravity, radius, last, side, before, x, y, (from_x, from_y, from_vx, from_vy), tolerance
+                    )
+                    energy = kept_energy(gravity, x, y, 0.0, 0.0)
+                continue
         nx, ny, twice, wall = normal_of(model, feature, x, y)
         nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny)
         vx, vy, energy = bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy)
