@@ -96,7 +96,11 @@ def test_every_example_says_first_what_it_shows():
         assert ast.get_docstring(ast.parse(example.read_text(encoding="utf-8"))), example.name
 
 
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+ALONE = [example for example in EXAMPLES if "argparse" not in example.read_text(encoding="utf-8")]
+"""Those that ask for a level are run with one by the tests of the walkthroughs."""
+
+
+@pytest.mark.parametrize("example", ALONE, ids=lambda path: path.stem)
 def test_every_example_runs(example, folder, capsys):
     runpy.run_path(str(example), run_name="__main__")
     assert capsys.readouterr().out
@@ -120,6 +124,10 @@ def codes_of(call):
             yield from words(keyword.value)
     name = getattr(call.func, "attr", getattr(call.func, "id", ""))
     plain = [arg.value if isinstance(arg, ast.Constant) else None for arg in call.args]
+    for arg, after in itertools.pairwise(call.args):  # a code and its severity, or one of two codes
+        if isinstance(after, ast.Constant) and after.value in SEVERITIES:
+            yield from words(arg) if isinstance(arg, ast.Constant) else []
+            yield from words(arg.body) + words(arg.orelse) if isinstance(arg, ast.IfExp) else []
     if name == "add" and len(plain) >= 3:  # Notes.add(code, severity, ...), Found.add(wall, code, severity, ...)
         yield from (code for code, after in itertools.pairwise(plain) if code and after in SEVERITIES)
         if isinstance(call.args[0], ast.Constant):

@@ -83,7 +83,7 @@ FLYING = "Wallkit.page.player.motion && !Wallkit.page.flying.busy"
 
 def own_run(x, y, vx, vy, **limits):
     """What the library itself says of the room, with one ball, as the page asks for it."""
-    walls = reader().open(ROOM.encode(), "room.svg", None).scene.walls  # as the command line imports them
+    walls = open_scene(ROOM.encode(), name="room.svg").scene.walls  # as the command line imports them
     return simulate(Scene(walls, Balls((x, y), (vx, vy), 6.0)), **limits)
 
 

@@ -212,7 +212,7 @@ def test_a_body_that_is_no_question(post, body):
         {"gravity": [0, -(10**400)]},
         {"gravity": [1]},
         {"gravity": [1, None]},
-        {"restitution": 1.5},
+        {"restitution": 10.5},
         {"tangential_restitution": -0.1},
     ],
 )
