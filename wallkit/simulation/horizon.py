@@ -205,11 +205,12 @@ def _falling_roundings(course: Course, places: FloatArray) -> tuple[FloatArray, 
     start, path, _, _, pull = course
     time, force = np.diff(path[:, 0], prepend=0.0), np.hypot(*pull[:-1].T)
     before = np.hypot(*np.concatenate([start[None], path[:-1, 1:3]]).T)
-    after = np.maximum(np.hypot(path[:, 1], path[:, 2]), 1e-300)
+    after = np.hypot(path[:, 1], path[:, 2])
+    after = np.where(after > 1e-70, after, 1.0)  # below all speeds that are modelled it rests, and nothing follows
     far = np.hypot(*places.T)
     place = np.sqrt(far[1:] ** 2 + far[:-1] ** 2 + (before * time) ** 2 + (force * time**2 / 2) ** 2)
     height = (pull[:-1] * places[1:]).sum(axis=1)
-    speed = np.sqrt(1.0 + (force * time / after) ** 2 + (height / after**2) ** 2)
+    speed = np.hypot(np.hypot(1.0, force * time / after), height / after / after)
     return RMS_ROUNDING * place, RMS_ROUNDING * speed
 
 
