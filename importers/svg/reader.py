@@ -216,7 +216,9 @@ class Reader:
         locked = around.locked or attributes.get(SODIPODI + "insensitive") == "true"
         layer, groups, levels, clones = around.layer, around.groups, around.levels, around.clones
         on_layer = self._is_layer(tag, element, attributes, around)
-        if tag == "use":
+        if self.aside:
+            pass  # what is read on the side has a box, and no words
+        elif tag == "use":
             clones = (level_of(element, attributes, name, "group"), *clones)
         else:
             levels = (*levels, level_of(element, attributes, name, "layer" if on_layer else "group"))
@@ -361,8 +363,12 @@ class Reader:
         if self.segments > MAX_ELEMENTS:
             raise limit_error("segments of all paths", f"{MAX_ELEMENTS:,}", file=self.source.file)
         if not _within(subpaths):
-            message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
-            self.notes.add("bad-coordinate", "error", message, element, layer=around.layer, name=name)
+            if not self.aside:
+                message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
+                self.notes.add("bad-coordinate", "error", message, element, layer=around.layer, name=name)
+            return
+        if self.aside:  # its box is all that is asked for
+            self.drawing.paths.append(DrawnPath(subpaths=subpaths, visible=style.visible and not hidden))
             return
         levels = (*around.levels, level_of(element, attributes, own_name, "object"), *around.clones)
         fill, stroke, width = None, None, None
@@ -386,7 +392,7 @@ class Reader:
             levels=levels,
         )
         self.drawing.paths.append(drawn)
-        if drawn.visible and not self.aside:
+        if drawn.visible:
             clip = around.clip
             if "clip-path" in declared or "mask" in declared:
                 clip = self._clip(declared, around, matrix, lambda: _own_box(shape))
