@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.rings import signed_areas
 from wallkit.walls.edge_tree import Edges
+from wallkit.walls.solid import walls_around
 from wallkit.walls.walls import Walls
 
 _POINTS = 2_000
@@ -50,7 +50,7 @@ class Solids:
         result = np.empty(len(points), dtype=np.bool_)
         for begin in range(0, len(points), _POINTS):  # in portions, which bounds the memory for pairs
             some = points[begin : begin + _POINTS]
-            source, wall = self._around(some)
+            source, wall = walls_around(self.edges, some)
             level = np.bincount(source, self.sign[wall], len(some))
             order = np.lexsort((self.size[wall], source))
             outermost = np.full(len(some), -1)
@@ -61,24 +61,8 @@ class Solids:
 
     def innermost(self, points: FloatArray) -> IntArray:
         """The smallest closed wall around each of (n, 2) points; -1 where there is none."""
-        source, wall = self._around(points)
+        source, wall = walls_around(self.edges, points)
         order = np.lexsort((-self.size[wall], source))
         result = np.full(len(points), -1, dtype=np.int64)
         result[source[order]] = wall[order]  # the last written is the smallest
         return result
-
-    def _around(self, points: FloatArray) -> tuple[IntArray, IntArray]:
-        """All pairs of a point and a ring around it: the ring is met an odd number of times straight above."""
-        edges = self.edges
-        top = float(edges.vertices[:, 1].max()) + 1
-        x, y = points.T
-        source, edge = edges.tree.query(shapely.box(x, y, x, np.maximum(y, top)))
-        p, a, b = points[source], edges.a[edge], edges.b[edge]
-        spans = (np.minimum(a[:, 0], b[:, 0]) <= p[:, 0]) & (p[:, 0] < np.maximum(a[:, 0], b[:, 0]))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            height = a[:, 1] + (p[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1]) / (b[:, 0] - a[:, 0])
-        above = spans & (height > p[:, 1]) & edges.closed[edges.wall[edge]]
-        count = len(edges.closed)
-        pair, times = np.unique(source[above] * count + edges.wall[edge[above]], return_counts=True)
-        odd = pair[times % 2 == 1]
-        return odd // count, odd % count
