@@ -6,14 +6,12 @@ Doors: the library (`wallkit.open_scene`), a scene file that only names the draw
 
 import json
 import math
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import wallkit
-from wallkit.cli import main
 from wallkit.cli.play import reader
 from wallkit.scene.opening import USUAL
 from wallkit.view.page.answers import Answers
@@ -25,23 +23,6 @@ HERE = Path(__file__).parent
 LEVELS = HERE / "levels"
 SAMPLES = HERE.parent / "samples"
 DRAWINGS = sorted([*LEVELS.glob("*.svg"), *(p for p in SAMPLES.iterdir() if p.suffix in (".svg", ".ai", ".txt"))])
-
-
-@pytest.fixture
-def said(monkeypatch, capsys):
-    """Run the command line in this process; give (exit code, standard output, standard error)."""
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["wallkit", *map(str, words)])
-        try:
-            main()
-            code = 0
-        except SystemExit as ended:
-            code = ended.code or 0
-        spoken = capsys.readouterr()
-        return code, spoken.out, spoken.err
-
-    return run
 
 
 def bits(scene):

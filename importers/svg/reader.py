@@ -6,12 +6,13 @@ The walk keeps its own stack, so no depth of groups or chain of references can e
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 from importers.boxes import Box, box_of, box_of_segments
 from importers.drawing import Drawing, DrawnPath, Layer, Level, Subpath
 from importers.limits import LETTERS_OF_A_STEP, MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.numbers import NumberError
+from importers.svg.around import Around, BoxFirst, Reading
 from importers.svg.cascade import Cascade
 from importers.svg.clipping import Clips
 from importers.svg.conditions import chosen, holds
@@ -40,27 +41,6 @@ _STEPS_OF_A_SHAPE = 25
 _STEPS_OF_A_USE = 25
 # Groups with a transform-box inside of groups with one: each level reads its content once more.
 _MAX_ASIDE = 8
-
-
-class Around(NamedTuple):
-    """What an element has from what is around it."""
-
-    matrix: Matrix
-    style: Style
-    viewport: Viewport
-    layer: str = ""
-    groups: tuple[str, ...] = ()
-    levels: tuple[Level, ...] = ()  # of layers and groups, the nearest last
-    clones: tuple[Level, ...] = ()  # of the `use`s that we are inside of, the outermost last: it goes before all else
-    hidden: bool = False
-    page: Region = ALL  # what the picture and the viewports in it show
-    clip: Region = ALL  # what clips and masks leave
-    unseen: bool = False  # it, or a group around it, has no opacity
-    locked: bool = False
-    chain: tuple[Any, ...] = ()  # targets of the `use`s that we are inside of
-    depth: int = 0
-    outline: str = ""  # name of the innermost `use`, for shapes without one
-    label: str = ""  # label of the outermost `use` that has one, for all shapes in it
 
 
 class Reader:
@@ -103,11 +83,27 @@ class Reader:
         return self.drawing
 
     def _walk(self) -> None:
-        while self.stack:
+        """Visit what is on the stack; boxes that are asked for on the way are read on the side, one by one.
+
+        An element whose box is needed first goes back on the stack, and what was read so far is set aside: boxes in
+        boxes are no calls in calls.
+        """
+        waiting: list[tuple[Any, Reading]] = []
+        while self.stack or waiting:
+            if not self.stack:
+                key, reading = waiting.pop()
+                self.boxes[key] = box_of(self.drawing.paths)
+                self._go_back(reading)
+                continue
             element, around = self.stack.pop()
             self.work.charge("elements", _STEPS_OF_A_VISIT)
             try:
-                self._visit(element, around)
+                try:
+                    self._visit(element, around)
+                except BoxFirst as first:
+                    key, reading = self._begin(first)
+                    reading.stack.append((element, around))
+                    waiting.append((key, reading))
             except NumberError as error:
                 self._too_large(element, around, error)
 
@@ -205,13 +201,12 @@ class Reader:
         matrix = around.matrix
         display = declared.get("display")
         hidden = around.hidden or display == "none" or (display == "contents" and tag in ("svg", "use", "symbol"))
+
+        def own_box() -> Box | None:
+            return self._box_of(tag, element, attributes, around, style)
+
         if has_transform(declared) and display != "contents":
-            matrix = multiply(
-                matrix,
-                element_matrix(
-                    declared, style, around.viewport, lambda: self._box_of(tag, element, attributes, around, style)
-                ),
-            )
+            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, own_box))
         name = name_of(element, attributes, self.illustrator)
         locked = around.locked or attributes.get(SODIPODI + "insensitive") == "true"
         layer, groups, levels, clones = around.layer, around.groups, around.levels, around.clones
@@ -235,7 +230,7 @@ class Reader:
             groups=groups,
             levels=levels,
             clones=clones,
-            clip=self._clip(declared, around, matrix, lambda: self._box_of(tag, element, attributes, around, style)),
+            clip=self._clip(declared, around, matrix, lambda: self._box_now(own_box)),
             hidden=hidden,
             unseen=around.unseen or _without_opacity(declared),
             locked=locked,
@@ -243,7 +238,11 @@ class Reader:
         )
 
     def _box_of(self, tag: str, element: Any, attributes: Attributes, around: Around, style: Style) -> Box | None:
-        """Give the box of what a group draws, in its own coordinates, by reading its content on the side."""
+        """Give the box of what a group draws, in its own coordinates.
+
+        Raises:
+            BoxFirst: its content is not read yet.
+        """
         key = (element, around.viewport, around.style)
         if key not in self.boxes:
             if self.aside >= _MAX_ASIDE:
@@ -252,25 +251,57 @@ class Reader:
                 return None
             inside = around._replace(matrix=IDENTITY, style=style, depth=around.depth + 1)
             if tag == "use":
-                paths = self._aside(lambda: self._use(element, attributes, {}, inside))
-            else:
-                paths = self._aside(lambda: self._push_children(element, inside))
-            self.boxes[key] = box_of(paths)
+                raise BoxFirst(key, lambda: self._use(element, attributes, {}, inside))
+            raise BoxFirst(key, lambda: self._push_children(element, inside))
         return self.boxes[key]
 
-    def _aside(self, push: Callable[[], None]) -> list[DrawnPath]:
-        """Read on the side what a function puts on the stack: nothing of it is drawn, said or a layer."""
-        saved = self.stack, self.drawing, self.notes, self.layers
+    def _box_now(self, ask: Callable[[], Box | None]) -> Box | None:
+        """Give a box in the middle of a visit that cannot be begun again."""
+        while True:
+            try:
+                return ask()
+            except BoxFirst as first:
+                key, reading = self._begin(first)
+                try:
+                    self._walk()
+                    self.boxes[key] = box_of(self.drawing.paths)
+                finally:
+                    self._go_back(reading)
+
+    def _begin(self, first: BoxFirst) -> tuple[Any, Reading]:
+        """Begin to read what a box is of, or what the box of that needs first: its key, and what was put aside."""
+        while True:
+            try:
+                return first.key, self._put_aside(first.push)
+            except BoxFirst as deeper:
+                first = deeper
+
+    def _put_aside(self, push: Callable[[], None]) -> Reading:
+        """Begin to read on the side what a function puts on the stack: nothing of it is drawn, said or a layer."""
+        reading = Reading(self.stack, self.drawing, self.notes, self.layers)
         self.stack, self.drawing = [], Drawing(units="px", y_axis="down")
         self.notes, self.layers = Notes(self.source), {}
         self.aside += 1
         try:
             push()
+        except (NumberError, BoxFirst):
+            self._go_back(reading)
+            raise
+        return reading
+
+    def _go_back(self, reading: Reading) -> None:
+        """Go on with what was put aside."""
+        self.aside -= 1
+        self.stack, self.drawing, self.notes, self.layers = reading
+
+    def _aside(self, push: Callable[[], None]) -> list[DrawnPath]:
+        """Read on the side, at once, what a function puts on the stack."""
+        reading = self._put_aside(push)
+        try:
             self._walk()
             return self.drawing.paths
         finally:
-            self.aside -= 1
-            self.stack, self.drawing, self.notes, self.layers = saved
+            self._go_back(reading)
 
     def _shapes_aside(self, children: list[Any], matrix: Matrix, style: Style, viewport: Viewport) -> list[DrawnPath]:
         """Give what elements draw by themselves."""

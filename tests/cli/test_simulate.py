@@ -8,7 +8,6 @@ import sys
 import numpy as np
 import pytest
 
-from wallkit.cli import main
 from wallkit.cli.simulate import progress_bar
 
 SCENE = """
@@ -31,20 +30,8 @@ def scene(tmp_path):
 
 
 @pytest.fixture
-def wallkit(monkeypatch, capsys):
-    """Run the command line in this process; give (exit code, standard output, standard error)."""
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["wallkit", *map(str, words)])
-        try:
-            main()
-            code = 0
-        except SystemExit as ended:
-            code = ended.code or 0
-        said = capsys.readouterr()
-        return code, said.out, said.err
-
-    return run
+def wallkit(said):
+    return said
 
 
 def test_alone_it_prints_a_summary_that_fits_a_screen(wallkit, scene):

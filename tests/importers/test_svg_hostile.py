@@ -98,7 +98,7 @@ HOSTILE = {
     ),
     "many faults": ("SVG + '<path d=\"M0 0L#\"/>' * 30_000 + '</svg>'", ""),
     "boxes in boxes": (
-        "SVG + '<g style=\"transform:scale(2);transform-box:fill-box\">' * 100 + SHAPE * 100 + '</g>' * 100 + '</svg>'",
+        "SVG + '<g style=\"transform:scale(2);transform-box:fill-box\">' * 200 + SHAPE * 100 + '</g>' * 200 + '</svg>'",
         "",
     ),
     "blanks behind url(": ("SVG + '<g><rect width=\"1\" height=\"1\" fill=\"url(' + ' ' * 200 + 'x\"/></g></svg>'", ""),
