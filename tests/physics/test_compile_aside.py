@@ -4,11 +4,12 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from wallkit import Balls, Scene, Walls, simulate
+from wallkit import Balls, Scene, Walls, simulate, survey
 from wallkit.kernels import compile_aside
 from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.jit import NotCompiledError, compile_for, compiled, kernel, never_compiling, types_of
@@ -74,7 +75,7 @@ def test_never_compiling_refuses_this_thread_alone():
 
 LONG = """
 import json, time
-from wallkit import Balls, Scene, Walls, simulate
+from wallkit import Balls, Scene, Walls, simulate, survey
 from wallkit.kernels import compile_aside
 from wallkit.simulation import simulate as module
 walls = Walls.from_polylines([[(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)]])
@@ -97,3 +98,15 @@ def test_a_long_run_goes_over_from_interpreted_to_compiled_with_the_same_bits(tm
     scene = Scene(Walls.from_polylines(ROOM), Balls([[11.0, 7.0]], [[3.0, 4.1]], radius=1.0))
     assert (waited, times) == ([0], 1)
     assert end == simulate(scene, bounces=20_000, mode="compiled").contacts.tobytes().hex()[-400:]
+
+
+def test_after_warm_nothing_of_that_kind_is_compiled(said, tmp_path):
+    drawing = tmp_path / "room.svg"
+    path = '<path d="M0 0H40V30H0Z" fill="none" stroke="red"/>'
+    drawing.write_text(f'<svg xmlns="http://www.w3.org/2000/svg">{path}</svg>')
+    code, out, _ = said("warm", str(drawing))
+    assert (code, out.splitlines()[0].split(" ... ")[0]) == (0, str(drawing))
+    other = Scene(Walls.from_polylines([[(0, 0), (9, 0), (0, 9)]]), Balls(np.ones((300, 2)), np.ones((300, 2))))
+    with never_compiling():
+        assert survey(other, bounces=3).bounces.sum() == 900
+        assert len(simulate(replace(other, balls=Balls([[1, 1]], [[1, 0]])), bounces=3, mode="compiled").contacts) == 3
