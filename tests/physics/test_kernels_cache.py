@@ -13,7 +13,7 @@ def test_older_versions_are_cleared_but_for_those_used_last(tmp_path, monkeypatc
         (folder / "module" / "fly.nbc").write_bytes(b"machine code")
         os.utime(folder, (1e9 - age, 1e9 - age))
     (tmp_path / "somebody-else").mkdir()
-    own = jit._cache_folder()
+    own = jit.cache_folder()
     kept = {path.name for path in tmp_path.iterdir()}
     assert kept == {own.name, "somebody-else", *(f"kernels-{age:016}" for age in range(jit.KEPT - 1))}
 
@@ -21,4 +21,4 @@ def test_older_versions_are_cleared_but_for_those_used_last(tmp_path, monkeypatc
 def test_a_folder_that_cannot_be_written_is_no_error(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path / "file" / "folder"))
-    assert jit._cache_folder().name.startswith("kernels-")
+    assert jit.cache_folder().name.startswith("kernels-")

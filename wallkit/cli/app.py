@@ -39,7 +39,7 @@ def _root(
 
 def _register_commands() -> None:
     """Attach one module a command. The modules import what is heavy only when their command runs."""
-    from wallkit.cli import check, export, import_, inspect, play, report, simulate
+    from wallkit.cli import check, export, import_, inspect, play, report, simulate, warm
 
     inspect.register(app)
     import_.register(app)
@@ -48,6 +48,7 @@ def _register_commands() -> None:
     export.register(app)
     play.register(app)
     report.register(app)
+    warm.register(app)
 
 
 def main() -> None:
