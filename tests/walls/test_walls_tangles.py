@@ -80,7 +80,7 @@ def looked_at(monkeypatch, walls):
         return inner(edges, first, second)
 
     monkeypatch.setattr(crossings, "_classify", counted)
-    crossings.find_contacts(Edges(walls.vertices, walls.offsets, walls.closed))
+    crossings.find_touches(Edges(walls.vertices, walls.offsets, walls.closed))
     monkeypatch.setattr(crossings, "_classify", inner)
     return count
 

@@ -29,7 +29,7 @@ from wallkit.walls.checking.narrow_places import with_feet
 from wallkit.walls.checking.parts import Parts
 from wallkit.walls.checking.room_circles import larger_circles
 from wallkit.walls.checking.self_check import diagonal
-from wallkit.walls.crossings import find_contacts
+from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.walls import Walls, WallsError
 
@@ -143,8 +143,8 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
 
 def _is_tangle(edges: Edges) -> bool:
     """More crossings than can be looked at: all edges cut where they cross would be too many."""
-    contacts = find_contacts(edges)
-    return not contacts.complete or len(contacts.crossing_at) > MOST_CROSSINGS
+    touches = find_touches(edges)
+    return not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS
 
 
 def _where_free(found: FreeSpace, solids: Solids, free: bool) -> FreeSpace:
