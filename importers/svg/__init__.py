@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
-import gc
 import hashlib
 import re
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from importers.collector import collector_paused
 from importers.drawing import Drawing
 from importers.errors import DrawingError, WallkitError
 from importers.problems import Problem
@@ -18,18 +16,6 @@ if TYPE_CHECKING:
     from importers.svg.source import Source
 
 _SVG_TAG = re.compile(rb"<(?:[A-Za-z_][\w.-]*:)?svg[\s>/]")
-
-
-@contextlib.contextmanager
-def _collector_paused() -> Iterator[None]:
-    """Pause Python's cycle collector: it would look through a growing drawing over and over, and find nothing."""
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            gc.enable()
 
 
 def looks_like_svg(data: bytes) -> bool:
@@ -101,7 +87,7 @@ def _read(data: bytes, file: str) -> Drawing:
     from importers.svg.reader import Reader
 
     source, damage = _parsed(data, file)
-    with _collector_paused():
+    with collector_paused():
         drawing = Reader(source).read()
     if damage:
         fix = "save the file as UTF-8; names may be wrong, outlines are not"

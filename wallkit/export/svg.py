@@ -6,6 +6,7 @@ import math
 
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.names import say_renamed
+from wallkit.export.number_text import rows
 from wallkit.export.xml_text import clean, quoted
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
@@ -50,6 +51,9 @@ def _path(wall: LevelWall) -> str:
 
 def path_data(wall: LevelWall) -> str:
     """Give a wall as path data. An arc of bulge b = tan(angle / 4) over the chord c has r = c (1 + b^2) / (4 |b|)."""
+    end = " Z" if wall.closed else ""
+    if not wall.bulges.any():
+        return "M" + rows("%r %r", wall.vertices, " L") + end
     points, bulges = wall.vertices.tolist(), wall.bulges.tolist()
     parts = [f"M{points[0][0]!r} {points[0][1]!r}"]
     ends = [*points[1:], points[0]] if wall.closed else points[1:]
@@ -62,4 +66,4 @@ def path_data(wall: LevelWall) -> str:
             parts.append(f"A{radius!r} {radius!r} 0 {int(abs(bulge) > 1)} {int(bulge > 0)} {x!r} {y!r}")
         elif index < last:
             parts.append(f"L{x!r} {y!r}")
-    return " ".join(parts) + (" Z" if wall.closed else "")
+    return " ".join(parts) + end
