@@ -87,12 +87,25 @@ def simulate_file(
     tangential_restitution: Tangential = None,
     friction: Friction = None,
     drag: Drag = None,
-    colour: Annotated[Literal["time", "speed"], typer.Option(help="What the path's colour tells.")] = "time",
+    colour: Annotated[
+        Literal["ball", "time", "speed"] | None,
+        typer.Option(help="What colours tell [default: time in pictures, ball in films].", show_default=False),
+    ] = None,
     heat: Annotated[bool, typer.Option("--heat", help="Pictures show where balls spend their time.")] = False,
     theme: Annotated[
         Literal["light", "dark"], typer.Option(help="Of PNG, GIF and MP4; SVG and HTML follow the reader.")
     ] = "light",
+    size: Annotated[
+        int | None,
+        typer.Option(
+            metavar="W", help="Width of pictures and films in pixels (a PNG is twice as fine).", min=160, max=3840
+        ),
+    ] = None,
     seconds: Annotated[float, typer.Option(metavar="T", help="Length of a film at most.", min=0.1, max=600)] = 12.0,
+    fps: Annotated[int | None, typer.Option(metavar="N", help="Frames a second of a film.", min=1, max=60)] = None,
+    pace: Annotated[
+        float | None, typer.Option(metavar="P", help="Seconds of the run in a second of film; 1 is real time.")
+    ] = None,
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
@@ -107,7 +120,8 @@ def simulate_file(
     targets = _targets(out or [], form)
     scene = opened(file, wishes)
     run = _flown(scene, settle)
-    look = {"colour": colour, "heat": heat, "theme": theme, "seconds": seconds}
+    look: dict[str, Any] = {"colour": colour, "heat": heat, "theme": theme, "size": size}
+    look |= {"seconds": seconds, "fps": fps, "pace": pace}
     trust = _trust(run)
     for target, kind in targets:
         _write(target, kind, run, scene, trust, {**look, "title": "" if file == "-" else Path(file).name})
@@ -197,15 +211,18 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
 
         page: str = replay_html(run, title=look["title"])
         return page
+    given = {name: look[name] for name in ("colour",) if look[name] is not None}
+    given |= {} if look["size"] is None else {"width": look["size"]}
     if kind in ("gif", "mp4"):
         from wallkit.view.film import film
 
+        chosen = {name: look[name] for name in ("seconds", "fps", "pace", "theme")}
         with progress_bar("filming") as report:
-            return film(run, kind, seconds=look["seconds"], theme=look["theme"], progress=report)
+            return film(run, kind, **chosen, **given, progress=report)
     from wallkit.view.run_picture import run_canvas
     from wallkit.view.write import picture_data
 
-    canvas = run_canvas(run, title=look["title"], colour=look["colour"], heat=look["heat"])
+    canvas = run_canvas(run, title=look["title"], heat=look["heat"], **given)
     return picture_data(f".{kind}", canvas, look["theme"])
 
 
