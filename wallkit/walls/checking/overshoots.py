@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.walls.checking.exact_widths import ComplexArray
+from wallkit.geometry.exact_edges import ComplexArray
 from wallkit.walls.checking.meetings import meetings, on_edge, part_of
 from wallkit.walls.checking.open_ends import OpenEnds, Surroundings
 
