@@ -42,22 +42,23 @@ def triangulate(points: FloatArray, segments: IntArray) -> Mesh:
     through that point, or through the nearest end of the other one.
     """
     corners = _counter_clockwise(points, delaunay(points))
-    keys = np.concatenate([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]])
-    there = set(map(tuple, np.sort(keys, axis=1).tolist()))
-    wanted = [tuple(pair) for pair in np.sort(segments, axis=1).tolist()]
-    parts: dict[Edge, int] = {}
-    missing = []
-    for number, pair in enumerate(wanted):
-        if pair in there:
-            parts[pair] = number
-        else:
-            missing.append((pair, number))
+    edges = np.concatenate([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]])
+    wanted = np.sort(segments, axis=1)
+    there = np.isin(_keys(wanted, len(points)), _keys(np.sort(edges, axis=1), len(points)))
+    parts: dict[Edge, int] = dict(zip(map(tuple, wanted[there].tolist()), np.flatnonzero(there).tolist(), strict=True))
+    missing = np.flatnonzero(~there).tolist()
     if missing:
         flips = _Flips(points, corners, parts)
-        for (a, b), number in missing:
-            flips.insert(a, b, number)
+        for number in missing:
+            flips.insert(int(wanted[number, 0]), int(wanted[number, 1]), number)
         corners = flips.corners()
     return _meshed(points, corners, parts)
+
+
+def _keys(pairs: IntArray, count: int) -> IntArray:
+    """One number for each pair of points of so many."""
+    keys: IntArray = pairs[:, 0] * count + pairs[:, 1]
+    return keys
 
 
 def _counter_clockwise(points: FloatArray, corners: IntArray) -> IntArray:

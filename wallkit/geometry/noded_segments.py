@@ -13,6 +13,10 @@ NEAR = 2.0**-36
 """Of the size of everything: a piece is sought among the segments as near as that, of which it is the nearest."""
 
 
+MOST_MEETINGS, AT_ONCE = 200_000, 1024
+"""Pairs of segments that may meet, with four more for each segment; and segments that are asked together."""
+
+
 class Noded(NamedTuple):
     """Pieces of segments.
 
@@ -29,13 +33,16 @@ class Noded(NamedTuple):
     piece: IntArray
 
 
-def node(a: FloatArray, b: FloatArray) -> Noded:
-    """Cut the segments from ``a`` to ``b``, (n, 2) each; those without length are left out.
+def node(a: FloatArray, b: FloatArray) -> Noded | None:
+    """Cut the segments from ``a`` to ``b``, (n, 2) each; those without length are left out; None for a tangle.
 
-    GEOS finds where they meet; a new point is off both lines by rounding alone. What meets nothing keeps its bits.
+    GEOS finds where they meet; a new point is off both lines by rounding alone. What meets nothing keeps its bits. A
+    tangle has more than 200,000 meetings, and four more for each segment.
     """
     real = np.flatnonzero((a != b).any(axis=1))
     lines = shapely.linestrings(np.stack([a[real], b[real]], axis=1))
+    if _is_tangle(lines):
+        return None
     cut = shapely.get_parts(shapely.union_all(lines)) if len(real) else np.empty(0, dtype=object)
     coordinates, line = shapely.get_coordinates(cut, return_index=True)
     within = line[1:] == line[:-1]
@@ -44,6 +51,16 @@ def node(a: FloatArray, b: FloatArray) -> Noded:
     pieces = np.sort(which.reshape(2, -1).T, axis=1)
     owner, piece = _owners(a[real], b[real], points[pieces[:, 0]], points[pieces[:, 1]], lines)
     return Noded(points, pieces.astype(np.int64), real[owner], piece)
+
+
+def _is_tangle(lines: Any) -> bool:
+    """Tell whether too many pairs meet, without finding all of them."""
+    tree, left = shapely.STRtree(lines), MOST_MEETINGS + (4 + 2 + 1) * len(lines)  # itself, and two neighbours twice
+    for first in range(0, len(lines), AT_ONCE):
+        left -= tree.query(lines[first : first + AT_ONCE], predicate="intersects").shape[1]
+        if left < 0:
+            return True
+    return False
 
 
 def _owners(a: FloatArray, b: FloatArray, p: FloatArray, q: FloatArray, lines: Any) -> tuple[IntArray, IntArray]:

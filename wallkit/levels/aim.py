@@ -24,6 +24,7 @@ MOST_BEAMS = 10_000_000
 SPEED = 50.0
 """Units per second of a ball where speed matters, nobody says it, and the scene has none that moves."""
 MOST_BOUNCES = 10_000
+"""Beams of a small room grow with their square: long before there are too many of them."""
 
 
 def aim(

@@ -33,8 +33,8 @@ FINEST = 1e-7
 """Radians between neighbouring shots that differ, at the least, where neither reaches the target."""
 POLISHED = 1e-14
 """Radians to which the borders of a window are known."""
-CHUNK = 256
-"""First gaps that are worked on together: what they come to is held in memory."""
+CHUNK, MOST_FLIGHTS = 64, 1 << 24
+"""First gaps that are worked on together, and flights of all shots that they may come to: 32 bytes each in memory."""
 
 
 class Searched(NamedTuple):
@@ -188,7 +188,7 @@ def _refined(shooter: Shooter, angle: FloatArray, finest: float, most: int) -> t
         if not len(divide):
             return angle, shots
         middle = 0.5 * (angle[divide] + angle[divide + 1])
-        if len(angle) + len(divide) > most:
+        if len(angle) + len(divide) > min(most, MOST_FLIGHTS // (shooter.bounces + 1)):
             raise LimitError(
                 "more shots than are allowed for the directions that cannot be unfolded",
                 code="too-many-shots",

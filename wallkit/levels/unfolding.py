@@ -10,7 +10,7 @@ import numpy as np
 from importers.errors import LimitError
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.constrained_delaunay import Mesh, triangulate
-from wallkit.geometry.noded_segments import node
+from wallkit.geometry.noded_segments import MOST_MEETINGS, Noded, node
 from wallkit.geometry.orientation import side
 from wallkit.kernels.beams.beams import DONE, split_beams
 from wallkit.kernels.beams.wedges import EVENTS, EXIT, FRAME, NUMBERS, OPEN, SEARCH, Found, Room, Target
@@ -18,8 +18,8 @@ from wallkit.kernels.jit import compiled
 from wallkit.levels.obstacles import Obstacles
 from wallkit.scene.scene import SceneError
 
-ROWS = 1 << 14
-"""Of what is found, before it is taken out; and wedges that may wait, at first."""
+ROWS, LETTERS = 1 << 14, 1 << 22
+"""Of what is found, before it is taken out, with so many letters of words at most; wedges that may wait, at first."""
 SLICE = 1 << 20
 """Beams between two looks whether the work was interrupted."""
 FRAME_SIZE = 0.5
@@ -106,9 +106,17 @@ def _twice(array: Any) -> Any:
     return np.concatenate([array, np.zeros_like(array)])
 
 
-def _mesh(obstacles: Obstacles, start: tuple[float, float], target: tuple[float, float, float]) -> tuple[Mesh, Any]:
-    """Triangulate the obstacles in a frame; and pair pieces with the obstacles on them."""
+def _mesh(obstacles: Obstacles, start: tuple[float, float], target: tuple[float, float, float]) -> tuple[Mesh, Noded]:
+    """Triangulate the obstacles in a frame; and pair pieces with the obstacles on them.
+
+    Raises:
+        LimitError: they are a tangle.
+    """
     noded = node(obstacles.a, obstacles.b)
+    if noded is None:
+        raise LimitError(
+            f"the walls meet at more than {MOST_MEETINGS:,} places", code="tangled", fix="see wallkit check: --resolve"
+        )
     x, y, r = target
     places = np.concatenate([noded.points, [start, (x - r, y - r), (x + r, y + r)]])
     low, high = places.min(axis=0), places.max(axis=0)
@@ -118,7 +126,7 @@ def _mesh(obstacles: Obstacles, start: tuple[float, float], target: tuple[float,
     return triangulate(points, noded.pieces), noded
 
 
-def _room(mesh: Mesh, noded: Any, obstacles: Obstacles, start: tuple[float, float]) -> Room:
+def _room(mesh: Mesh, noded: Noded, obstacles: Obstacles, start: tuple[float, float]) -> Room:
     """Tell the kernels what stops a point at which half-edge, and how it mirrors."""
     own = mesh.points[mesh.corners] - np.array(start)
     wall = np.where(mesh.across < 0, EXIT, OPEN)
@@ -174,6 +182,7 @@ def _found(room: Room, wedges: list[int], bounces: int) -> Found:
         numbers[row] = h, 0, 1
     counts = np.zeros(3 + bounces, dtype=np.int64)
     counts[1:3] = len(wedges)
-    words = np.zeros((ROWS, 2 + bounces), dtype=np.int64)
-    return Found(counts, np.zeros(1), np.zeros((ROWS, 4)), words, floats, numbers,
+    rows = min(ROWS, LETTERS // (2 + bounces))
+    words = np.zeros((rows, 2 + bounces), dtype=np.int64)
+    return Found(counts, np.zeros(1), np.zeros((rows, 4)), words, floats, numbers,
                  np.zeros(bounces + 1, dtype=np.int64), np.zeros((EVENTS + 2, 2)))  # fmt: skip
