@@ -12,13 +12,14 @@ from wallkit import arguments
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.levels.obstacles import obstacles_of
 from wallkit.levels.search import APART, FINEST, Searched, Shooter, search
-from wallkit.levels.targets import target_of
-from wallkit.levels.unfolding import Unfolded, unfold
+from wallkit.levels.targets import Disc, target_of
+from wallkit.levels.unfolding import Unfolded, unfold, unfolding_at_hand
 from wallkit.levels.windows import NONE, Windows, merged
 from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.scene.start_overlaps import check_starts
 from wallkit.walls import Walls
 
+Place = tuple[float, float]
 MOST_BEAMS = 10_000_000
 """Beams that are followed, and shots that are flown, at most, unless somebody says otherwise."""
 SPEED = 50.0
@@ -92,6 +93,16 @@ def aim(
         shooter = Shooter.of(alone, place, disc, most, size, pace)
         searched = search(shooter, intervals, limit, finest, progress)
     return _windows(alone, place, disc, most, unfolded, intervals, searched, finest)
+
+
+def machine_code_at_hand(scene: Scene, start: Place, target: Disc, radius: float) -> bool:
+    """Tell whether an ``aim`` would begin at once; where not, what it needs is being compiled aside from now on."""
+    alone = replace(scene, balls=Balls([start], [(SPEED, 0.0)], radius), sensors=None)
+    unfolds = _unfolds(alone)
+    ready = not unfolds or unfolding_at_hand()
+    if not unfolds or not obstacles_of(alone.walls, radius).twice.all():
+        ready = Shooter.of(alone, start, target, 1, radius, SPEED).machine_code_at_hand() and ready
+    return ready
 
 
 def _pair(value: Sequence[float], name: str) -> tuple[float, float]:

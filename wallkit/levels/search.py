@@ -14,7 +14,8 @@ from importers.errors import LimitError
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.beams.rays import NEVER, Scratch, Shots, shoot
 from wallkit.kernels.beams.wedges import Target
-from wallkit.kernels.jit import compiled
+from wallkit.kernels.compile_aside import at_hand
+from wallkit.kernels.jit import compile_for, compiled, types_of
 from wallkit.kernels.records import LOG_STRIDE, NO_HIT
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation.modelled import Modelled
@@ -110,8 +111,18 @@ class Shooter:
 
     def fly(self, angle: FloatArray) -> Shots:
         """Fly a shot in each direction, in radians."""
-        n, most, model = len(angle), self.bounces, self.modelled.model
         velocities = self.speed * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        arguments, shots = self._arguments(velocities)
+        compiled(shoot)(*arguments)
+        return shots
+
+    def machine_code_at_hand(self) -> bool:
+        """Tell whether shots can be flown at once; where not, the kernel is being compiled aside from now on."""
+        return at_hand(compile_for, shoot, *types_of(self._arguments(np.ones((1, 2)))[0]))
+
+    def _arguments(self, velocities: FloatArray) -> tuple[tuple[Any, ...], Shots]:
+        """Give what the kernel is called with for shots, and where it writes them."""
+        n, most, model = len(velocities), self.bounces, self.modelled.model
         shots = Shots(
             np.full(n, NEVER, dtype=np.int64),
             np.full((n, most + 1), NO_HIT, dtype=np.int64),
@@ -119,13 +130,14 @@ class Shooter:
             np.full((n, most + 1), np.inf),
         )
         capacity = most + 2
+        counts, start = (np.array(START, dtype=np.int64) for _ in range(2))
         hits = np.zeros(max(1, len(model.edge_wall)), dtype=np.int64)
-        scratch = Scratch(self.begin.copy(), np.array(START, dtype=np.int64), np.array(START, dtype=np.int64), hits,
-                          np.empty(capacity * LOG_STRIDE), np.zeros(2, dtype=np.int64))  # fmt: skip
+        log, found = np.empty(capacity * LOG_STRIDE), np.zeros(2, dtype=np.int64)
+        scratch = Scratch(self.begin.copy(), counts, start, hits, log, found)
         pull = None if model.gravity is None else np.zeros(2)
-        compiled(shoot)(model, model.gravity, pull, self.sensors, self.target, self.radius, self.begin, velocities,
-                        most, scratch, capacity, shots)  # fmt: skip
-        return shots
+        arguments = (model, model.gravity, pull, self.sensors, self.target, self.radius, self.begin, velocities, most,
+                     scratch, capacity, shots)  # fmt: skip
+        return arguments, shots
 
 
 def _disc(target: tuple[float, float, float]) -> Walls:

@@ -14,7 +14,8 @@ from wallkit.geometry.noded_segments import MOST_MEETINGS, Noded, node
 from wallkit.geometry.orientation import side
 from wallkit.kernels.beams.beams import DONE, split_beams
 from wallkit.kernels.beams.wedges import EVENTS, EXIT, FRAME, NUMBERS, OPEN, SEARCH, Found, Room, Target
-from wallkit.kernels.jit import compiled
+from wallkit.kernels.compile_aside import at_hand
+from wallkit.kernels.jit import compile_for, compiled, types_of
 from wallkit.levels.obstacles import Obstacles
 from wallkit.scene.scene import SceneError
 
@@ -100,6 +101,14 @@ def unfold(
     known = np.arange(bounces)[None, :] < words[:, 1:2]
     return Unfolded(low, high, words[:, 1], words[:, 0] == SEARCH, np.where(known, words[:, 2:], -1),
                     found.counts[2:], float(found.lost[0]))  # fmt: skip
+
+
+def unfolding_at_hand() -> bool:
+    """Tell whether beams can be followed at once; where not, the kernel is being compiled aside from now on."""
+    none, numbers = np.zeros(3), np.zeros(3, dtype=np.int64)
+    room = Room(none, none, numbers, numbers, np.zeros((1, 4)))
+    arguments = room, Target(0.0, 0.0, 1.0), 1, _found(room, [], 1), 1
+    return at_hand(compile_for, split_beams, *types_of(arguments))
 
 
 def _twice(array: Any) -> Any:
