@@ -24,7 +24,7 @@ SHOWN = 12
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("aim")(aim_at)
+    app.command("aim", rich_help_panel="Balls")(aim_at)
 
 
 @drawing_options.with_import_options()
