@@ -157,6 +157,7 @@ class OpenedScene:
         assumed: what nobody said, a sentence each.
         drawing: the drawing, where the file was one.
         found_place: no ball was given: the one in the scene was put where there is most room.
+        importing: how the drawing became walls.
     """
 
     scene: Scene
@@ -167,6 +168,7 @@ class OpenedScene:
     assumed: list[str] = field(default_factory=list)
     drawing: Drawing | None = None
     found_place: bool = False
+    importing: ImportOptions | None = None
 
 
 def open_scene(
@@ -239,7 +241,7 @@ def _of_drawing(drawing: Drawing, wishes: Wishes) -> OpenedScene:
     drawn = drawn_scene(drawing, wishes.importing, _given(wishes))
     scene = Scene(drawn.walls, drawn.balls, sensors=drawn.sensors)
     opened = OpenedScene(scene, None, None, drawing.kind or "drawing", drawn.problems)
-    opened.drawing = drawing
+    opened.drawing, opened.importing = drawing, wishes.importing
     return _completed(opened, drawn, wishes)
 
 
@@ -253,7 +255,9 @@ def _of_scene_file(read: SceneFile, wishes: Wishes) -> OpenedScene:
     if read.drawn is None:
         scene = replace(scene, walls=_repaired(scene.walls, wishes.importing, "a scene without a drawing"))
     problems = [] if read.drawn is None else read.drawn.problems
-    opened = OpenedScene(scene, read.until, read.bounces, "scene", problems, drawing=read.drawing)
+    opened = OpenedScene(
+        scene, read.until, read.bounces, "scene", problems, drawing=read.drawing, importing=read.importing
+    )
     return _completed(opened, read.drawn, wishes)
 
 
