@@ -12,6 +12,7 @@ from importers.boxes import Box, box_of
 from importers.drawing import Drawing, DrawnPath, Layer, Level, Subpath
 from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.numbers import NumberError
+from importers.regions import ALL, Region
 from importers.svg.around import Around, BoxFirst, Reading
 from importers.svg.cascade import Cascade
 from importers.svg.clipping import Clips
@@ -25,7 +26,6 @@ from importers.svg.pages import pages_of, sheet_of
 from importers.svg.paint import Paints
 from importers.svg.placing import DEFAULT_SIZE, element_matrix, has_transform, nested_viewport, root_viewport, use_size
 from importers.svg.references import References
-from importers.svg.regions import ALL, Region
 from importers.svg.shapes import SHAPES, Lengths, Shapes, within_bounds
 from importers.svg.source import Source
 from importers.svg.style import Declared
@@ -74,7 +74,7 @@ class Reader:
             fix = f'add xmlns="{SVG_NS}" to the svg element'
             self.notes.add("missing-namespace", "warning", "browsers show nothing of this file", root, fix=fix)
         self.drawing.problems += self.source.problems
-        self._enter_root(root)
+        self._push_children(root, self.enter())
         self._walk()
         self.references.report(self.notes)
         self.drawing.layers = list(self.layers.values())
@@ -125,7 +125,9 @@ class Reader:
             name=name,
         )
 
-    def _enter_root(self, root: Any) -> None:
+    def enter(self) -> Around:
+        """Read the outermost element, and give what its children have around them."""
+        root = self.source.root
         declared = self.cascade.declared(root, self.source.attributes(root), self.initial)
         try:
             style = self.cascade.inherited(self.initial, declared)
@@ -145,8 +147,7 @@ class Reader:
         hidden = declared.get("display") == "none"
         region = ALL if page is None else Region(page)
         around = Around(matrix, style, viewport, page=region, hidden=hidden, unseen=_without_opacity(declared))
-        around = around._replace(clip=self._clip(declared, around, matrix, lambda: None))
-        self._push_children(root, around)
+        return around._replace(clip=self._clip(declared, around, matrix, lambda: None))
 
     def _push_children(self, element: Any, around: Around) -> None:
         if around.depth >= MAX_DEPTH:

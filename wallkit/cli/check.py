@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from importers.drawing import Drawing
     from importers.problems import Problem
+    from wallkit.scene.opening import OpenedScene
     from wallkit.walls import Walls
     from wallkit.walls.checking.audit import Audit
     from wallkit.walls.checking.free_space import FreeSpace
@@ -55,24 +56,15 @@ def check(
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Find problems and leaks, with places and fixes; exit with 1 when there are findings."""
-    from wallkit.walls.checking.ball_places import ball_problems, goal_problems
-    from wallkit.walls.checking.free_space import free_space
-    from wallkit.walls.checking.leaks import leak_problems, reach_of
+    from wallkit.cli.scene_input import opened
+    from wallkit.scene.opening import Wishes
 
     _check_radius(radius)
-    given = _given(file, options.options_of(importing or {}))
-    walls = given.walls
-    if radius is None and len(given.radii):
-        radius = float(given.radii.min())
-        given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
-    space = free_space(walls)
-    reach = reach_of(space, walls, radius, given.places)
-    found = ball_problems(space, walls, given.places, given.radii)
-    found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)
-    found += [*leak_problems(space, reach), *given.problems, *_without_walls(walls)]
+    given = given_of(opened(file, Wishes(importing=options.options_of(importing or {}), may_be_empty=True)))
     audited = _audited(given, audit, file) if audit else None
-    found += audited.problems() if audited is not None else []
-    problems = sorted(_once(found), key=_rank)
+    given.problems += [] if audited is None else audited.problems()
+    look = look_over(given, radius)
+    walls, problems, space, reach = look.walls, look.problems, look.space, look.reach
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
         _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
@@ -85,6 +77,34 @@ def check(
         if audited is not None:
             print(audited.sentence())
     raise typer.Exit(1 if findings else 0)
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What was found about what FILE holds: problems with the severe first, free space, and where balls get to."""
+
+    walls: Walls
+    problems: list[Problem]
+    space: FreeSpace
+    reach: Reach
+
+
+def look_over(given: Given, radius: float | None) -> Look:
+    """Look for leaks of a ball of a radius (None: the smallest given, else any), and whatever else is doubtful."""
+    from wallkit.walls.checking.ball_places import ball_problems, goal_problems
+    from wallkit.walls.checking.free_space import free_space
+    from wallkit.walls.checking.leaks import leak_problems, reach_of
+
+    walls = given.walls
+    if radius is None and len(given.radii):
+        radius = float(given.radii.min())
+        given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
+    space = free_space(walls)
+    reach = reach_of(space, walls, radius, given.places)
+    found = ball_problems(space, walls, given.places, given.radii)
+    found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)
+    found += [*leak_problems(space, reach), *given.problems, *_without_walls(walls)]
+    return Look(walls, sorted(_once(found), key=_rank), space, reach)
 
 
 def _without_walls(walls: Walls) -> list[Problem]:
@@ -118,7 +138,7 @@ def _check_radius(radius: float | None) -> None:
 
 
 @dataclass(slots=True)
-class _Given:
+class Given:
     """What FILE holds: walls, places and radii of its balls, all that was found in it, and what was assumed."""
 
     walls: Walls
@@ -131,24 +151,20 @@ class _Given:
     importing: ImportOptions | None = None
 
 
-def _given(file: str, importing: ImportOptions) -> _Given:
-    """Open FILE, whatever it is, as `simulate` does; a ball that would only be put somewhere does not count."""
+def given_of(found: OpenedScene) -> Given:
+    """Take what FILE holds, opened as `simulate` does; a ball that would only be put somewhere does not count."""
     import numpy as np
 
-    from wallkit.cli.scene_input import opened
-    from wallkit.scene.opening import Wishes
-
-    found = opened(file, Wishes(importing=importing, may_be_empty=True))
     walls, balls = found.scene.walls, found.scene.balls
     assumed = [] if walls.solid is None or walls.solid.how == "asked" else [walls.solid.sentence()]
     places, radii = np.asarray(balls.position), np.asarray(balls.radius)
     if found.found_place:
         places, radii = np.empty((0, 2)), np.empty(0)
     sensors, drawing = found.scene.sensors, found.drawing
-    return _Given(walls, places, radii, found.problems, assumed, sensors, drawing, found.importing)
+    return Given(walls, places, radii, found.problems, assumed, sensors, drawing, found.importing)
 
 
-def _audited(given: _Given, count: int, file: str) -> Audit:
+def _audited(given: Given, count: int, file: str) -> Audit:
     """Ask svgpathtools whether the walls are where the curves are."""
     from wallkit.scene.opening import UsageError
     from wallkit.walls.checking.audit import audit

@@ -60,10 +60,21 @@ Out = Annotated[
     _output("-o", "--out", metavar="OUT", help=f"Where to; the ending decides: {' '.join(FORMATS)}. Repeatable."),
 ]
 Form = Annotated[Format | None, _output("--format", help="Format, whatever the ending says.")]
-Colour = Annotated[Literal["time", "speed"], _output(help="What the path's colour tells.")]
+Colour = Annotated[
+    Literal["ball", "time", "speed"] | None,
+    _output(help="What colours tell [default: time in pictures, ball in films].", show_default=False),
+]
 Heat = Annotated[bool, _output("--heat", help="Pictures show where balls spend their time.")]
 Theme = Annotated[Literal["light", "dark"], _output(help="Of PNG, GIF and MP4; SVG and HTML follow the reader.")]
+Size = Annotated[
+    int | None,
+    _output(metavar="W", help="Width of pictures and films in pixels (a PNG is twice as fine).", min=160, max=3840),
+]
 Seconds = Annotated[float, _output(metavar="T", help="Length of a film at most.", min=0.1, max=600)]
+Fps = Annotated[int | None, _output(metavar="N", help="Frames a second of a film.", min=1, max=60)]
+Pace = Annotated[
+    float | None, _output(metavar="P", help="Seconds of the run in a second of film; 1 is real time.", min=1e-6)
+]
 
 
 def register(app: typer.Typer) -> None:
@@ -92,10 +103,13 @@ def simulate_file(
     tangential_restitution: Tangential = None,
     friction: Friction = None,
     drag: Drag = None,
-    colour: Colour = "time",
+    colour: Colour = None,
     heat: Heat = False,
     theme: Theme = "light",
+    size: Size = None,
     seconds: Seconds = 12.0,
+    fps: Fps = None,
+    pace: Pace = None,
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
@@ -110,7 +124,8 @@ def simulate_file(
     targets = _targets(out or [], form)
     scene = opened(file, wishes)
     run = _flown(scene, settle)
-    look = {"colour": colour, "heat": heat, "theme": theme, "seconds": seconds}
+    look: dict[str, Any] = {"colour": colour, "heat": heat, "theme": theme, "size": size}
+    look |= {"seconds": seconds, "fps": fps, "pace": pace}
     trust = _trust(run)
     for target, kind in targets:
         _write(target, kind, run, scene, trust, {**look, "title": "" if file == "-" else Path(file).name})
@@ -174,16 +189,19 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
 
         page: str = replay_html(run, title=look["title"])
         return page
+    given = {name: look[name] for name in ("colour",) if look[name] is not None}
+    given |= {} if look["size"] is None else {"width": look["size"]}
     if kind in ("gif", "mp4"):
         from wallkit.cli.progress import progress_bar
         from wallkit.view.film import film
 
+        chosen = {name: look[name] for name in ("seconds", "fps", "pace", "theme")}
         with progress_bar("filming") as report:
-            return film(run, kind, seconds=look["seconds"], theme=look["theme"], progress=report)
+            return film(run, kind, **chosen, **given, progress=report)
     from wallkit.view.run_picture import run_canvas
     from wallkit.view.write import picture_data
 
-    canvas = run_canvas(run, title=look["title"], colour=look["colour"], heat=look["heat"])
+    canvas = run_canvas(run, title=look["title"], heat=look["heat"], **given)
     return picture_data(f".{kind}", canvas, look["theme"])
 
 

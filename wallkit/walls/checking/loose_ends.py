@@ -217,7 +217,7 @@ def _to_walls(
     end, edge, distance, foot = near.end[keep], near.edge[keep], near.distance[keep], near.foot[keep]
     mine = ends.take(end)
     ahead = _ahead(scene, mine, edge)
-    out = overshoots(scene, ends, np.flatnonzero(loose), reach)
+    out = overshoots(scene, ends, np.flatnonzero(loose), (near.end, near.edge), reach)
     order = np.lexsort((distance, end))
     first = order[np.unique(end[order], return_index=True)[1]] if len(order) else order
     on = np.full(len(ends.at), -1)

@@ -55,7 +55,6 @@ class Surroundings:
     edge_wall: IntArray
     starts: IntArray
     stops: IntArray
-    boxes: NDArray[np.object_]
     tree: shapely.STRtree
     along: FloatArray  # (V,) way along its wall to each vertex
     total: FloatArray  # (W,) length of each wall
@@ -79,7 +78,7 @@ class Surroundings:
         there = ROUNDING * float(np.abs(walls.vertices).max(initial=0.0))
         total = np.bincount(edge_wall, length, len(walls)).astype(np.float64)
         starts, stops = walls.edge_starts, walls.edge_ends
-        return cls(walls, edges, edge_wall, starts, stops, boxes, shapely.STRtree(boxes), along, total, there)
+        return cls(walls, edges, edge_wall, starts, stops, shapely.STRtree(boxes), along, total, there)
 
     def ends(self) -> OpenEnds:
         """All open ends."""
