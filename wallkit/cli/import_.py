@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("import")(import_drawing)
+    app.command("import", rich_help_panel="Drawings and walls")(import_drawing)
 
 
 @options.with_import_options("lines")

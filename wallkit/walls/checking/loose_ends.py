@@ -14,8 +14,8 @@ import numpy as np
 import shapely
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
-from wallkit.walls.checking.exact_widths import ComplexArray, ExactEdges
 from wallkit.walls.checking.meetings import meetings, on_edge
 from wallkit.walls.checking.open_ends import OWN, BoolArray, OpenEnds, Surroundings, in_the_way, put_on
 from wallkit.walls.checking.overshoots import Overshoots, overshoots

@@ -9,8 +9,9 @@ import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
-from wallkit.walls.checking.exact_widths import ComplexArray, ExactEdges
+from wallkit.walls.checking.exact_widths import exact_edges
 from wallkit.walls.checking.meetings import meetings, on_edge
 from wallkit.walls.walls import Walls
 
@@ -62,7 +63,7 @@ class Surroundings:
     @classmethod
     def of(cls, walls: Walls) -> Surroundings:
         """Measure walls and put their boxes into a tree."""
-        edges = ExactEdges.of(walls)
+        edges = exact_edges(walls)
         length = np.where(edges.radius > 0, np.abs(edges.angle) * edges.radius, np.abs(edges.b - edges.a))
         bow = np.abs(np.tan(edges.angle / 4)) * np.abs(edges.b - edges.a) / 2
         a, b = walls.vertices[walls.edge_starts], walls.vertices[walls.edge_ends]

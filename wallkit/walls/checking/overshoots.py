@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.walls.checking.exact_widths import ComplexArray
+from wallkit.geometry.exact_edges import ComplexArray
 from wallkit.walls.checking.meetings import meetings, on_edge, part_of
 from wallkit.walls.checking.open_ends import OpenEnds, Surroundings
 
