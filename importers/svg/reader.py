@@ -12,6 +12,7 @@ from importers.boxes import Box, box_of, box_of_segments
 from importers.drawing import Drawing, DrawnPath, Layer, Level, Subpath
 from importers.limits import LETTERS_OF_A_STEP, MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.numbers import NumberError
+from importers.regions import ALL, Region
 from importers.svg.around import Around, BoxFirst, Reading
 from importers.svg.cascade import Cascade
 from importers.svg.clipping import Clips
@@ -25,7 +26,6 @@ from importers.svg.pages import pages_of, sheet_of
 from importers.svg.paint import Paints
 from importers.svg.placing import DEFAULT_SIZE, element_matrix, has_transform, nested_viewport, root_viewport, use_size
 from importers.svg.references import References
-from importers.svg.regions import ALL, Region
 from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
 from importers.svg.source import Source
 from importers.svg.style import Declared

@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+import shapely
 from drawn import codes, drawing, path, polygon, square
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -16,6 +17,7 @@ from wallkit.walls.crossings import find_contacts
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.importing.pipeline import import_walls
 from wallkit.walls.nesting import depths
+from wallkit.walls.solid import walls_around
 
 
 def edges_of(*rings, closed=True):
@@ -182,3 +184,17 @@ def test_a_thousand_places_are_listed_and_the_rest_is_counted():
     crossings = [p for p in import_walls(drawing(*across, *down)).problems if p.code == "crossing"]
     assert len(crossings) == 1001
     assert crossings[-1].message.startswith("560 more")  # 39 * 40 - 1000
+
+
+def test_which_walls_are_around_a_point_is_what_shapely_says():
+    """Stars in stars, whose rays cross edges at all angles; points of the whole plane around them."""
+    rng = np.random.default_rng(7)
+    turn = np.linspace(0, 2 * np.pi, 40)[:-1]
+    stars = [
+        size * np.stack([np.cos(turn), np.sin(turn)], 1) * rng.uniform(0.3, 1, (39, 1)) for size in (1.0, 0.6, 2.0)
+    ]
+    points = rng.uniform(-2, 2, (500, 2))
+    found = np.zeros((500, 3), dtype=bool)
+    found[walls_around(edges_of(*stars), points)] = True
+    expected = [shapely.contains_xy(shapely.Polygon(star), points[:, 0], points[:, 1]) for star in stars]
+    assert found.T.tolist() == [one.tolist() for one in expected]

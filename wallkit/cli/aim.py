@@ -24,7 +24,7 @@ SHOWN = 12
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("aim")(aim_at)
+    app.command("aim", rich_help_panel="Balls")(aim_at)
 
 
 @drawing_options.with_import_options()
@@ -63,6 +63,7 @@ def aim_at(
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Find all directions that reach a target within K bounces, and how wide each window is."""
+    from wallkit.cli.progress import progress_bar
     from wallkit.cli.scene_input import opened, pair
     from wallkit.levels.aim import aim
     from wallkit.scene.opening import Wishes
@@ -80,7 +81,7 @@ def aim_at(
     ball = level.scene.balls
     place, size = (float(ball.position[0, 0]), float(ball.position[0, 1])), float(ball.radius[0])
     pace = float(math.hypot(*ball.velocity[0])) or None
-    with flight.progress_bar("aiming") as report:
+    with progress_bar("aiming") as report:
         progress = None if report is None else (lambda beams: report(beams / most_beams))
         windows = aim(level.scene, place, _target(to), bounces, size, speed=pace, resolution=resolution,
                       most_beams=most_beams, progress=progress)  # fmt: skip

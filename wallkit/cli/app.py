@@ -14,7 +14,6 @@ app = typer.Typer(
     name="wallkit",
     help="Turn a drawing into walls, and shoot balls at them with the exact answer.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )

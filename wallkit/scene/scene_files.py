@@ -274,8 +274,9 @@ class _Reader:
     def drawn(self, table: dict[str, Any], balls: FloatArray) -> Drawn | None:
         path = self.path(table["drawing"], "drawing")
         options = self.table(table.get("import", {}), "import")
-        self.known_keys(options, set(option_names()), "import.")
-        known = {key: value for key, value in options.items() if key in option_names()}
+        names = set(option_names()) - {"via"}  # who opens a file says what program may run, not the file
+        self.known_keys(options, names, "import.")
+        known = {key: value for key, value in options.items() if key in names}
         try:
             self.options = ImportOptions(**{"curves": "arcs", **known, **self.importing})
         except WallsError as error:
@@ -285,7 +286,7 @@ class _Reader:
             return None
         from importers.read import read_drawing
 
-        self.drawing = read_drawing(path, page=self.options.page)
+        self.drawing = read_drawing(path, page=self.options.page, via=self.options.via)
         say_roles(self.drawing, self.roles(table))
         return drawn_scene(self.drawing, self.options, balls if self.places is None else self.places)
 

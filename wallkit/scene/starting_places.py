@@ -10,6 +10,7 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.walls import Walls
+from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.self_check import straight_edges
 from wallkit.walls.sample import flattened
 from wallkit.walls.solid import walls_around
@@ -55,7 +56,7 @@ def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
             continue
         spot = _spot(face, noded)
         better = spot and (best is None or spot.room > best.room)
-        if spot and better and (anywhere or not _in_material(walls, rings, spot)):
+        if spot and better and (anywhere or not _in_material(walls, spot)):
             best = spot
     return best
 
@@ -102,21 +103,16 @@ def _is_nearly_closed(face: Any, noded: Any) -> bool:
     return int(np.count_nonzero(shapely.intersects(ways, noded))) >= 0.8 * _WAYS
 
 
-def _in_material(walls: Walls, rings: list[FloatArray], spot: Spot) -> bool:
+def _in_material(walls: Walls, spot: Spot) -> bool:
     """Tell whether a spot is in what only one-sided walls keep balls out of: the smallest ring around it is a solid.
 
     Two-sided walls keep a ball in as well as out; a room given as a plain ring of numbers has its room there.
     """
-    import shapely
-
     if walls.solid is not None or all(sides == "both" for sides in walls.sides):
         return False
-    around = [ring for ring, closed in zip(rings, walls.closed, strict=True)
-              if closed and len(ring) > 2 and shapely.contains_xy(shapely.polygons(ring), spot.x, spot.y)]  # fmt: skip
-    if not around:
-        return False
-    x, y = min(around, key=lambda ring: float(shapely.area(shapely.polygons(ring)))).T
-    return bool(x @ np.roll(y, -1) - y @ np.roll(x, -1) > 0)  # twice the signed area: positive is a solid
+    solids = Solids.of(walls, straight_edges(walls))
+    innermost = int(solids.innermost(np.array([[spot.x, spot.y]]))[0])
+    return innermost >= 0 and bool(solids.sign[innermost] > 0)
 
 
 def _spot(face: Any, walls: Any) -> Spot | None:

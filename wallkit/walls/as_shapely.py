@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.bulge_arcs import edge_points
 from wallkit.geometry.rings import rings_of
 from wallkit.walls.walls import Walls
 
@@ -78,22 +79,4 @@ def arc_points(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, In
         counts = np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1).astype(np.int64)
     which = np.repeat(np.arange(len(counts)), counts - 1)
     rank = np.arange(len(which)) - np.repeat(np.cumsum(counts - 1) - (counts - 1), counts - 1) + 1
-    return counts, points_on(a[which], b[which], bulge[which], rank / counts[which]), rank
-
-
-def points_on(a: FloatArray, b: FloatArray, bulge: FloatArray, part: FloatArray) -> FloatArray:
-    """Give the point of each edge at a part (0 to 1) of its angle.
-
-    With half angle h = 2 atan(bulge) and c the chord, the point at angle f = h (2 part - 1) from the middle is
-    middle + c sin f / (2 sin h) + (c turned right) (cos f - cos h) / (2 sin h), where
-    cos f - cos h = 2 sin((h + f) / 2) sin((h - f) / 2) loses no digits for a flat arc.
-    """
-    half = 2 * np.arctan(bulge)
-    turn = half * (2 * part - 1)
-    sin = np.sin(half)
-    flat = sin == 0
-    along = np.where(flat, part - 0.5, np.sin(turn) / np.where(flat, 1.0, 2 * sin))
-    across = np.where(flat, 0.0, np.sin((half + turn) / 2) * np.sin((half - turn) / 2) / np.where(flat, 1.0, sin))
-    chord = b - a
-    right = np.stack([chord[:, 1], -chord[:, 0]], axis=1)
-    return (a + b) / 2 + chord * along[:, None] + right * across[:, None]
+    return counts, edge_points(a[which], b[which], bulge[which], rank / counts[which]), rank

@@ -23,7 +23,7 @@ from wallkit.arguments import ABOVE_0, number, of_type
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.conforming_delaunay import SHORTEST, Triangulation, triangulate
 from wallkit.walls.as_shapely import straightened
-from wallkit.walls.checking.exact_widths import ExactEdges, nearest_pair
+from wallkit.walls.checking.exact_widths import exact_edges, nearest_pair
 from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.narrow_places import with_feet
 from wallkit.walls.checking.parts import Parts
@@ -170,7 +170,7 @@ def _roomier(found: FreeSpace, mesh: Triangulation) -> FreeSpace:
 
 def _sharpened(found: FreeSpace, walls: Walls, vertices: FloatArray) -> FreeSpace:
     """Measure gaps between the arcs themselves."""
-    exact = ExactEdges.of(walls)
+    exact = exact_edges(walls)
     reach = 4 * (walls.tolerance / 10 or 1e-4 * diagonal(vertices))
     gaps = []
     for gap in found.gaps[:MOST_SHARPENED]:

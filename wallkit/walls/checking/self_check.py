@@ -116,9 +116,12 @@ def _at_ends(walls: Walls, contacts: Contacts, loose: Sequence[LooseEnd]) -> NDA
     if len(places) and len(result):
         size = float(np.abs(walls.vertices).max())
         within = 1e-9 * size + (walls.tolerance / 5 if walls.has_arcs else 0.0)
+        across = np.sort(places.real)
+        x = contacts.crossing_at[:, 0]
+        beside = np.flatnonzero(np.searchsorted(across, x - within) < np.searchsorted(across, x + within, "right"))
         tree = shapely.STRtree(shapely.points(places.real, places.imag))
-        found, _ = tree.query(shapely.points(contacts.crossing_at), predicate="dwithin", distance=within)
-        result[found] = True
+        found, _ = tree.query(shapely.points(contacts.crossing_at[beside]), predicate="dwithin", distance=within)
+        result[beside[found]] = True
     return result
 
 

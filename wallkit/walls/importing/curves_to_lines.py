@@ -21,9 +21,10 @@ from numpy.typing import NDArray
 from importers.limits import MAX_VERTICES, limit_error
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.cubics import chord_bound, cut_between, evaluate, extreme_parameters, split
+from wallkit.geometry.ellipse_arcs import Arcs
 from wallkit.geometry.ragged import numbered
 from wallkit.geometry.segments import segment_distance
-from wallkit.walls.importing.segments import ARC, CUBIC, Arcs, Strokes
+from wallkit.walls.importing.segments import ARC, CUBIC, Strokes
 
 _DEEPEST = 40  # halvings: t is then below 1e-12, and rounding, not the curve, is what is left
 

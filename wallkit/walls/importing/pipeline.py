@@ -24,7 +24,7 @@ from wallkit.walls.importing.drawn_sensors import drawn_places, drawn_sensors
 from wallkit.walls.importing.fill_rule import material_rings
 from wallkit.walls.importing.outlines import Outlines, assemble, keep_sides, on_grid
 from wallkit.walls.importing.placing import placed
-from wallkit.walls.importing.segments import Strokes, gather
+from wallkit.walls.importing.segments import Strokes, default_tolerance, gather
 from wallkit.walls.nesting import depths
 from wallkit.walls.orient import turned_to
 from wallkit.walls.repairing.passes import repair
@@ -137,7 +137,7 @@ def _read(source: str | Path | IO[bytes] | IO[str] | Sequence[Any], options: Imp
         return drawing_from_svgpathtools(source)
     from importers.read import read_drawing  # late: it brings the readers of all formats
 
-    drawing: Drawing = read_drawing(cast(Any, source), page=options.page)
+    drawing: Drawing = read_drawing(cast(Any, source), page=options.page, via=options.via)
     return drawing
 
 
@@ -148,15 +148,6 @@ def _outlined(paths: list[DrawnPath], tolerance: float | None) -> tuple[list[Dra
         default_tolerance(gather(sub for path in paths for sub in path.subpaths)) if tolerance is None else tolerance
     )
     return outline_strokes(paths, within)
-
-
-def default_tolerance(strokes: Strokes) -> float:
-    """0.1 % of the diagonal of the box of all end and control points, at most 0.1."""
-    points = np.concatenate([strokes.starts, strokes.ends, strokes.cubics.reshape(-1, 2)])
-    if not len(points):
-        return 0.1
-    diagonal = float(np.hypot(*(points.max(axis=0) - points.min(axis=0))))
-    return min(0.1, diagonal / 1000) or 0.1
 
 
 def _with_segments(paths: list[DrawnPath]) -> tuple[list[DrawnPath], list[Problem]]:

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ellipse_arcs import Arcs
 from wallkit.walls.importing.arc_fitting.biarcs import Fit, Spans
 from wallkit.walls.importing.arc_fitting.curves import BoolArray, Cubics, Curves, Ellipses, as_complex, cross
 from wallkit.walls.importing.arc_fitting.cuts import (
@@ -32,7 +33,7 @@ from wallkit.walls.importing.arc_fitting.cuts import (
 )
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, runs_on
 from wallkit.walls.importing.curves_to_lines import Pieces
-from wallkit.walls.importing.segments import ARC, CUBIC, LINE, Arcs, Strokes
+from wallkit.walls.importing.segments import ARC, CUBIC, LINE, Strokes
 
 # A curve that is one arc by itself stays that where it turns by more (radians): it was drawn as an arc, and is no
 # short piece of something else.
