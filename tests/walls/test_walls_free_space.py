@@ -117,6 +117,7 @@ def test_what_is_connected_agrees_with_shapelys_erosion(seed, radius):
 @settings(max_examples=10)
 @given(st.integers(0, 10_000))
 @example(174).via("a foot where the triangulation itself had cut the wall")
+@example(206).via("feet nearly on one line, of which GEOS makes triangles that are none of Delaunay's")
 def test_a_disc_just_narrower_than_the_escape_gets_out_and_one_just_wider_does_not(seed):
     walls = random_sticks(seed)
     for gap in free_space(walls, narrow=1e9).gaps:
