@@ -29,6 +29,9 @@ if TYPE_CHECKING:
     from wallkit.accuracy.reference import Reference, sure_events
     from wallkit.scene.opening import OpenedScene, Wishes, open_scene
     from wallkit.scene.scene import Balls, Scene, SceneError
+    from wallkit.scene.room_balls import RoomBalls
+    from wallkit.simulation.count import count
+    from wallkit.simulation.counts import Counts
     from wallkit.simulation.horizon import Horizon
     from wallkit.simulation.prepared import Prepared, prepare
     from wallkit.simulation.run import CONTACT, FINAL, Ending, Kind, Run
@@ -52,6 +55,9 @@ _HOMES = {
     "importers.svg.svgpathtools_paths": ("drawing_from_svgpathtools",),
     "wallkit.accuracy.reference": ("Reference", "sure_events"),
     "wallkit.scene.opening": ("OpenedScene", "Wishes", "open_scene"),
+    "wallkit.scene.room_balls": ("RoomBalls",),
+    "wallkit.simulation.count": ("count",),
+    "wallkit.simulation.counts": ("Counts",),
     "wallkit.simulation.horizon": ("Horizon",),
     "wallkit.simulation.run": ("CONTACT", "FINAL", "Ending", "Kind", "Run"),
     "wallkit.simulation.streams": ("RandomBalls", "survey_stream"),
@@ -75,6 +81,7 @@ __all__ = [
     "CONTACT",
     "FINAL",
     "Balls",
+    "Counts",
     "Drawing",
     "DrawingError",
     "DrawnPath",
@@ -93,6 +100,7 @@ __all__ = [
     "RandomBalls",
     "Reference",
     "Repairs",
+    "RoomBalls",
     "Run",
     "Scene",
     "SceneError",
@@ -105,6 +113,7 @@ __all__ = [
     "Wishes",
     "World",
     "__version__",
+    "count",
     "drawing_from_svgpathtools",
     "film",
     "free_space",

@@ -146,21 +146,33 @@ def scattered(walls: Walls, spot: Spot, count: int, radius: float, random: np.ra
     """
     import shapely
 
-    from wallkit.scene.scene import SceneError
-
-    x0, y0, x1, y1 = spot.face.bounds
-    # Around a corner a buffer of 32 chords a quarter is short by 0.03 %, and arcs bow out of the face by _FINE_STEP.
-    room = shapely.buffer(spot.face, -1.0005 * radius - 2e-5 * max(x1 - x0, y1 - y0), quad_segs=32)
+    room = room_for(spot, radius)
     shapely.prepare(room)
-    if shapely.is_empty(room):
-        raise SceneError(
-            f"a ball of radius {radius:g} has no room",
-            code="no-room",
-            fix=f"the roomiest spot takes {spot.room:.6g}: give a smaller --radius",
-        )
     x0, y0, x1, y1 = room.bounds
     places = np.empty((0, 2))
     while len(places) < count:
         tried = random.uniform((x0, y0), (x1, y1), (2 * count + 64, 2))
         places = np.concatenate([places, tried[shapely.contains_xy(room, tried[:, 0], tried[:, 1])]])
     return places[:count]
+
+
+def room_for(spot: Spot, radius: float) -> Any:
+    """Give where the centre of a ball fits in the face of a spot: a polygon, or several, of shapely.
+
+    Raises:
+        SceneError: a ball of that radius fits nowhere there.
+    """
+    import shapely
+
+    from wallkit.scene.scene import SceneError
+
+    x0, y0, x1, y1 = spot.face.bounds
+    # Around a corner a buffer of 32 chords a quarter is short by 0.03 %, and arcs bow out of the face by _FINE_STEP.
+    room = shapely.buffer(spot.face, -1.0005 * radius - 2e-5 * max(x1 - x0, y1 - y0), quad_segs=32)
+    if shapely.is_empty(room):
+        raise SceneError(
+            f"a ball of radius {radius:g} has no room",
+            code="no-room",
+            fix=f"the roomiest spot takes {spot.room:.6g}: give a smaller --radius",
+        )
+    return room
