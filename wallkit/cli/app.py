@@ -40,12 +40,13 @@ def _root(
 
 def _register_commands() -> None:
     """Attach one module a command. The modules import what is heavy only when their command runs."""
-    from wallkit.cli import check, export, import_, inspect, play, report, simulate
+    from wallkit.cli import check, export, import_, inspect, play, report, simulate, survey
 
     inspect.register(app)
     import_.register(app)
     check.register(app)
     simulate.register(app)
+    survey.register(app)
     export.register(app)
     play.register(app)
     report.register(app)

@@ -144,21 +144,28 @@ def _flown(scene: OpenedScene, settle: bool) -> Run:
 
 @contextmanager
 def progress_bar(label: str, after: float = 0.5) -> Iterator[Callable[[float], None] | None]:
-    """Show how much is done on standard error, where that is a terminal and the work takes longer than a moment."""
+    """Show how much is done, and how long the rest may take, on standard error.
+
+    Only where that is a terminal and the work takes longer than a moment. The rest is taken to go on at the pace since
+    the first report.
+    """
     if not sys.stderr.isatty():
         yield None
         return
     begun = last = time.monotonic()
     shown = False
+    first: float | None = None
 
     def report(part: float) -> None:
-        nonlocal last, shown
+        nonlocal last, shown, first
         now = time.monotonic()
+        first = part if first is None else first
         if now - begun < after or now - last < 0.1:
             return
         last, shown = now, True
         filled = int(30 * min(max(part, 0.0), 1.0))
-        sys.stderr.write(f"\r{label} [{'#' * filled}{'.' * (30 - filled)}] {100 * part:3.0f} %")
+        bar = f"{'#' * filled}{'.' * (30 - filled)}"
+        sys.stderr.write(f"\r{label} [{bar}] {100 * part:3.0f} %{_rest(part, first, now - begun)}\x1b[K")
         sys.stderr.flush()
 
     try:
@@ -167,6 +174,16 @@ def progress_bar(label: str, after: float = 0.5) -> Iterator[Callable[[float], N
         if shown:
             sys.stderr.write("\r\x1b[K")
             sys.stderr.flush()
+
+
+def _rest(part: float, first: float, passed: float) -> str:
+    """Say how long the rest will take; nothing at the very start."""
+    if passed < 2.0 or part <= first:
+        return ""
+    seconds = (1.0 - part) * passed / (part - first)
+    if seconds < 90.0:
+        return f", {max(seconds, 1.0):.0f} s left"
+    return f", {seconds / 60.0:.0f} min left" if seconds < 5400.0 else f", {seconds / 3600.0:.1f} h left"
 
 
 def _trust(run: Run) -> list[Any]:

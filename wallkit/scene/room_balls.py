@@ -10,7 +10,7 @@ import numpy as np
 from wallkit.arguments import floats, number, of_type, refused, whole_number
 from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.scene import Balls, SceneError
-from wallkit.scene.starting_places import room_for, roomiest
+from wallkit.scene.starting_places import Spot, room_for, roomiest
 from wallkit.walls import Walls
 
 
@@ -56,8 +56,10 @@ class RoomBalls:
         object.__setattr__(self, "_shares", shares / shares[-1])
 
     @staticmethod
-    def of(walls: Walls, speed: float = 1.0, radius: float = 0.0, seed: int = 0) -> RoomBalls:
-        """Draw balls wherever one of this radius fits in the room around the roomiest spot of some walls.
+    def of(
+        walls: Walls, speed: float = 1.0, radius: float = 0.0, seed: int = 0, spot: Spot | None = None
+    ) -> RoomBalls:
+        """Draw balls wherever one of this radius fits in the room around a spot: the roomiest, where none is given.
 
         Places keep away from curved walls by 2e-5 of the room's size: the room is made of lines here.
 
@@ -68,7 +70,7 @@ class RoomBalls:
 
         of_type(walls, "walls", Walls, "Walls", error=SceneError, code="bad-balls")
         radius = number(radius, "radius", "a finite number, 0 or more", error=SceneError, code="bad-balls", least=0.0)
-        spot = roomiest(walls)
+        spot = roomiest(walls) if spot is None else spot
         if spot is None:
             fix = "close the walls, or give places"
             raise SceneError("there is no room for a ball inside these walls", code="no-room", fix=fix)

@@ -41,13 +41,10 @@ def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
     Returns:
         The spot, or None where no face has room.
     """
-    import shapely
-
     rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
     if not rings:
         return None
-    lines = [np.vstack([ring, ring[:1]]) if c else ring for ring, c in zip(rings, walls.closed, strict=True)]
-    noded = shapely.node(shapely.multilinestrings([shapely.linestrings(line) for line in lines]))
+    noded = _noded(walls, rings)
     best: Spot | None = None
     for face in _faces(walls, noded, anywhere):
         # A circle in a face of area A has at most the radius sqrt(A / pi): smaller faces cannot win any more.
@@ -58,6 +55,26 @@ def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
         if spot and better and (anywhere or not _in_material(walls, rings, spot)):
             best = spot
     return best
+
+
+def face_around(walls: Walls, x: float, y: float) -> Spot | None:
+    """Give the roomiest spot of the face of the walls that a place is in; None where it is in no bounded one."""
+    import shapely
+
+    rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
+    if not rings:
+        return None
+    noded = _noded(walls, rings)
+    faces = [face for face in _faces(walls, noded, anywhere=True) if shapely.contains_xy(face, x, y)]
+    return _spot(min(faces, key=shapely.area), noded) if faces else None
+
+
+def _noded(walls: Walls, rings: list[FloatArray]) -> Any:
+    """Give the walls' lines, cut where they cross."""
+    import shapely
+
+    lines = [np.vstack([ring, ring[:1]]) if c else ring for ring, c in zip(rings, walls.closed, strict=True)]
+    return shapely.node(shapely.multilinestrings([shapely.linestrings(line) for line in lines]))
 
 
 def _faces(walls: Walls, noded: Any, anywhere: bool) -> list[Any]:
