@@ -27,9 +27,10 @@ if TYPE_CHECKING:
     from importers.read import read_drawing, read_drawing_text
     from importers.svg.svgpathtools_paths import drawing_from_svgpathtools
     from wallkit.accuracy.reference import Reference, sure_events
+    from wallkit.levels.check_level import LevelCheck, check_level
     from wallkit.scene.opening import OpenedScene, Wishes, open_scene
-    from wallkit.scene.scene import Balls, Scene, SceneError
     from wallkit.scene.room_balls import RoomBalls
+    from wallkit.scene.scene import Balls, Scene, SceneError
     from wallkit.simulation.count import count
     from wallkit.simulation.counts import Counts
     from wallkit.simulation.horizon import Horizon
@@ -54,6 +55,7 @@ _HOMES = {
     "importers.read": ("read_drawing", "read_drawing_text"),
     "importers.svg.svgpathtools_paths": ("drawing_from_svgpathtools",),
     "wallkit.accuracy.reference": ("Reference", "sure_events"),
+    "wallkit.levels.check_level": ("LevelCheck", "check_level"),
     "wallkit.scene.opening": ("OpenedScene", "Wishes", "open_scene"),
     "wallkit.scene.room_balls": ("RoomBalls",),
     "wallkit.simulation.count": ("count",),
@@ -92,6 +94,7 @@ __all__ = [
     "ImportOptions",
     "Kind",
     "Layer",
+    "LevelCheck",
     "LimitError",
     "Material",
     "OpenedScene",
@@ -113,6 +116,7 @@ __all__ = [
     "Wishes",
     "World",
     "__version__",
+    "check_level",
     "count",
     "drawing_from_svgpathtools",
     "film",

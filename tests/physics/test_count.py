@@ -86,9 +86,11 @@ def test_a_chunk_that_always_dies_is_named_after_its_attempts():
 
 
 def test_a_broken_executor_of_somebody_else_is_said():
-    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as executor:
-        with pytest.raises(wallkit.WallkitError, match="which is not made here") as caught:
-            count(300, Deadly(250, os.getpid()), executor=executor, chunk=100)
+    with (
+        ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as executor,
+        pytest.raises(wallkit.WallkitError, match="which is not made here") as caught,
+    ):
+        count(300, Deadly(250, os.getpid()), executor=executor, chunk=100)
     assert caught.value.code == "chunk-failed"
 
 
@@ -99,14 +101,14 @@ def test_an_error_of_the_scene_is_told_as_it_is():
     assert pickle.loads(pickle.dumps(caught.value)).code == caught.value.code
 
 
-class Stop(Exception):
+class StopError(Exception):
     pass
 
 
 def stop_at(share):
     def progress(part):
         if part >= share:
-            raise Stop
+            raise StopError
 
     return progress
 
@@ -118,7 +120,7 @@ def test_a_survey_that_was_stopped_goes_on_where_it_was(tmp_path, digest):
         drawn.append(number)
         return PLAIN(first, number)
 
-    with pytest.raises(Stop):
+    with pytest.raises(StopError):
         count(checkpoint=file, chunk=130, progress=stop_at(0.5))
     assert [path.name for path in tmp_path.iterdir()] == ["survey.json"]
     begun = sum(stop - start for start, stop in json.loads(file.read_text())["ranges"])
@@ -222,7 +224,9 @@ def test_times_are_added_up_as_whole_numbers_of_any_size():
 def test_a_future_that_never_began_is_cancelled_when_a_survey_is_stopped():
     class Idle(Executor):
         _max_workers = 2
-        given = []
+
+        def __init__(self):
+            self.given = []
 
         def submit(self, fn, /, *args):
             future = Future()
@@ -232,6 +236,6 @@ def test_a_future_that_never_began_is_cancelled_when_a_survey_is_stopped():
             return future
 
     executor = Idle()
-    with pytest.raises(Stop):
+    with pytest.raises(StopError):
         count(executor=executor, chunk=100, progress=stop_at(0.1))
     assert [future.cancelled() for future in executor.given] == [False, True, True, True]

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from wallkit.cli import check_balls as ballwise
 from wallkit.cli import import_options as options
+from wallkit.cli.simulate import Gravity, Speed, Until
+from wallkit.cli.survey import Checkpoint, From, Where, Workers
 from wallkit.cli.watching import watchable
 
 if TYPE_CHECKING:
@@ -18,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from importers.problems import Problem
+    from wallkit.scene.opening import OpenedScene
     from wallkit.walls import Walls
     from wallkit.walls.checking.free_space import FreeSpace
     from wallkit.walls.checking.leaks import Reach
@@ -41,15 +45,44 @@ def check(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Write the findings as JSON to standard output.")] = False,
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls, findings and leaks (.svg).")] = "",
+    balls: Annotated[
+        str | None,
+        typer.Option("--balls", metavar="N", help="Fly N balls, and tell what they find out; 1e6 is a number."),
+    ] = None,
+    start: From = None,
+    target: Annotated[
+        str | None,
+        typer.Option(
+            "--to", metavar="NAME|X,Y,R", help="What is to be reached: a sensor, target, wall, WALL:EDGE, circle."
+        ),
+    ] = None,
+    until: Until = None,
+    bounces: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="End after N bounces a ball (default, without --until: 2000).", min=0),
+    ] = None,
+    speed: Speed = None,
+    gravity: Gravity = None,
+    seed: Annotated[int, typer.Option(metavar="K", help="Seed of --balls.", min=0)] = 0,
+    out: Annotated[
+        str | None, typer.Option("-o", "--out", metavar="OUT.html", help="Write a page about --balls, with pictures.")
+    ] = None,
+    executor: Where = "threads",
+    workers: Workers = None,
+    checkpoint: Checkpoint = None,
     importing: dict[str, Any] | None = None,
 ) -> None:
-    """Find problems and leaks, with places and fixes; exit with 1 when there are findings."""
+    """Find problems and leaks, with places and fixes, and what many balls find out; exit with 1 on findings."""
     from wallkit.walls.checking.ball_places import ball_problems, goal_problems
     from wallkit.walls.checking.free_space import free_space
     from wallkit.walls.checking.leaks import leak_problems, reach_of
 
     _check_radius(radius)
-    given = _given(file, options.options_of(importing or {}))
+    wanted = ballwise.Wanted(
+        balls, start, target, until, bounces, speed, gravity, seed, out, executor, workers, checkpoint
+    )
+    wanted.check()
+    given = _given(file, options.options_of(importing or {}), wanted)
     walls = given.walls
     if radius is None and len(given.radii):
         radius = float(given.radii.min())
@@ -59,14 +92,21 @@ def check(
     found = ball_problems(space, walls, given.places, given.radii)
     found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)
     found += [*leak_problems(space, reach), *given.problems, *_without_walls(walls)]
+    flown = ballwise.flown(given.opened, radius, wanted) if wanted.many is not None else None
+    found += [] if flown is None else flown.check.problems()
     problems = sorted(_once(found), key=_rank)
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
         _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
+    if flown is not None and out is not None:
+        ballwise.write_page(out, flown, file)
     if as_json:
-        print(json.dumps(_report(walls, problems, space, reach, len(findings)), ensure_ascii=False))
+        report = _report(walls, problems, space, reach, len(findings))
+        print(json.dumps(report | ({} if flown is None else {"balls": flown.check.to_json()}), ensure_ascii=False))
     else:
         _tell(walls, problems, space, reach, given.assumed)
+        for line in ballwise.lines(flown, out) if flown is not None else ():
+            print(line)
     raise typer.Exit(1 if findings else 0)
 
 
@@ -104,6 +144,7 @@ def _check_radius(radius: float | None) -> None:
 class _Given:
     """What FILE holds: walls, places and radii of its balls, all that was found in it, and what was assumed."""
 
+    opened: OpenedScene
     walls: Walls
     places: NDArray[np.float64]
     radii: NDArray[np.float64]
@@ -112,20 +153,19 @@ class _Given:
     sensors: Walls | None = None
 
 
-def _given(file: str, importing: ImportOptions) -> _Given:
+def _given(file: str, importing: ImportOptions, wanted: ballwise.Wanted) -> _Given:
     """Open FILE, whatever it is, as `simulate` does; a ball that would only be put somewhere does not count."""
     import numpy as np
 
     from wallkit.cli.scene_input import opened
-    from wallkit.scene.opening import Wishes
 
-    found = opened(file, Wishes(importing=importing, may_be_empty=True))
+    found = opened(file, wanted.wishes(importing))
     walls, balls = found.scene.walls, found.scene.balls
     assumed = [] if walls.solid is None or walls.solid.how == "asked" else [walls.solid.sentence()]
     if found.found_place:
-        return _Given(walls, np.empty((0, 2)), np.empty(0), found.problems, assumed, found.scene.sensors)
+        return _Given(found, walls, np.empty((0, 2)), np.empty(0), found.problems, assumed, found.scene.sensors)
     places, radii = np.asarray(balls.position), np.asarray(balls.radius)
-    return _Given(walls, places, radii, found.problems, assumed, found.scene.sensors)
+    return _Given(found, walls, places, radii, found.problems, assumed, found.scene.sensors)
 
 
 def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, findings: int) -> dict[str, Any]:

@@ -9,8 +9,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from wallkit.cli import import_options as drawing_options
-from wallkit.cli.simulate import Bounces, Drag, File, Friction, Gravity, Radius, Restitution, Seed, Speed, Tangential
-from wallkit.cli.simulate import Until, progress_bar  # isort: skip
+from wallkit.cli.simulate import (
+    Bounces,
+    Drag,
+    File,
+    Friction,
+    Gravity,
+    Radius,
+    Restitution,
+    Seed,
+    Speed,
+    Tangential,
+    Until,
+    progress_bar,
+)
 
 if TYPE_CHECKING:
     from wallkit.levels.starts import Starts
@@ -127,7 +139,9 @@ def _check_ending(out: str | None) -> None:
     from wallkit.scene.opening import UsageError
 
     if out is not None and out != "-" and not out.lower().endswith(".npz"):
-        raise UsageError("counts are written as NPZ", code="unknown-ending", fix="give a name that ends on .npz", file=out)
+        raise UsageError(
+            "counts are written as NPZ", code="unknown-ending", fix="give a name that ends on .npz", file=out
+        )
 
 
 def _report(scene: OpenedScene, counts: Counts) -> dict[str, Any]:
@@ -168,4 +182,6 @@ def _summary(file: str, scene: OpenedScene, starts: Starts, counts: Counts, out:
 
 def _limits_assumed(scene: OpenedScene) -> list[str]:
     """What was assumed when the scene was opened, but for the one ball that does not fly here."""
-    return [words for words in scene.assumed if not any(of in words for of in ("--ball", "--speed", "--angle", "drawn"))]
+    return [
+        words for words in scene.assumed if not any(of in words for of in ("--ball", "--speed", "--angle", "drawn"))
+    ]

@@ -129,11 +129,11 @@ class CheckCounts:
     @staticmethod
     def of_json(value: dict[str, Any]) -> CheckCounts:
         """Read what :meth:`to_json` gave."""
-        grids = {name: np.array(value[name], dtype=np.int64) for name in ("visits", "rests", "fates")}
-        bins = {
-            name: (np.array(value[name][0], dtype=np.int64), np.array(value[name][1], dtype=np.int64))
+        fates, visits, rests = (np.array(value[name], dtype=np.int64) for name in ("fates", "visits", "rests"))
+        times, met = (
+            (np.array(value[name][0], dtype=np.int64), np.array(value[name][1], dtype=np.int64))
             for name in ("times", "met")
-        }
+        )
         rows = [tuple(math.inf if one is None else one for one in row) for row in value["traps"]]
         return CheckCounts(
             counts=Counts.of_json(value["counts"]),
@@ -141,7 +141,9 @@ class CheckCounts:
             least_bounces=int(value["least_bounces"]),
             first_slow=int(value["first_slow"]),
             traps=np.array(rows, dtype=TRAP),
-            **grids,
-            **bins,
+            fates=fates,
+            visits=visits,
+            rests=rests,
+            times=times,
+            met=met,
         )
-

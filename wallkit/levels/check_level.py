@@ -85,7 +85,8 @@ class LevelCheck:
     reachable: Reachable
 
     def __repr__(self) -> str:
-        told = [f"{Fate(code).label} {number:,}" for code, number in enumerate(self.counts.fates.tolist()) if number]
+        fates = enumerate(self.counts.fates.tolist())
+        told = [f"{findings.fate_word(self, Fate(code))} {number:,}" for code, number in fates if number]
         return f"<LevelCheck: {self.counts.balls:,} balls, {self.counts.bounces:,} bounces: {', '.join(told)}>"
 
     @property
@@ -132,17 +133,20 @@ class LevelCheck:
         if self.goal is None:
             return []
         codes, numbers = self.counts.met if bounces else self.counts.times
-        limit = float(self.counts.least_bounces) if bounces else self.counts.least_time
-        below = np.cumsum(numbers)
+        limit = float(self.counts.least_bounces) if bounces and self.counts.first_slow >= 0 else self.counts.least_time
+        below, whole = np.cumsum(numbers), math.ceil if bounces else float
 
         def value(rank: int, upper: bool) -> float:
             if rank < 1:
                 return 0.0
             place = int(np.searchsorted(below, rank))
-            if rank > self.balls or place >= len(codes):
-                return math.inf if upper else min(limit, bin_edges(int(codes[-1]))[1] if len(codes) else 0.0)
+            if rank > self.balls or place >= len(codes):  # a ball that did not reach it
+                last = bin_edges(int(codes[-1]))[0] if len(codes) else 0.0
+                return math.inf if upper else float(whole(limit if math.isfinite(limit) else last))
             low, high = bin_edges(int(codes[place]))
-            return (math.inf if high > limit else high) if upper else min(low, limit)
+            if upper:
+                return math.inf if high > limit else float(whole(high) - 1 if bounces else high)
+            return float(whole(min(low, limit)))
 
         ranks = [(part, *quantile_ranks(self.balls, part)) for part in PARTS]
         return [Quantile(part, value(low, False), value(high, True)) for part, low, high in ranks]

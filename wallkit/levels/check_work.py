@@ -81,8 +81,10 @@ class CheckWork(Work[CheckCounts]):
     def words(self) -> tuple[object, ...]:
         """Limits and target."""
         goal = self.goal
-        sensors = None if goal is None or goal.sensors is None else (
-            goal.sensors.vertices.tobytes(), goal.sensors.bulges.tobytes(), goal.sensors.offsets.tobytes()
+        sensors = (
+            None
+            if goal is None or goal.sensors is None
+            else (goal.sensors.vertices.tobytes(), goal.sensors.bulges.tobytes(), goal.sensors.offsets.tobytes())
         )
         return (*super().words(), sensors, () if goal is None else goal.edges)
 
@@ -161,7 +163,7 @@ class CheckWork(Work[CheckCounts]):
         self, modelled: Modelled, watch: Watch, states: FloatArray, counts: NDArray[np.int64], first: int,
         hits: NDArray[np.int64],
     ) -> CheckCounts:  # fmt: skip
-        count, squares = len(states), self.squares
+        count = len(states)
         outcome = Outcome(
             np.empty((count, 2)), np.empty((count, 2)), np.empty(count), np.empty(count, dtype=np.int64),
             np.empty(count, dtype=np.uint8),

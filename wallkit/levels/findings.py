@@ -46,7 +46,9 @@ def traps(check: LevelCheck) -> list[Trap]:
     listed = check.counts.traps
     groups: dict[tuple[int, int], list[int]] = {}
     where = check.squares.at(np.stack([listed["x"], listed["y"]], axis=1)) if len(listed) else np.empty(0, np.int64)
-    for row, (fate, word, square) in enumerate(zip(listed["fate"].tolist(), listed["word"].tolist(), where.tolist(), strict=True)):
+    for row, (fate, word, square) in enumerate(
+        zip(listed["fate"].tolist(), listed["word"].tolist(), where.tolist(), strict=True)
+    ):
         groups.setdefault((fate, square if fate == Fate.AT_REST else word), []).append(row)
     found = []
     for rows in sorted(groups.values(), key=lambda rows: (-len(rows), rows[0])):
@@ -68,7 +70,9 @@ def resting(check: LevelCheck) -> list[tuple[float, float, int]]:
         seen.setdefault(int(regions.flat[square]), (x, y))
     places = []
     for region in range(1, many + 1):
-        row, column = (int(part[0]) for part in np.nonzero((regions == region) & (rests == rests[regions == region].max())))
+        row, column = (
+            int(part[0]) for part in np.nonzero((regions == region) & (rests == rests[regions == region].max()))
+        )
         middle = (squares.x0 + (column + 0.5) * squares.side, squares.y0 + (row + 0.5) * squares.side)
         places.append((*seen.get(region, middle), int(rests[regions == region].sum())))
     return sorted(places, key=lambda place: -place[2])
@@ -83,7 +87,9 @@ def _about_balls(check: LevelCheck) -> list[Problem]:
     found, left, undecided = [], check.share(Fate.LEFT), check.share(Fate.UNDECIDED)
     if left.count:
         message = f"{share_words(left)} left the scene"
-        found.append(Problem("balls-leave", "warning", message, "close the walls: wallkit check without --balls tells leaks"))
+        found.append(
+            Problem("balls-leave", "warning", message, "close the walls: wallkit check without --balls tells leaks")
+        )
     if undecided.count:
         message = f"{share_words(undecided)} met a corner whose outcome depends on which wall comes first"
         found.append(Problem("undecided-corner", "info", message, "nothing to do; round the corner, or move the start"))
@@ -96,11 +102,15 @@ def _about_target(check: LevelCheck) -> list[Problem]:
         return []
     found = []
     if not reached.count:
-        message = f"none of {check.balls:,} balls reached {check.goal.words!r}: a ball's chance is below {check.chance:.4g}"
+        message = (
+            f"none of {check.balls:,} balls reached {check.goal.words!r}: a ball's chance is below {check.chance:.4g}"
+        )
         found.append(Problem("target-missed", "warning", message, "open a way, or give more --bounces"))
     trapped = sum(int(check.counts.fates[fate]) for fate in TRAPS)
     if trapped:
-        kinds = ", ".join(f"{int(check.counts.fates[fate]):,} {fate.label}" for fate in TRAPS if check.counts.fates[fate])
+        kinds = ", ".join(
+            f"{int(check.counts.fates[fate]):,} {fate.label}" for fate in TRAPS if check.counts.fates[fate]
+        )
         from wallkit.levels.check_level import Share
 
         message = f"{share_words(Share.of(trapped, check.balls))} are trapped before {check.goal.words!r}: {kinds}"
@@ -117,17 +127,14 @@ def _about_target(check: LevelCheck) -> list[Problem]:
 def _about_edges(check: LevelCheck) -> list[Problem]:
     never, certain = check.never, check.certain
     found = []
-    for sure, code in ((True, "edges-out-of-reach"), (False, "edges-never-hit")):
-        edges = never[certain == sure]
-        if not len(edges):
-            continue
-        words = edge_words(check, edges.tolist())
-        if sure:
-            message = f"no ball can hit {words}: they lie outside of where balls can be"
-            found.append(Problem("edges-out-of-reach", "info", message, "nothing to do for the outside of a wall"))
-        else:
-            message = f"no ball hit {words}: a ball's chance is below {check.chance:.4g}"
-            found.append(Problem("edges-never-hit", "info", message, "give more --balls, or leave those walls out"))
+    edges = never[certain].tolist()
+    if edges:
+        message = f"no ball can hit {edge_words(check, edges)}: they lie outside of where balls can be"
+        found.append(Problem("edges-out-of-reach", "info", message, "nothing to do for the outside of a wall"))
+    edges = never[~certain].tolist()
+    if edges:
+        message = f"no ball hit {edge_words(check, edges)}: a ball's chance is below {check.chance:.4g}"
+        found.append(Problem("edges-never-hit", "info", message, "give more --balls, or leave those walls out"))
     return found
 
 
@@ -146,6 +153,11 @@ def edge_words(check: LevelCheck, edges: list[int]) -> str:
             parts.append(f"{missed} of the {len(own)} edges of wall {index}{name}")
     told = [*whole, *parts]
     return ", ".join(told[:6]) + (f" and {len(told) - 6} more" if len(told) > 6 else "")
+
+
+def fate_word(check: LevelCheck, fate: Fate) -> str:
+    """Say what became of balls; where nothing was to be reached, those at the limit are not slow but fly on."""
+    return "fly on" if fate is Fate.SLOW and check.goal is None else fate.label
 
 
 def share_words(share: Share) -> str:
@@ -167,9 +179,7 @@ def _span(low: float, high: float) -> str:
 def to_json(check: LevelCheck) -> dict[str, Any]:
     """Give a check as JSON."""
     free, visited, by = check.coverage()
-    never = [
-        {"edge": int(edge), "certain": bool(sure)} for edge, sure in zip(check.never, check.certain, strict=True)
-    ]
+    never = [{"edge": int(edge), "certain": bool(sure)} for edge, sure in zip(check.never, check.certain, strict=True)]
     return {
         "balls": check.balls,
         "bounces": check.counts.bounces,

@@ -65,7 +65,9 @@ def goal_of(scene: Scene, target: str | Sequence[float]) -> Goal:
         return _disc(target)
     sensors, walls = scene.sensors, scene.walls
     if sensors is not None:
-        chosen = [index for index, name in enumerate(sensors.names) if name == target or _called(sensors, index, target)]
+        chosen = [
+            index for index, name in enumerate(sensors.names) if name == target or _called(sensors, index, target)
+        ]
         if chosen:
             return Goal(target, sensors=sensors.take(chosen))
     offsets = walls.edge_offsets
@@ -99,8 +101,6 @@ def _disc(target: Sequence[float]) -> Goal:
     circle = [(x - radius, y), (x + radius, y)]
     sensors = Walls.from_polylines([circle], bulges=[[1.0, 1.0]])
     return Goal(f"{x:g},{y:g},{radius:g}", sensors=sensors, disc=(x, y, radius))
-
-
 
 
 def given_target(text: str | None) -> str | tuple[float, float, float] | None:

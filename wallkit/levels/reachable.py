@@ -18,7 +18,7 @@ from wallkit.walls import Walls
 _STEP = math.pi / 256
 """Chords of arcs are then off by 2e-5 of the radius."""
 _MARGIN = 1e-3
-"""Of the size of the walls: chords and the circles of buffers are off by less; no edge nearer is called out of reach."""
+"""Of the size of the walls: chords and buffers are off by less; no edge nearer than this is called out of reach."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,7 +44,10 @@ def reachable(walls: Walls, radius: float, draw: object, squares: Squares) -> Re
     import shapely
 
     everything = np.ones((squares.rows, squares.columns), dtype=np.bool_)
-    starts, edges = _starts(draw), [_points(walls, a, b) for a, b in zip(walls.edge_starts, walls.edge_ends, strict=True)]
+    starts, edges = (
+        _starts(draw),
+        [edge_points(walls, int(a), int(b)) for a, b in zip(walls.edge_starts, walls.edge_ends, strict=True)],
+    )
     if starts is None or not edges:
         return Reachable(np.ones(len(edges), dtype=np.bool_), everything)
     x0, y0, x1, y1 = walls.box()
@@ -79,8 +82,8 @@ def _starts(draw: object) -> Any:
     return None
 
 
-def _points(walls: Walls, a: int, b: int) -> Any:
-    """Give the points of an edge, the two of a line or more of an arc."""
+def edge_points(walls: Walls, a: int, b: int) -> Any:
+    """Give the points of the edge between two vertices: two of a line, more of an arc."""
     start, end, bulge = walls.vertices[a], walls.vertices[b], float(walls.bulges[a])
     if bulge == 0.0:
         return np.stack([start, end])

@@ -56,9 +56,7 @@ class RoomBalls:
         object.__setattr__(self, "_shares", shares / shares[-1])
 
     @staticmethod
-    def of(
-        walls: Walls, speed: float = 1.0, radius: float = 0.0, seed: int = 0, spot: Spot | None = None
-    ) -> RoomBalls:
+    def of(walls: Walls, speed: float = 1.0, radius: float = 0.0, seed: int = 0, spot: Spot | None = None) -> RoomBalls:
         """Draw balls wherever one of this radius fits in the room around a spot: the roomiest, where none is given.
 
         Places keep away from curved walls by 2e-5 of the room's size: the room is made of lines here.

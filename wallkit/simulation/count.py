@@ -16,7 +16,7 @@ from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation import checkpoints
 from wallkit.simulation.checkpoints import Done
 from wallkit.simulation.counts import Counts
-from wallkit.simulation.pools import Pool, open_pool
+from wallkit.simulation.pools import Pool, check_executor, open_pool
 from wallkit.simulation.simulate import limits
 from wallkit.simulation.work import Draw, Result, SurveyWork, Work
 
@@ -51,7 +51,7 @@ def count(
     """Survey any number of balls, in chunks that threads, processes or a cluster fly, and keep whole numbers alone.
 
     Ball i is ``draw(i, 1)`` wherever it flies, and whole numbers add up to the same in any order: the result has the
-    same bits for any executor, any number of workers, any chunks, after lost workers, and after a stop and a resumption.
+    same bits for any executor, any number of workers, any chunks, after lost workers, and after a stop.
     Memory does not grow with the number of balls.
 
     Args:
@@ -100,12 +100,14 @@ def fly_all_chunks(
     for name, value in (("workers", workers), ("chunk", chunk)):
         if value is not None:
             whole_number(value, name, f"{may_be}, or None", error=SceneError, code="bad-argument", least=1)
+    check_executor(executor)
     if checkpoint is not None:
         of_type(checkpoint, "checkpoint", (str, Path), "a path, or None", error=SceneError, code="bad-path")
     if progress is not None and not callable(progress):
         raise refused("progress", progress, "a function of one number, or None", SceneError, "bad-argument")
     flight = _Flight(work, work.digest(), balls, checkpoint, progress)
-    return flight.fly(executor, workers, chunk)
+    result: Result = flight.fly(executor, workers, chunk)
+    return result
 
 
 @dataclass

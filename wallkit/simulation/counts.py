@@ -62,9 +62,15 @@ class Counts:
         )
 
     def __add__(self, other: Counts) -> Counts:
-        numbers = (getattr(self, name) + getattr(other, name) for name in _NUMBERS)
-        arrays = (getattr(self, name) + getattr(other, name) for name in _ARRAYS)
-        return Counts(*numbers, *arrays)
+        return Counts(
+            self.balls + other.balls,
+            self.bounces + other.bounces,
+            self.ticks + other.ticks,
+            self.endings + other.endings,
+            self.edge_hits + other.edge_hits,
+            self.vertex_hits + other.vertex_hits,
+            self.crossings + other.crossings,
+        )
 
     def __repr__(self) -> str:
         parts = [f"{self.balls:,} balls", f"{self.bounces:,} bounces in {self.seconds:.6g} s of all together"]
@@ -94,12 +100,12 @@ class Counts:
     @staticmethod
     def of_json(value: dict[str, Any]) -> Counts:
         """Read what :meth:`to_json` gave."""
-        arrays = {name: np.array(value[name], dtype=np.int64) for name in _ARRAYS}
-        arrays["crossings"] = arrays["crossings"].reshape(-1, 2)
-        return Counts(*(int(value[name]) for name in _NUMBERS), **arrays)
+        endings, edges, vertices, crossings = (np.array(value[name], dtype=np.int64) for name in _ARRAYS)
+        balls, bounces, ticks = (int(value[name]) for name in _NUMBERS)
+        return Counts(balls, bounces, ticks, endings, edges, vertices, crossings.reshape(-1, 2))
 
     def to_npz(self) -> bytes:
-        """Write one array a count, ``about`` among them as JSON text; no pickle, and no date: equal counts, equal bytes."""
+        """Write one array a count, and ``about`` as JSON text; no pickle, and no date: equal counts, equal bytes."""
         about = {"format": _FORMAT, "version": _VERSION, **{name: getattr(self, name) for name in _NUMBERS}}
         arrays = {name: getattr(self, name) for name in _ARRAYS} | {"about": np.array(json.dumps(about))}
         data = io.BytesIO()

@@ -137,9 +137,7 @@ class Modelled:
         """Give the same model with bounces counted by edge, then by vertex."""
         edges, corners = len(self.model.edge_wall), len(self.model.corner_wall)
         other = copy(self)
-        other.model = self.model._replace(
-            edge_tally=np.arange(edges), corner_tally=np.arange(edges, edges + corners)
-        )
+        other.model = self.model._replace(edge_tally=np.arange(edges), corner_tally=np.arange(edges, edges + corners))
         other.tallies, other._lists = edges + corners, None
         return other
 

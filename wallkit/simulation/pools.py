@@ -61,7 +61,8 @@ class _Dask(Pool):
             fix = "install it: pip install 'wallkit[dask]'"
             raise SceneError("dask:// needs the package distributed", code="no-dask", fix=fix) from error
         try:
-            self._client = Client(address, timeout="10s", set_as_default=False)
+            connect: Any = Client
+            self._client = connect(address, timeout="10s", set_as_default=False)
         except (OSError, TimeoutError, ValueError) as error:
             fix = "start one: dask scheduler; then on each machine: dask worker HOST:PORT"
             raise SceneError(f"no Dask scheduler answers at {address}", code="no-dask", fix=fix) from error
@@ -78,11 +79,29 @@ class _Dask(Pool):
         self._client.close()
 
 
-def open_pool(executor: object, work: Work[Any], digest: str, workers: int | None) -> Pool:
-    """Open what somebody calls an executor: see ``MAY_BE``.
+def check_executor(executor: object) -> None:
+    """Refuse what no chunk can be given to.
 
     Raises:
-        SceneError: it is none, or no cluster answers.
+        SceneError: it is none of ``MAY_BE``.
+    """
+    if isinstance(executor, str):
+        good = executor in ("threads", "processes") or (executor.startswith("dask://") and len(executor) > 7)
+    else:
+        good = (
+            executor is None
+            or isinstance(executor, Executor)
+            or (callable(executor) and not isinstance(executor, type))
+        )
+    if not good:
+        raise refused("executor", executor, MAY_BE, SceneError, "bad-executor")
+
+
+def open_pool(executor: object, work: Work[Any], digest: str, workers: int | None) -> Pool:
+    """Open an executor that was checked.
+
+    Raises:
+        SceneError: no cluster answers, or the work cannot be sent.
     """
     many = cores() if workers is None else workers
     if executor is None or executor == "threads":
@@ -90,15 +109,14 @@ def open_pool(executor: object, work: Work[Any], digest: str, workers: int | Non
         return Pool(work, digest, lambda: ThreadPoolExecutor(many, thread_name_prefix="wallkit-chunk"), many, True)
     if executor == "processes":
         return Pool(work, digest, _processes(many, digest, pickled(work)), many, True)
-    if isinstance(executor, str) and executor.startswith("dask://") and executor[7:]:
+    if isinstance(executor, str):
         return _Dask(work, digest, "tcp://" + executor[7:])
     if isinstance(executor, Executor):
         pool = Pool(work, digest, lambda: executor, _size(executor, many), owned=False)
-    elif callable(executor) and not isinstance(executor, type):
-        pool = Pool(work, digest, executor, many, owned=True)
-        pool.workers = _size(pool._executor, many)
     else:
-        raise refused("executor", executor, MAY_BE, SceneError, "bad-executor")
+        make: Callable[[], Executor] = executor  # type: ignore[assignment]
+        pool = Pool(work, digest, make, many, owned=True)
+        pool.workers = _size(pool._executor, many)
     pool.sent = pickled(work)
     return pool
 

@@ -30,12 +30,18 @@ KEPT = 2
 class Part(Protocol):
     """What some balls came to: whole numbers that add up to the same in any order."""
 
-    balls: int
-    bounces: int
+    @property
+    def balls(self) -> int:
+        """How many flew."""
+
+    @property
+    def bounces(self) -> int:
+        """Of all."""
 
     def __add__(self, other: Any) -> Any: ...
 
-    def to_json(self) -> dict[str, Any]: ...
+    def to_json(self) -> dict[str, Any]:
+        """Give it as numbers and lists."""
 
 
 Result = TypeVar("Result", bound=Part)
@@ -130,13 +136,12 @@ def keep(digest: str, work: Work[Any] | bytes) -> None:
     Raises:
         WallkitError: what was sent is not the same here, as where another version is installed.
     """
-    if isinstance(work, bytes):
-        work = pickle.loads(work)
-        if work.digest() != digest:
-            message = f"a worker has wallkit {__version__}, and what it is asked for is of another version"
-            raise WallkitError(message, code="other-version", fix="install the same version on all machines")
+    known: Work[Any] = pickle.loads(work) if isinstance(work, bytes) else work
+    if known is not work and known.digest() != digest:
+        message = f"a worker has wallkit {__version__}, and what it is asked for is of another version"
+        raise WallkitError(message, code="other-version", fix="install the same version on all machines")
     with _keeping:
-        _kept[digest] = work
+        _kept[digest] = known
         while len(_kept) > KEPT:
             _kept.popitem(last=False)
 

@@ -137,7 +137,7 @@ def period_of(model, log, rows, filled):
 
 @kernel
 def lasts(model, log, rows, filled, period):
-    """Tell whether a repeated word stays: no place of contact drifts to the end of its edge within ``LASTS`` periods."""
+    """Tell whether a repeated word stays: no place of contact drifts off its edge within ``LASTS`` periods."""
     for k in range(filled - period, filled):
         o, before = LOG_STRIDE * (k % rows), LOG_STRIDE * ((k - (PERIODS - 1) * period) % rows)
         dx, dy = (log[o + 5] - log[before + 5]) / (PERIODS - 1), (log[o + 6] - log[before + 6]) / (PERIODS - 1)

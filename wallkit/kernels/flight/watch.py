@@ -112,7 +112,21 @@ def fly_to_target(model, gravity, watch, radius, state, counts, ball, number, un
             o = LOG_STRIDE * row
             if asks:
                 crossed = crosses_at(
-                    model, gravity, watch.sensors, watch.pull, radius, feature, kind, nx, ny, x, y, vx, vy, since, ring[o]
+                    model,
+                    gravity,
+                    watch.sensors,
+                    watch.pull,
+                    radius,
+                    feature,
+                    kind,
+                    nx,
+                    ny,
+                    x,
+                    y,
+                    vx,
+                    vy,
+                    since,
+                    ring[o],
                 )
                 if covers:
                     cover(watch, watch.pull, number, x, y, ring[o] - since, ring[o + 1], ring[o + 2])
