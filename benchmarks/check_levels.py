@@ -1,7 +1,7 @@
 """Checks of levels with many balls, and what they cost: python benchmarks/check_levels.py
 
-The mushroom's closed form with 40,000 balls, ball by ball; room.svg's outside; checks beside the surveys of the same balls
-and limits; two processes beside one. Some minutes.
+The mushroom's closed form with 40,000 balls, ball by ball; room.svg's outside; checks beside the surveys of the same
+balls and limits; two processes beside one. Some minutes.
 """
 
 from __future__ import annotations
@@ -30,9 +30,11 @@ def mushroom(balls=40_000, bounces=5000):
     exact = 2 / math.pi * (math.acos(r / big) - r / big * math.sqrt(1 - (r / big) ** 2)) * cap / (cap + stem)
     wrong, regular, slow = 0, 0, 0
     for first in range(0, balls, 1000):  # so many traps are listed one by one
-        part = wallkit.check_level(
-            scene, lambda begin, count, first=first: draw(first + begin, count), 1000, bounces=bounces, target="mushroom:2"
-        )
+
+        def these(begin, count, first=first):
+            return draw(first + begin, count)
+
+        part = wallkit.check_level(scene, these, 1000, bounces=bounces, target="mushroom:2")
         trapped = np.zeros(1000, dtype=np.bool_)
         trapped[part.counts.traps["ball"]] = True
         wrong += int(np.count_nonzero(trapped != island[first : first + 1000]))
@@ -59,16 +61,15 @@ def processor_seconds(work):
     return best
 
 
-def costs(balls=40_000, bounces=2000):
-    for name, target, radius in (("mushroom.svg", "mushroom:2", 0.0), ("pinball.svg", (94.0, 160.0, 30.0), 10.0)):
-        scene = wallkit.open_scene(SAMPLES / name).scene
-        draw = wallkit.RoomBalls.of(scene.walls, speed=50.0, radius=radius, seed=3)
-        how = {"bounces": bounces, "workers": 1}
-        survey = processor_seconds(lambda: wallkit.count(scene, draw, balls, **how))
-        plain = processor_seconds(lambda: wallkit.check_level(scene, draw, balls, **how))
-        aimed = processor_seconds(lambda: wallkit.check_level(scene, draw, balls, target=target, **how))
-        print(f"{name}: survey {survey:.2f} s, check {plain:.2f} s ({plain / survey:.2f}), "
-              f"with a target {aimed:.2f} s ({aimed / survey:.2f})")  # fmt: skip
+def cost(name, target, radius, balls=40_000, bounces=2000):
+    scene = wallkit.open_scene(SAMPLES / name).scene
+    draw = wallkit.RoomBalls.of(scene.walls, speed=50.0, radius=radius, seed=3)
+    how = {"bounces": bounces, "workers": 1}
+    survey = processor_seconds(lambda: wallkit.count(scene, draw, balls, **how))
+    plain = processor_seconds(lambda: wallkit.check_level(scene, draw, balls, **how))
+    aimed = processor_seconds(lambda: wallkit.check_level(scene, draw, balls, target=target, **how))
+    print(f"{name}: survey {survey:.2f} s, check {plain:.2f} s ({plain / survey:.2f}), "
+          f"with a target {aimed:.2f} s ({aimed / survey:.2f})")  # fmt: skip
 
 
 def processes(balls=400_000, bounces=1000):
@@ -80,11 +81,14 @@ def processes(balls=400_000, bounces=1000):
         counts = wallkit.count(scene, draw, balls, bounces=bounces, executor="processes", workers=workers)
         taken[workers] = min(taken.get(workers, math.inf), time.monotonic() - begun)
         digests.add(counts.digest())
-    print(f"one process {taken[1]:.1f} s, two {taken[2]:.1f} s: {taken[1] / taken[2]:.2f} times; digests {len(digests)}")
+    print(
+        f"one process {taken[1]:.1f} s, two {taken[2]:.1f} s: {taken[1] / taken[2]:.2f} times; digests {len(digests)}"
+    )
 
 
 if __name__ == "__main__":
     mushroom()
     room()
-    costs()
+    cost("mushroom.svg", "mushroom:2", 0.0)
+    cost("pinball.svg", (94.0, 160.0, 30.0), 10.0)
     processes()

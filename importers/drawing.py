@@ -249,6 +249,16 @@ class Drawing(Pictured):
         xs, ys = zip(*points, strict=True)
         return min(xs), min(ys), max(xs), max(ys)
 
+    def to_svgpathtools(self) -> list[Any]:
+        """Give a ``svgpathtools.Path`` for each path, hidden ones included: the same curves, bit for bit.
+
+        Points are complex numbers x + i y in the units and axes of the drawing. A closed subpath has its closing edge.
+        ``drawing_from_svgpathtools(paths, units=..., y_axis=...)`` makes the same paths of them again.
+        """
+        from importers.svg.svgpathtools_paths import svgpathtools_paths  # late: it brings scipy
+
+        return svgpathtools_paths(self.paths)
+
 
 def _subpaths(subpaths: list[Subpath]) -> str:
     segments = sum(len(subpath.segments) - 1 for subpath in subpaths)

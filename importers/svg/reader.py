@@ -75,7 +75,7 @@ class Reader:
             fix = f'add xmlns="{SVG_NS}" to the svg element'
             self.notes.add("missing-namespace", "warning", "browsers show nothing of this file", root, fix=fix)
         self.drawing.problems += self.source.problems
-        self._enter_root(root)
+        self._push_children(root, self.enter())
         self._walk()
         self.references.report(self.notes)
         self.drawing.layers = list(self.layers.values())
@@ -126,7 +126,9 @@ class Reader:
             name=name,
         )
 
-    def _enter_root(self, root: Any) -> None:
+    def enter(self) -> Around:
+        """Read the outermost element, and give what its children have around them."""
+        root = self.source.root
         declared = self.cascade.declared(root, self.source.attributes(root), self.initial)
         try:
             style = self.cascade.inherited(self.initial, declared)
@@ -146,8 +148,7 @@ class Reader:
         hidden = declared.get("display") == "none"
         region = ALL if page is None else Region(page)
         around = Around(matrix, style, viewport, page=region, hidden=hidden, unseen=_without_opacity(declared))
-        around = around._replace(clip=self._clip(declared, around, matrix, lambda: None))
-        self._push_children(root, around)
+        return around._replace(clip=self._clip(declared, around, matrix, lambda: None))
 
     def _push_children(self, element: Any, around: Around) -> None:
         if around.depth >= MAX_DEPTH:

@@ -212,8 +212,10 @@ CALLS = {
         "format": ("doc", 5),
         "options": ({"no_such_option": 1},),
     }),
-    "drawing_from_svgpathtools": (wallkit.drawing_from_svgpathtools, {}, {
+    "drawing_from_svgpathtools": (wallkit.drawing_from_svgpathtools, {"paths": []}, {
         "paths": (5, None, "M 0 0 L 1 1", [5], [["M"]], [[None]]),
+        "units": ("parsec", 5, None),
+        "y_axis": ("left", 5, None),
     }),
     "Repairs": (wallkit.Repairs, {}, {
         **dict.fromkeys(("snap", "min_width", "simplify"), (*NO_NUMBERS, -1.0)),

@@ -45,7 +45,8 @@ def validated(text, name):
 
 
 def test_a_survey_writes_counts_and_goes_on_from_its_checkpoint(folder):
-    asked = ["survey", "level.svg", "--radius", 0, "--bounces", 10, "--checkpoint", "part.json"]
+    (folder / "room.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"><rect width="200" height="120"/></svg>')
+    asked = ["survey", "room.svg", "--radius", 0, "--bounces", 10, "--checkpoint", "part.json"]
     first = wallkit(*asked, "--balls", 300, folder=folder)
     assert (first.returncode, first.stderr) == (0, "")
     assert "bounces  3,000 in" in first.stdout
@@ -97,6 +98,7 @@ def test_a_check_with_balls_tells_who_comes_to_the_target(folder):
 def test_a_target_that_is_walled_in_is_a_finding_that_ends_with_1(folder):
     post = '<rect fill="#888" x="120" y="20" width="80" height="80"/><circle data-target="goal"'
     (folder / "shut.svg").write_text(LEVEL.replace('<circle id="hole" data-target="goal"', post))
-    result = wallkit("check", "shut.svg", "--balls", 20, "--from", "tee", "--to", "goal", "--bounces", 20, folder=folder)
+    asked = ["--balls", 20, "--from", "tee", "--to", "goal", "--bounces", 20]
+    result = wallkit("check", "shut.svg", *asked, folder=folder)
     assert result.returncode == 1
     assert "warning[target-missed] none of 20 balls reached 'goal': a ball's chance is below 0.1391" in result.stdout

@@ -167,7 +167,7 @@ def contest(subject: Subject, effort: Effort, progress: Callable[[str], None] | 
         progress: is told who flies next.
 
     Raises:
-        PrecisionError: mpmath is not installed, or the digits asked for cannot give the reference.
+        PrecisionError: the digits asked for cannot give the reference.
     """
     low_x, low_y, high_x, high_y = subject.lines(1.0).walls.box()
     size = max(high_x - low_x, high_y - low_y) or 1.0

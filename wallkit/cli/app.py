@@ -40,7 +40,7 @@ def _root(
 
 def _register_commands() -> None:
     """Attach one module a command. The modules import what is heavy only when their command runs."""
-    from wallkit.cli import check, export, import_, inspect, play, report, simulate, survey
+    from wallkit.cli import check, export, import_, inkscape, inspect, play, report, simulate, survey, warm
 
     inspect.register(app)
     import_.register(app)
@@ -50,6 +50,8 @@ def _register_commands() -> None:
     export.register(app)
     play.register(app)
     report.register(app)
+    inkscape.register(app)
+    warm.register(app)
 
 
 def main() -> None:

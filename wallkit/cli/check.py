@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from wallkit.cli import check_balls as ballwise
 from wallkit.cli import import_options as options
+from wallkit.cli.check_balls import Wanted, fly_balls, lines, write_page
 from wallkit.cli.simulate import Gravity, Speed, Until
 from wallkit.cli.survey import Checkpoint, From, Where, Workers
 from wallkit.cli.watching import watchable
@@ -20,9 +20,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from importers.drawing import Drawing
     from importers.problems import Problem
     from wallkit.scene.opening import OpenedScene
     from wallkit.walls import Walls
+    from wallkit.walls.checking.audit import Audit
     from wallkit.walls.checking.free_space import FreeSpace
     from wallkit.walls.checking.leaks import Reach
     from wallkit.walls.import_options import ImportOptions
@@ -45,6 +47,15 @@ def check(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Write the findings as JSON to standard output.")] = False,
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls, findings and leaks (.svg).")] = "",
+    audit: Annotated[
+        int,
+        typer.Option(
+            metavar="N",
+            min=0,
+            max=1_000_000,
+            help="Hold N points of the walls against the curves as svgpathtools has them.",
+        ),
+    ] = 0,
     balls: Annotated[
         str | None,
         typer.Option("--balls", metavar="N", help="Fly N balls, and tell what they find out; 1e6 is a number."),
@@ -53,7 +64,7 @@ def check(
     target: Annotated[
         str | None,
         typer.Option(
-            "--to", metavar="NAME|X,Y,R", help="What is to be reached: a sensor, target, wall, WALL:EDGE, circle."
+            "--to", metavar="NAME|X,Y,R", help="What is to be reached: sensor, target, wall, WALL:EDGE, circle."
         ),
     ] = None,
     until: Until = None,
@@ -73,16 +84,54 @@ def check(
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Find problems and leaks, with places and fixes, and what many balls find out; exit with 1 on findings."""
+    from wallkit.cli.scene_input import opened
+
+    _check_radius(radius)
+    wanted = Wanted(balls, start, target, until, bounces, speed, gravity, seed, out, executor, workers, checkpoint)
+    wanted.check()
+    found = opened(file, wanted.wishes(options.options_of(importing or {})))
+    given = given_of(found)
+    audited = _audited(given, audit, file) if audit else None
+    given.problems += [] if audited is None else audited.problems()
+    flown = None if wanted.balls is None else fly_balls(found, radius, wanted)
+    given.problems += [] if flown is None else flown.check.problems()
+    look = look_over(given, radius)
+    walls, problems, space, reach = look.walls, look.problems, look.space, look.reach
+    findings = [problem for problem in problems if problem.severity != "info"]
+    if preview:
+        _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
+    if flown is not None and out is not None:
+        write_page(out, flown, file)
+    if as_json:
+        report = _report(walls, problems, space, reach, len(findings))
+        report |= {} if audited is None else {"audit": audited.to_json()}
+        report |= {} if flown is None else {"balls": flown.check.to_json()}
+        print(json.dumps(report, ensure_ascii=False))
+    else:
+        _tell(walls, problems, space, reach, given.assumed)
+        if audited is not None:
+            print(audited.sentence())
+        for line in () if flown is None else lines(flown, out):
+            print(line)
+    raise typer.Exit(1 if findings else 0)
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What was found about what FILE holds: problems with the severe first, free space, and where balls get to."""
+
+    walls: Walls
+    problems: list[Problem]
+    space: FreeSpace
+    reach: Reach
+
+
+def look_over(given: Given, radius: float | None) -> Look:
+    """Look for leaks of a ball of a radius (None: the smallest given, else any), and whatever else is doubtful."""
     from wallkit.walls.checking.ball_places import ball_problems, goal_problems
     from wallkit.walls.checking.free_space import free_space
     from wallkit.walls.checking.leaks import leak_problems, reach_of
 
-    _check_radius(radius)
-    wanted = ballwise.Wanted(
-        balls, start, target, until, bounces, speed, gravity, seed, out, executor, workers, checkpoint
-    )
-    wanted.check()
-    given = _given(file, options.options_of(importing or {}), wanted)
     walls = given.walls
     if radius is None and len(given.radii):
         radius = float(given.radii.min())
@@ -92,22 +141,7 @@ def check(
     found = ball_problems(space, walls, given.places, given.radii)
     found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)
     found += [*leak_problems(space, reach), *given.problems, *_without_walls(walls)]
-    flown = ballwise.flown(given.opened, radius, wanted) if wanted.many is not None else None
-    found += [] if flown is None else flown.check.problems()
-    problems = sorted(_once(found), key=_rank)
-    findings = [problem for problem in problems if problem.severity != "info"]
-    if preview:
-        _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
-    if flown is not None and out is not None:
-        ballwise.write_page(out, flown, file)
-    if as_json:
-        report = _report(walls, problems, space, reach, len(findings))
-        print(json.dumps(report | ({} if flown is None else {"balls": flown.check.to_json()}), ensure_ascii=False))
-    else:
-        _tell(walls, problems, space, reach, given.assumed)
-        for line in ballwise.lines(flown, out) if flown is not None else ():
-            print(line)
-    raise typer.Exit(1 if findings else 0)
+    return Look(walls, sorted(_once(found), key=_rank), space, reach)
 
 
 def _without_walls(walls: Walls) -> list[Problem]:
@@ -141,31 +175,44 @@ def _check_radius(radius: float | None) -> None:
 
 
 @dataclass(slots=True)
-class _Given:
+class Given:
     """What FILE holds: walls, places and radii of its balls, all that was found in it, and what was assumed."""
 
-    opened: OpenedScene
     walls: Walls
     places: NDArray[np.float64]
     radii: NDArray[np.float64]
     problems: list[Problem] = field(default_factory=list)
     assumed: list[str] = field(default_factory=list)
     sensors: Walls | None = None
+    drawing: Drawing | None = None
+    importing: ImportOptions | None = None
 
 
-def _given(file: str, importing: ImportOptions, wanted: ballwise.Wanted) -> _Given:
-    """Open FILE, whatever it is, as `simulate` does; a ball that would only be put somewhere does not count."""
+def given_of(found: OpenedScene) -> Given:
+    """Take what FILE holds, opened as `simulate` does; a ball that would only be put somewhere does not count."""
     import numpy as np
 
-    from wallkit.cli.scene_input import opened
-
-    found = opened(file, wanted.wishes(importing))
     walls, balls = found.scene.walls, found.scene.balls
     assumed = [] if walls.solid is None or walls.solid.how == "asked" else [walls.solid.sentence()]
-    if found.found_place:
-        return _Given(found, walls, np.empty((0, 2)), np.empty(0), found.problems, assumed, found.scene.sensors)
     places, radii = np.asarray(balls.position), np.asarray(balls.radius)
-    return _Given(found, walls, places, radii, found.problems, assumed, found.scene.sensors)
+    if found.found_place:
+        places, radii = np.empty((0, 2)), np.empty(0)
+    sensors, drawing = found.scene.sensors, found.drawing
+    return Given(walls, places, radii, found.problems, assumed, sensors, drawing, found.importing)
+
+
+def _audited(given: Given, count: int, file: str) -> Audit:
+    """Ask svgpathtools whether the walls are where the curves are."""
+    from wallkit.scene.opening import UsageError
+    from wallkit.walls.checking.audit import audit
+    from wallkit.walls.importing.placing import placed
+
+    if given.drawing is None or given.importing is None:
+        fix = "give the drawing that they were made of"
+        raise UsageError("--audit holds walls against a drawing, and this has none", code="usage", fix=fix, file=file)
+    if given.importing.outline_strokes:
+        raise UsageError("--audit and --outline-strokes do not go together: outlines are not drawn", code="usage")
+    return audit(given.walls, placed(given.drawing, given.importing), count, given.importing)
 
 
 def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, findings: int) -> dict[str, Any]:

@@ -76,7 +76,7 @@ class Flown:
     assumed: list[str]
 
 
-def flown(opened: OpenedScene, radius: float | None, wanted: Wanted) -> Flown:
+def fly_balls(opened: OpenedScene, radius: float | None, wanted: Wanted) -> Flown:
     """Fly the balls."""
     from wallkit.cli.simulate import progress_bar
     from wallkit.cli.survey import place_given

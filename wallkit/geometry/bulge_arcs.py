@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -39,3 +40,25 @@ def circles(a: FloatArray, b: FloatArray, bulge: FloatArray) -> tuple[FloatArray
     back = (1 - k * k) / (4 * k)  # from the middle of the chord, to the left, in chord lengths
     centre = (a + b) / 2 + back[:, None] * np.stack([-d[:, 1], d[:, 0]], axis=1)
     return centre, radius
+
+
+def radius_of(a: Sequence[float], b: Sequence[float], bulge: float) -> float:
+    """Radius of the arc from a to b, bulge not 0: with the chord c = 2 r sin(angle / 2), r = c (1 + k^2) / (4 |k|)."""
+    return math.hypot(b[0] - a[0], b[1] - a[1]) * (1 + bulge * bulge) / (4 * abs(bulge))
+
+
+def edge_points(a: FloatArray, b: FloatArray, bulge: FloatArray, part: FloatArray) -> FloatArray:
+    """Give the place at a part of each edge's length from a to b: (n, 2) twice, (n,) twice, to (n, 2).
+
+    The arc over the angle p A is a chord of 2 r sin(p A / 2), and the whole one is d = b - a of 2 r sin(A / 2). It
+    starts A / 2 to the right of d and turns left with half its angle, so that the place is
+    a + d sin(p A / 2) / sin(A / 2) e^(i (p - 1) A / 2); the quotient of the sines is p for a line.
+    """
+    half = 2.0 * np.arctan(bulge)
+    curved = half != 0
+    sine = np.sin(half)
+    ratio = np.where(curved, np.divide(np.sin(part * half), sine, out=part.copy(), where=curved), part)
+    turn = (part - 1.0) * half
+    cos, sin = ratio * np.cos(turn), ratio * np.sin(turn)
+    d = b - a
+    return a + np.stack([cos * d[:, 0] - sin * d[:, 1], sin * d[:, 0] + cos * d[:, 1]], axis=1)

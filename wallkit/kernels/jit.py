@@ -7,10 +7,12 @@ point; kernels that it calls are compiled with it. No fastmath: both forms give 
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import sys
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
@@ -51,13 +53,55 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     intrinsics.register()
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False}
     theirs = getattr(config, "CACHE_DIR", "")
-    setattr(config, "CACHE_DIR", str(_cache_folder()))  # noqa: B010 - numba makes its settings at run time
+    setattr(config, "CACHE_DIR", str(cache_folder()))  # noqa: B010 - numba makes its settings at run time
     try:
         return numba.njit(cache=True, **options)(entry)  # type: ignore[no-any-return]
     except RuntimeError:  # numba's word for "no folder can be written"
         return numba.njit(**options)(entry)  # type: ignore[no-any-return]
     finally:
         setattr(config, "CACHE_DIR", theirs)  # noqa: B010
+
+
+def compile_for(entry: Callable[..., Any], *types: Any) -> None:
+    """Compile a kernel for Numba's types of its arguments, or take it from the disk."""
+    machine_code: Any = compiled(entry)
+    machine_code.compile(types)
+
+
+def types_of(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Give Numba's types of a kernel's arguments."""
+    from numba import typeof
+
+    return tuple(typeof(argument) for argument in arguments)
+
+
+class NotCompiledError(Exception):
+    """Machine code is neither in this process nor on the disk."""
+
+
+@contextlib.contextmanager
+def never_compiling() -> Iterator[None]:
+    """Let kernels come from the disk alone, in this thread.
+
+    Raises:
+        NotCompiledError: one would have to be compiled.
+    """
+    from numba.core import event
+
+    here = threading.get_ident()
+
+    class Refusal(event.Listener):
+        """Numba looks on the disk first, and says that it compiles just before it does."""
+
+        def on_start(self, event: Any) -> None:
+            if threading.get_ident() == here:
+                raise NotCompiledError
+
+        def on_end(self, event: Any) -> None:
+            """Nothing of ours ever ends."""
+
+    with event.install_listener("numba:compile", Refusal()):
+        yield
 
 
 def _register_all(register: Callable[..., Any]) -> None:
@@ -68,7 +112,8 @@ def _register_all(register: Callable[..., Any]) -> None:
         register(_nrt=False)(_rare.pop())
 
 
-def _cache_folder() -> Path:
+def cache_folder() -> Path:
+    """Give the folder of the machine code of these very kernels."""
     digest = hashlib.sha256()
     folder = Path(__file__).parent
     for path in sorted(folder.rglob("*.py")):  # kernels live in subfolders too

@@ -55,8 +55,6 @@ MOST_BITS = 7
 GROWTH, AT_LEAST = 64, 1 << 12
 """Entries there may be, in all, for each one to be entered, and at the least. Divided cells list long edges over and
 over, and cells around a vertex at which a thousand edges meet are crowded however small they are."""
-COMPILING_PAYS = 4000
-"""Edges and corners that interpreted kernels take as long to enter as compiled ones to be loaded."""
 
 
 @dataclass(eq=False)
@@ -101,13 +99,13 @@ def build_grid(
         box: (2, 2) lowest and highest corner of a box that no edge reaches beyond.
         radii: smallest and largest distance of a centre at a contact.
         extent: largest absolute coordinate of a centre.
-        machine_code: use compiled kernels for a small scene too; the same cells come of both.
+        machine_code: use compiled kernels; the same cells come of both.
         fine: make small cells, where many flights are to come: there are more to make, and fewer entries to look at.
 
     Returns:
         The grid, its cells (``CELL``), the ids that they list, and the clearings (see ``Model``).
     """
-    work = _Work(model, fans, radii, extent, machine_code or len(model.ids) > COMPILING_PAYS)
+    work = _Work(model, fans, radii, extent, machine_code)
     finest = SMALLEST * extent
     level: _Level | None = _first_level(work, model, box, fine)
     levels = []

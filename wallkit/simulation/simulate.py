@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.arguments import flag, number, of_type, refused, whole_number, word
-from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.flight.flight import FALLING_TOLERANCE, TOLERANCE, fly, fly_all
 from wallkit.kernels.flight.resting import side_of
-from wallkit.kernels.jit import compiled
+from wallkit.kernels.jit import compile_for, compiled, types_of
 from wallkit.kernels.records import LOG_STRIDE, NO_HIT, PASSING, RUNNING, STARTING, STATE_SIZE, Counts
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.scene.start_overlaps import check_starts, settled
@@ -27,7 +28,7 @@ Mode = Literal["auto", "interpreted", "compiled"]
 BOUNCE_GUARD = 1_000_000
 """Bounces a ball may make where no limit was given: a run always ends."""
 PATIENCE = 60_000
-"""Entries looked at by interpreted kernels, a few microseconds each, before a run waits for the compiler."""
+"""Entries looked at by interpreted kernels, a few microseconds each, before a run asks for machine code."""
 CHUNK = 8192
 _compiled_features: set[tuple[bool, ...]] = set()  # combinations whose kernels this process has compiled or loaded
 START = Counts(
@@ -59,8 +60,8 @@ def simulate(
         scene: walls, balls, and what acts.
         until: seconds; None for no end in time.
         bounces: bounces a ball; None for at most ``BOUNCE_GUARD``. At least one of the two must be given.
-        mode: ``"interpreted"`` or ``"compiled"`` kernels, which give the same bits; ``"auto"`` interprets until
-            compiling pays.
+        mode: ``"interpreted"`` or ``"compiled"`` kernels, which give the same bits. ``"auto"`` interprets; a longer
+            run has its kernels compiled by another process meanwhile, and goes on compiled as soon as they are.
         settle: move discs that overlap a wall where they start to the nearest free spot.
         progress: called now and then with the part done, 0 to 1.
 
@@ -76,17 +77,21 @@ def simulate(
     if flag(settle, "settle", error=SceneError, code="bad-argument"):
         scene = settled(scene)
     check_starts(scene)
-    flights = Flights(scene, mode=mode)
+    return flown(Flights(scene, mode=mode), limit_time, limit_bounces, progress)
+
+
+def flown(flights: Flights, until: float, bounces: int, progress: Callable[[float], None] | None = None) -> Run:
+    """Fly every ball of checked flights to a time or a number of bounces, one ball after the other."""
     logs: list[FloatArray] = []
     owners: list[NDArray[np.int32]] = []
     for ball in range(len(flights)):
-        for log in flights.fly(ball, limit_time, limit_bounces):
+        for log in flights.fly(ball, until, bounces):
             logs.append(log)
             owners.append(np.full(len(log), ball, dtype=np.int32))
             if progress is not None:
-                progress(flights.part_done(ball, limit_time, limit_bounces))
+                progress(flights.part_done(ball, until, bounces))
     contacts = flights.contacts(logs, owners)
-    return with_crossings(Run(scene, contacts, flights.final(), flights.endings(), flights.start))
+    return with_crossings(Run(flights.scene, contacts, flights.final(), flights.endings(), flights.start))
 
 
 class Flights:
@@ -97,9 +102,19 @@ class Flights:
         hits: (W,) bounces by wall so far.
     """
 
-    def __init__(self, scene: Scene, *, mode: Mode = "auto", index: str = "auto") -> None:
+    def __init__(
+        self, scene: Scene, *, mode: Mode = "auto", index: str = "auto", modelled: Modelled | None = None
+    ) -> None:
+        """Begin.
+
+        Args:
+            scene: walls, balls, and what acts.
+            mode: see :func:`simulate`.
+            index: see :class:`Modelled`.
+            modelled: of this very scene, where it is known.
+        """
         self.scene = scene
-        self.modelled = Modelled(scene, index=index)
+        self.modelled = Modelled(scene, index=index) if modelled is None else modelled
         self.mode = mode
         position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
         self.start: FloatArray = np.hstack([position, velocity]).astype(np.float64)
@@ -126,21 +141,11 @@ class Flights:
         state, counts, radius = self._states[ball], self._counts[ball], float(self.modelled.radii[ball])
         room = room or max(1, min(CHUNK, limit - counts[1] + 1))
         if self._compile():
-            model, machine_log = self.modelled.model, np.empty(room * LOG_STRIDE)
+            machine_log = np.empty(room * LOG_STRIDE)
             _compiled_features.add(self._features)
             states, many_counts = np.array([state]), np.array([counts], dtype=np.int64)
-            noted = compiled(fly_all)(
-                model,
-                model.gravity,
-                np.array([radius]),
-                states,
-                many_counts,
-                until,
-                limit,
-                self.hits,
-                machine_log,
-                room,
-            )
+            arguments = self._arguments(radius, states, many_counts, until, limit, machine_log)
+            noted = compiled(fly_all)(*arguments)
             state[:], counts[:] = states[0].tolist(), many_counts[0].tolist()
             return machine_log.reshape(room, LOG_STRIDE)[:noted]
         room = min(room, 256)
@@ -148,6 +153,21 @@ class Flights:
         noted = fly(lists, lists.gravity, radius, state, counts, until, limit, self.hits, log, room)
         self._work += (noted + 1) * self._entries_a_bounce()
         return np.array(log).reshape(room, LOG_STRIDE)[:noted]
+
+    def _arguments(
+        self, radius: float, states: FloatArray, counts: IntArray, until: float, limit: int, log: FloatArray
+    ) -> tuple[Any, ...]:
+        """Give what the compiled kernel is called with for one ball."""
+        model, room = self.modelled.model, len(log) // LOG_STRIDE
+        return model, model.gravity, np.array([radius]), states, counts, until, limit, self.hits, log, room
+
+    def machine_code_at_hand(self) -> bool:
+        """Tell whether a compiled flight would begin at once; where not, it is being compiled from now on."""
+        if self._features in _compiled_features:
+            return True
+        state, counts, log = np.zeros((1, STATE_SIZE)), np.array([START], dtype=np.int64), np.empty(LOG_STRIDE)
+        arguments = self._arguments(0.0, state, counts, math.inf, 1, log)
+        return at_hand(compile_for, fly_all, *types_of(arguments))
 
     def next_contact(self, ball: int) -> FloatArray | None:
         """Fly a ball on to its next contact, (LOG_STRIDE,); None if it has none."""
@@ -202,7 +222,7 @@ class Flights:
 
     def _compile(self) -> bool:
         if self.mode == "auto":
-            return self._features in _compiled_features or self._work > PATIENCE
+            return self._features in _compiled_features or (self._work > PATIENCE and self.machine_code_at_hand())
         return self.mode == "compiled"
 
     def _entries_a_bounce(self) -> int:

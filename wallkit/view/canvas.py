@@ -101,7 +101,7 @@ class Canvas:
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
             f'viewBox="0 0 {width} {height}" role="img" font-family="system-ui, sans-serif">\n'
-            f"<title>{escape(_printable(self.title))}</title>\n<style>{css()}</style>\n"
+            f"<title>{escape(printable(self.title))}</title>\n<style>{css()}</style>\n"
             f'<rect class="wk-paper" width="{width}" height="{height}"/>\n'
             '<g fill-rule="evenodd" stroke-linejoin="round" stroke-linecap="round">\n'
             f"{body}\n</g>\n</svg>\n"
@@ -126,14 +126,14 @@ def _written(item: Item) -> str:
         return (
             f'<text class="wk-{item.style}" x="{_number(item.x)}" y="{_number(item.y)}" '
             f'font-size="{_number(item.size)}" text-anchor="{item.anchor}"{weight}>'
-            f"{escape(_printable(item.text))}</text>"
+            f"{escape(printable(item.text))}</text>"
         )
     return _cells(item)
 
 
 def _tag(name: str, place: str, classes: str, opacity: float, title: str) -> str:
     faint = f' opacity="{_number(opacity)}"' if opacity < 1 else ""
-    told = f"<title>{escape(_printable(title))}</title></{name}>" if title else ""
+    told = f"<title>{escape(printable(title))}</title></{name}>" if title else ""
     return f'<{name} class="{classes}" {place}{faint}{">" + told if told else "/>"}'
 
 
@@ -169,7 +169,7 @@ def _number(value: float) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
-def _printable(text: str) -> str:
+def printable(text: str) -> str:
     """Replace what XML 1.0 cannot hold: control characters and lone surrogates of somebody's layer names."""
     return "".join(
         c if c >= " " and not "\ud800" <= c <= "\udfff" and c not in "\ufffe\uffff" else "\ufffd" for c in text

@@ -20,7 +20,7 @@ _ANCHORS = {"start": "ls", "middle": "ms", "end": "rs"}
 def png(canvas: Canvas, theme: Theme = "light", scale: float = 2.0) -> bytes:
     """Give the picture as a PNG file of ``scale`` pixels a pixel of the canvas."""
     data = io.BytesIO()
-    Raster(canvas.width, canvas.height, theme, scale).drawn(canvas.items).reduced().save(data, "PNG", optimize=True)
+    Raster(canvas.width, canvas.height, theme, scale).drawn(canvas.items).reduced().save(data, "PNG")
     return data.getvalue()
 
 

@@ -83,10 +83,7 @@ def run_canvas(
         canvas.items.insert(0, Bitmap(frame.left, frame.top, size, rows, 0.9))
     else:
         steps, low, high = _steps(flight, colour)
-        draw_paths(canvas, flight, steps, frame)
-        _draw_ghosts(canvas, run, frame, flight, steps)
-        _draw_starts(canvas, run.scene, frame)
-        _draw_ends(canvas, flight, frame)
+        _draw_flight(canvas, run, frame, flight, steps)
     draw_problems(canvas, problems, frame)
     row = finish(canvas, frame, run.scene.walls.units)
     unit = "s" if colour == "time" else f"{run.scene.walls.units or 'units'}/s"
@@ -98,6 +95,22 @@ def run_canvas(
     row = draw_legend(canvas, material_legend(run.scene.walls), row)
     problem_legend(canvas, problems, row)
     return canvas
+
+
+def run_marks(run: Run) -> tuple[Canvas, Frame]:
+    """Draw what :func:`run_canvas` puts over the walls, without them: paths, ghosts, starts and ends."""
+    canvas, frame = started(scene_box(run.scene), run.scene.walls.y_axis == "up", title="", width=WIDTH)
+    flight = tracks(run, MAX_STRETCHES)
+    steps, _, _ = _steps(flight, "time")
+    _draw_flight(canvas, run, frame, flight, steps)
+    return canvas, frame
+
+
+def _draw_flight(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: NDArray[np.int64]) -> None:
+    draw_paths(canvas, flight, steps, frame)
+    _draw_ghosts(canvas, run, frame, flight, steps)
+    _draw_starts(canvas, run.scene, frame)
+    _draw_ends(canvas, flight, frame)
 
 
 def scene_svg(scene: Scene, *, title: str = "", width: float = WIDTH) -> str:

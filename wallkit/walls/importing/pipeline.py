@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import IO, Literal, Unpack
+from typing import IO, Any, Literal, Unpack, cast
 
 import numpy as np
 
@@ -31,14 +32,14 @@ from wallkit.walls.solid import Nested, decide
 from wallkit.walls.walls import Walls, WallsError
 from wallkit.walls.walls_json import sensors_like
 
-Source = str | Path | IO[bytes] | IO[str] | Drawing
+Source = str | Path | IO[bytes] | IO[str] | Drawing | Sequence[Any]
 
 
 def import_walls(source: Source, options: ImportOptions | None = None, /, **wishes: Unpack[ImportWishes]) -> Walls:
     """Turn a drawing into walls.
 
     Args:
-        source: a path, a file object, or a Drawing.
+        source: a path, a file object, a Drawing, or paths of the library svgpathtools (px, y down).
         options: all options in one value; or else
         **wishes: the same as keywords, such as ``tolerance=0.05, curves="arcs", snap=0.5``; see
             :class:`wallkit.walls.import_options.ImportOptions` for all of them. ``repairs`` takes a ``Repairs``.
@@ -127,10 +128,16 @@ def _sensors(paths: list[DrawnPath], options: ImportOptions, within: float) -> t
     return sensors, [_moved(problem, options.scale, options.flip_y) for problem in pointless] + problems
 
 
-def _read(source: str | Path | IO[bytes] | IO[str], options: ImportOptions) -> Drawing:
+def _read(source: str | Path | IO[bytes] | IO[str] | Sequence[Any], options: ImportOptions) -> Drawing:
+    if type(source).__module__.startswith("svgpathtools."):  # a Path is a list of segments
+        source = [source]
+    if isinstance(source, list | tuple):
+        from importers.svg.svgpathtools_paths import drawing_from_svgpathtools
+
+        return drawing_from_svgpathtools(source)
     from importers.read import read_drawing  # late: it brings the readers of all formats
 
-    drawing: Drawing = read_drawing(source, page=options.page)
+    drawing: Drawing = read_drawing(cast(Any, source), page=options.page)
     return drawing
 
 
