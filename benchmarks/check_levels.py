@@ -61,7 +61,7 @@ def processor_seconds(work):
     return best
 
 
-def cost(name, target, radius, balls=40_000, bounces=2000):
+def cost(name, target, radius, balls=20_000, bounces=2000):
     scene = wallkit.open_scene(SAMPLES / name).scene
     draw = wallkit.RoomBalls.of(scene.walls, speed=50.0, radius=radius, seed=3)
     how = {"bounces": bounces, "workers": 1}
@@ -72,7 +72,7 @@ def cost(name, target, radius, balls=40_000, bounces=2000):
           f"with a target {aimed:.2f} s ({aimed / survey:.2f})")  # fmt: skip
 
 
-def processes(balls=400_000, bounces=1000):
+def processes(balls=200_000, bounces=1000):
     scene = wallkit.open_scene(SAMPLES / "mushroom.svg").scene
     draw = wallkit.RoomBalls.of(scene.walls, speed=50.0, seed=3)
     taken, digests = {}, set()

@@ -27,7 +27,9 @@ if TYPE_CHECKING:
     from importers.read import read_drawing, read_drawing_text
     from importers.svg.svgpathtools_paths import drawing_from_svgpathtools
     from wallkit.accuracy.reference import Reference, sure_events
+    from wallkit.levels.aim import aim
     from wallkit.levels.check_level import LevelCheck, check_level
+    from wallkit.levels.windows import Window, Windows
     from wallkit.scene.opening import OpenedScene, Wishes, open_scene
     from wallkit.scene.room_balls import RoomBalls
     from wallkit.scene.scene import Balls, Scene, SceneError
@@ -56,6 +58,8 @@ _HOMES = {
     "importers.svg.svgpathtools_paths": ("drawing_from_svgpathtools",),
     "wallkit.accuracy.reference": ("Reference", "sure_events"),
     "wallkit.levels.check_level": ("LevelCheck", "check_level"),
+    "wallkit.levels.aim": ("aim",),
+    "wallkit.levels.windows": ("Window", "Windows"),
     "wallkit.scene.opening": ("OpenedScene", "Wishes", "open_scene"),
     "wallkit.scene.room_balls": ("RoomBalls",),
     "wallkit.simulation.count": ("count",),
@@ -113,9 +117,12 @@ __all__ = [
     "WallkitError",
     "Walls",
     "WallsError",
+    "Window",
+    "Windows",
     "Wishes",
     "World",
     "__version__",
+    "aim",
     "check_level",
     "count",
     "drawing_from_svgpathtools",

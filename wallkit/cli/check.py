@@ -34,7 +34,7 @@ FORMAT, VERSION = "wallkit-check", 1
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("check")(check)
+    app.command("check", rich_help_panel="Drawings and walls")(check)
 
 
 @options.with_import_options()

@@ -78,7 +78,7 @@ class Flown:
 
 def fly_balls(opened: OpenedScene, radius: float | None, wanted: Wanted) -> Flown:
     """Fly the balls."""
-    from wallkit.cli.simulate import progress_bar
+    from wallkit.cli.progress import progress_bar
     from wallkit.cli.survey import place_given
     from wallkit.levels.check_level import check_level
     from wallkit.levels.goals import given_target

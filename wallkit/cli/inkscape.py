@@ -15,7 +15,7 @@ SCRIPT = "wallkit_inkscape.py"
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("inkscape")(inkscape)
+    app.command("inkscape", rich_help_panel="Drawings and walls")(inkscape)
 
 
 def inkscape(

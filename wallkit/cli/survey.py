@@ -21,7 +21,6 @@ from wallkit.cli.simulate import (
     Speed,
     Tangential,
     Until,
-    progress_bar,
 )
 
 if TYPE_CHECKING:
@@ -73,6 +72,7 @@ def survey_file(
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Fly any number of balls and keep only counts: endings, bounces by edge, crossings. Memory does not grow."""
+    from wallkit.cli.progress import progress_bar
     from wallkit.cli.scene_input import opened, pair
     from wallkit.levels.starts import starts_of
     from wallkit.scene.opening import Wishes

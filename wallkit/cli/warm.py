@@ -10,7 +10,7 @@ import typer
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("warm")(warm)
+    app.command("warm", rich_help_panel="Balls")(warm)
 
 
 def warm(

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
+import shutil
 import sys
 import threading
 from collections.abc import Callable, Iterator
@@ -20,6 +21,9 @@ from typing import Any, TypeVar
 from wallkit.kernels import intrinsics
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+KEPT = 4
+"""Folders of machine code that stay: this version's, and those last used, for other environments have versions too."""
 
 _marked: list[Callable[..., Any]] = []
 _rare: list[Callable[..., Any]] = []
@@ -118,7 +122,22 @@ def cache_folder() -> Path:
     folder = Path(__file__).parent
     for path in sorted(folder.rglob("*.py")):  # kernels live in subfolders too
         digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes())
-    return _cache_home() / f"kernels-{digest.hexdigest()[:16]}"
+    own = _cache_home() / f"kernels-{digest.hexdigest()[:16]}"
+    _clear_older(own)
+    return own
+
+
+@cache
+def _clear_older(own: Path) -> None:
+    """Note that a folder of machine code is in use, and remove those of older versions but the ones used last."""
+    try:
+        own.mkdir(parents=True, exist_ok=True)
+        os.utime(own)
+        others = sorted((path.stat().st_mtime, path) for path in own.parent.glob("kernels-*") if path != own)
+    except OSError:  # nothing can be written there, or another process clears as well
+        return
+    for _used, folder in others[: max(0, len(others) - (KEPT - 1))]:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _cache_home() -> Path:

@@ -207,7 +207,7 @@ def open_scene(
 
         stream = io.BytesIO(source)
         stream.name = name
-        return _of_drawing(read_drawing(stream, page=wishes.importing.page), wishes)
+        return _of_drawing(read_drawing(stream, page=wishes.importing.page, via=wishes.importing.via), wishes)
     if kind == "walls":
         from wallkit.walls.walls_json import loads
 

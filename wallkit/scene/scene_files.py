@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from wallkit.scene.drawn_scene import Drawn
 
 
-Kind = Literal["drawing", "walls", "scene"]
+FileKind = Literal["drawing", "walls", "scene"]
 
 _TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
@@ -62,7 +62,7 @@ class SceneFile:
     importing: ImportOptions | None = None
 
 
-def kind_of(data: bytes) -> Kind:
+def kind_of(data: bytes) -> FileKind:
     """Tell by its content whether a file holds walls, a scene or (whatever else it is) a drawing.
 
     JSON that names its format is believed; TOML is a text whose first line that is no comment sets a key or opens
@@ -274,8 +274,9 @@ class _Reader:
     def drawn(self, table: dict[str, Any], balls: FloatArray) -> Drawn | None:
         path = self.path(table["drawing"], "drawing")
         options = self.table(table.get("import", {}), "import")
-        self.known_keys(options, set(option_names()), "import.")
-        known = {key: value for key, value in options.items() if key in option_names()}
+        names = set(option_names()) - {"via"}  # who opens a file says what program may run, not the file
+        self.known_keys(options, names, "import.")
+        known = {key: value for key, value in options.items() if key in names}
         try:
             self.options = ImportOptions(**{"curves": "arcs", **known, **self.importing})
         except WallsError as error:
@@ -285,7 +286,7 @@ class _Reader:
             return None
         from importers.read import read_drawing
 
-        self.drawing = read_drawing(path, page=self.options.page)
+        self.drawing = read_drawing(path, page=self.options.page, via=self.options.via)
         say_roles(self.drawing, self.roles(table))
         return drawn_scene(self.drawing, self.options, balls if self.places is None else self.places)
 

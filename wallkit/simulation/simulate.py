@@ -17,7 +17,18 @@ from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.flight.flight import FALLING_TOLERANCE, TOLERANCE, fly, fly_all
 from wallkit.kernels.flight.resting import side_of
 from wallkit.kernels.jit import compile_for, compiled, types_of
-from wallkit.kernels.records import LOG_STRIDE, NO_HIT, PASSING, RUNNING, STARTING, STATE_SIZE, Counts
+from wallkit.kernels.records import (
+    COUNT,
+    LOG,
+    LOG_STRIDE,
+    NO_HIT,
+    PASSING,
+    RUNNING,
+    STARTING,
+    STATE,
+    STATE_SIZE,
+    Counts,
+)
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.scene.start_overlaps import check_starts, settled
 from wallkit.simulation.modelled import Modelled
@@ -130,16 +141,16 @@ class Flights:
     def fly(self, ball: int, until: float, limit: int) -> Any:
         """Fly a ball on; yield its contacts in pieces, (k, LOG_STRIDE) each, local coordinates."""
         counts = self._counts[ball]
-        if counts[2] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.SWINGING):
-            counts[2] = RUNNING
-        while counts[2] == RUNNING:
+        if counts[COUNT.ending] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.SWINGING):
+            counts[COUNT.ending] = RUNNING
+        while counts[COUNT.ending] == RUNNING:
             log = self._piece(ball, until, limit)
             if len(log):
                 yield log
 
     def _piece(self, ball: int, until: float, limit: int, room: int | None = None) -> FloatArray:
         state, counts, radius = self._states[ball], self._counts[ball], float(self.modelled.radii[ball])
-        room = room or max(1, min(CHUNK, limit - counts[1] + 1))
+        room = room or max(1, min(CHUNK, limit - counts[COUNT.bounces] + 1))
         if self._compile():
             machine_log = np.empty(room * LOG_STRIDE)
             _compiled_features.add(self._features)
@@ -172,10 +183,10 @@ class Flights:
     def next_contact(self, ball: int) -> FloatArray | None:
         """Fly a ball on to its next contact, (LOG_STRIDE,); None if it has none."""
         counts = self._counts[ball]
-        if counts[2] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE):
-            counts[2] = RUNNING
-        counts[8] = 0
-        if counts[2] != RUNNING:
+        if counts[COUNT.ending] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE):
+            counts[COUNT.ending] = RUNNING
+        counts[COUNT.changes] = 0
+        if counts[COUNT.ending] != RUNNING:
             return None
         piece = self._piece(ball, math.inf, sys.maxsize, room=1)
         return piece[0] if len(piece) else None
@@ -185,12 +196,12 @@ class Flights:
 
         None too for a ball that friction or drag stops: its flight itself ends where it rests.
         """
-        ending = self._counts[ball][2]
+        ending = self._counts[ball][COUNT.ending]
         if ending in (RUNNING, Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE, Ending.SWINGING):
             return None
         if ending == Ending.AT_REST and self.modelled.model.damping is not None:
             return None
-        return float(self._states[ball][4] + self._states[ball][5])
+        return float(self._states[ball][STATE.time] + self._states[ball][STATE.lost])
 
     def place(
         self,
@@ -212,10 +223,10 @@ class Flights:
             normal: (2,) of that feature, towards the ball, where it keeps to it.
         """
         state = initial_states(self.modelled, position[None], velocity[None])[0].tolist()
-        state[4] = time
-        counts = START._replace(last=last, bounces=self._counts[ball][1])
+        state[STATE.time] = time
+        counts = START._replace(last=last, bounces=self._counts[ball][COUNT.bounces])
         if normal is not None:
-            model, (x, y), (nx, ny) = self.modelled.lists, state[0:2], normal.tolist()
+            model, x, y, (nx, ny) = self.modelled.lists, state[STATE.x], state[STATE.y], normal.tolist()
             side = side_of(model, model.arcs, last, x, y, nx, ny)
             counts = counts._replace(held=last, hold=PASSING, side=int(side))
         self._states[ball], self._counts[ball] = state, list(counts)
@@ -231,15 +242,19 @@ class Flights:
 
     def part_done(self, ball: int, until: float, limit: int) -> float:
         """Part of all the work that is done when this ball is where it is, 0 to 1."""
-        one: float = max(self._states[ball][4] / max(until, 1e-300), self._counts[ball][1] / max(limit, 1))
+        one: float = max(
+            self._states[ball][STATE.time] / max(until, 1e-300), self._counts[ball][COUNT.bounces] / max(limit, 1)
+        )
         return (ball + min(one, 1.0)) / len(self)
 
     def final(self) -> NDArray[Any]:
         """(n,) of ``FINAL``: where the balls are now."""
         final = np.zeros(len(self), dtype=FINAL)
         states = np.array(self._states).reshape(-1, STATE_SIZE)
-        final["x"], final["y"] = states[:, 0] + self.modelled.origin[0], states[:, 1] + self.modelled.origin[1]
-        final["vx"], final["vy"], final["time"] = states[:, 2], states[:, 3], states[:, 4] + states[:, 5]
+        ox, oy = self.modelled.origin
+        final["x"], final["y"] = states[:, STATE.x] + ox, states[:, STATE.y] + oy
+        final["vx"], final["vy"] = states[:, STATE.vx], states[:, STATE.vy]
+        final["time"] = states[:, STATE.time] + states[:, STATE.lost]
         return final
 
     def endings(self) -> tuple[Ending, ...]:
@@ -247,7 +262,7 @@ class Flights:
         final = self.final()
         position, velocity = np.stack([final["x"], final["y"]], 1), np.stack([final["vx"], final["vy"]], 1)
         gone = is_gone(self.modelled.box, position, velocity, self.modelled.radii)
-        endings = [Ending(counts[2]) for counts in self._counts]
+        endings = [Ending(counts[COUNT.ending]) for counts in self._counts]
         return tuple(
             Ending.LEFT_SCENE if ending == Ending.TIME_REACHED and gone[ball] else ending
             for ball, ending in enumerate(endings)
@@ -257,17 +272,17 @@ class Flights:
         """Contacts of the scene, in its coordinates, in order of time."""
         log = np.concatenate(logs) if logs else np.empty((0, LOG_STRIDE))
         ball = np.concatenate(owners) if owners else np.empty(0, np.int32)
-        order = np.lexsort((ball, log[:, 0]))
+        order = np.lexsort((ball, log[:, LOG.time]))
         log, ball = log[order], ball[order]
         contacts = np.zeros(len(log), dtype=CONTACT)
         ox, oy = self.modelled.origin
-        contacts["time"], contacts["ball"] = log[:, 0], ball
-        contacts["x"], contacts["y"] = log[:, 1] + ox, log[:, 2] + oy
-        contacts["vx"], contacts["vy"] = log[:, 3], log[:, 4]
-        contacts["px"], contacts["py"] = log[:, 5] + ox, log[:, 6] + oy
-        contacts["nx"], contacts["ny"] = log[:, 7], log[:, 8]
-        contacts["kind"] = log[:, 10].astype(np.uint8)
-        wall, edge = self._places(log[:, 9].astype(np.int64))
+        contacts["time"], contacts["ball"] = log[:, LOG.time], ball
+        contacts["x"], contacts["y"] = log[:, LOG.x] + ox, log[:, LOG.y] + oy
+        contacts["vx"], contacts["vy"] = log[:, LOG.vx], log[:, LOG.vy]
+        contacts["px"], contacts["py"] = log[:, LOG.px] + ox, log[:, LOG.py] + oy
+        contacts["nx"], contacts["ny"] = log[:, LOG.nx], log[:, LOG.ny]
+        contacts["kind"] = log[:, LOG.kind].astype(np.uint8)
+        wall, edge = self._places(log[:, LOG.feature].astype(np.int64))
         contacts["wall"], contacts["edge"] = wall, edge
         return contacts
 
@@ -289,15 +304,15 @@ class Flights:
 def initial_states(modelled: Modelled, position: FloatArray, velocity: FloatArray) -> FloatArray:
     """(n, STATE_SIZE) states of balls at rest on the clock, local coordinates."""
     states = np.zeros((len(position), STATE_SIZE))
-    states[:, 0:2] = position - modelled.origin
-    states[:, 2:4] = velocity
-    states[:, 6] = velocity[:, 0] * velocity[:, 0] + velocity[:, 1] * velocity[:, 1]
+    local = position - modelled.origin
+    states[:, [STATE.x, STATE.y]] = states[:, [STATE.from_x, STATE.from_y]] = local
+    states[:, [STATE.vx, STATE.vy]] = states[:, [STATE.from_vx, STATE.from_vy]] = velocity
+    states[:, STATE.energy] = velocity[:, 0] * velocity[:, 0] + velocity[:, 1] * velocity[:, 1]
     tolerance = TOLERANCE
     if (gravity := modelled.model.gravity) is not None:
         tolerance = FALLING_TOLERANCE
-        states[:, 6] -= 2.0 * (gravity[0] * states[:, 0] + gravity[1] * states[:, 1])
-    states[:, 7:9], states[:, 9:11] = states[:, 0:2], velocity
-    states[:, 11] = tolerance * np.maximum(np.abs(states[:, 0:2]).max(axis=1, initial=0.0), modelled.model.extent)
+        states[:, STATE.energy] -= 2.0 * (gravity[0] * local[:, 0] + gravity[1] * local[:, 1])
+    states[:, STATE.tolerance] = tolerance * np.maximum(np.abs(local).max(axis=1, initial=0.0), modelled.model.extent)
     return states
 
 

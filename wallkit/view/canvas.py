@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import Any, Literal
 
-from wallkit.view.theme import css
+from wallkit.view.theme import STYLES, css
 
 # Path commands in pixels, absolute: ("M", x, y), ("L", x, y), ("Q", x1, y1, x, y), ("C", x1, y1, x2, y2, x, y),
 # ("A", rx, ry, rotation, large, sweep, x, y) and ("Z",).
@@ -21,7 +21,7 @@ class Shape:
     Attributes:
         style: a name in ``theme.STYLES``.
         commands: the path.
-        step: the ramp's step that colours the stroke, or None for the style's own colour.
+        step: the ramp's step that colours the stroke, and the fill where the style has one; None for its own colours.
         opacity: 0 to 1.
         title: what a pointer over it shows.
     """
@@ -113,7 +113,7 @@ def _written(item: Item) -> str:
         return _tag(
             "path",
             f'd="{path_data(item.commands)}"',
-            _classes(item.style, item.step, item.step if item.style.startswith("material") else None),
+            _classes(item.style, item.step, item.step if STYLES[item.style].fill else None),
             item.opacity,
             item.title,
         )

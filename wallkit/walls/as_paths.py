@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 from importers.drawing import DrawnPath, Segment, Subpath
@@ -24,7 +25,7 @@ def subpath_of(vertices: FloatArray, bulges: FloatArray, closed: bool) -> Subpat
     for index, end in enumerate(ends):
         start, bulge = points[index], turns[index]
         if bulge and start != end:
-            radius = radius_of(start, end, bulge)
+            radius = radius_of(math.hypot(end[0] - start[0], end[1] - start[1]), bulge)
             segments.append(("A", radius, radius, 0.0, int(abs(bulge) > 1), int(bulge > 0), *end))
         elif index < len(points) - 1:
             segments.append(("L", *end))

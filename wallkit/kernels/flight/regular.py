@@ -7,7 +7,7 @@ import math
 from wallkit.kernels.flight.error_growth import derivative
 from wallkit.kernels.flight.flight import wall_of
 from wallkit.kernels.jit import kernel
-from wallkit.kernels.records import LOG_STRIDE, NO_HIT, SLIDE, VERTEX
+from wallkit.kernels.records import LOG, LOG_STRIDE, NO_HIT, SLIDE, VERTEX
 
 PERIODS, LONGEST = 10, 64
 """A word of edges repeats if it comes so often in a row; of so many edges at most."""
@@ -76,36 +76,36 @@ def tangent_norm(model, gravity, radius, log, rows, filled, count):
         (norm, contacts on curves); the norm is inf where the ball slid, or where it is no number.
     """
     o = LOG_STRIDE * ((filled - count - 1) % rows)
-    length, begin, p, curved = 0.0, log[o], o, 0
+    length, begin, p, curved = 0.0, log[o + LOG.time], o, 0
     for k in range(filled - count, filled):
         q = LOG_STRIDE * (k % rows)
-        length += math.sqrt((log[q + 1] - log[p + 1]) ** 2 + (log[q + 2] - log[p + 2]) ** 2)
+        length += math.sqrt((log[q + LOG.x] - log[p + LOG.x]) ** 2 + (log[q + LOG.y] - log[p + LOG.y]) ** 2)
         p = q
-    start = math.sqrt(log[o + 3] * log[o + 3] + log[o + 4] * log[o + 4])
-    if not (length > 0.0 and log[p] > begin and start > 0.0):
+    start = math.sqrt(log[o + LOG.vx] * log[o + LOG.vx] + log[o + LOG.vy] * log[o + LOG.vy])
+    if not (length > 0.0 and log[p + LOG.time] > begin and start > 0.0):
         return CHAOTIC, 0
-    length, speed = length / count, length / (log[p] - begin)
-    ex, ey = -log[o + 4] / start, log[o + 3] / start  # across the way
+    length, speed = length / count, length / (log[p + LOG.time] - begin)
+    ex, ey = -log[o + LOG.vy] / start, log[o + LOG.vx] / start  # across the way
     x, y, u, w = length * ex, length * ey, 0.0, 0.0
     x2, y2, u2, w2 = 0.0, 0.0, speed * ex, speed * ey
     p = o
     for k in range(filled - count, filled):
         q = LOG_STRIDE * (k % rows)
-        if log[q + 10] > VERTEX or log[p + 10] >= SLIDE:
+        if log[q + LOG.kind] > VERTEX or log[p + LOG.kind] >= SLIDE:
             return CHAOTIC, 0
-        t, pull = log[q] - log[p], falls(gravity)
+        t, pull = log[q + LOG.time] - log[p + LOG.time], falls(gravity)
         x, y, x2, y2 = x + t * u, y + t * w, x2 + t * u2, y2 + t * w2
-        vx, vy, nx, ny = log[p + 3] + t * pull[0], log[p + 4] + t * pull[1], log[q + 7], log[q + 8]
+        vx, vy, nx, ny = log[p + LOG.vx] + t * pull[0], log[p + LOG.vy] + t * pull[1], log[q + LOG.nx], log[q + LOG.ny]
         across = vx * nx + vy * ny
         if across > 0.0:
             nx, ny = -nx, -ny
         if across == 0.0:
             return CHAOTIC, 0
-        feature = int(log[q + 9])
-        bend = bend_at(model.arcs, radius, feature, log[q + 1], log[q + 2], nx, ny)
+        feature = int(log[q + LOG.feature])
+        bend = bend_at(model.arcs, radius, feature, log[q + LOG.x], log[q + LOG.y], nx, ny)
         curved += 1 if bend != 0.0 else 0
         kept = kept_at(model.restitution, wall_of(model, feature))
-        _S, A, B, M = derivative(vx, vy, log[q + 3], log[q + 4], nx, ny, kept, bend, pull, pull)
+        _S, A, B, M = derivative(vx, vy, log[q + LOG.vx], log[q + LOG.vy], nx, ny, kept, bend, pull, pull)
         u, w = B[0] * x + B[1] * y + M[0] * u + M[1] * w, B[2] * x + B[3] * y + M[2] * u + M[3] * w
         x, y = A[0] * x + A[1] * y, A[2] * x + A[3] * y
         u2, w2 = B[0] * x2 + B[1] * y2 + M[0] * u2 + M[1] * w2, B[2] * x2 + B[3] * y2 + M[2] * u2 + M[3] * w2
@@ -128,7 +128,11 @@ def period_of(model, log, rows, filled):
         k = filled - 1
         while same and k >= filled - (PERIODS - 1) * period:
             o, before = LOG_STRIDE * (k % rows), LOG_STRIDE * ((k - period) % rows)
-            same = log[o + 9] == log[before + 9] and log[o + 9] >= 0.0 and log[o + 10] < SLIDE
+            same = (
+                log[o + LOG.feature] == log[before + LOG.feature]
+                and log[o + LOG.feature] >= 0.0
+                and log[o + LOG.kind] < SLIDE
+            )
             k -= 1
         if same:
             return period if lasts(model, log, rows, filled, period) else 0
@@ -140,14 +144,17 @@ def lasts(model, log, rows, filled, period):
     """Tell whether a repeated word stays: no place of contact drifts off its edge within ``LASTS`` periods."""
     for k in range(filled - period, filled):
         o, before = LOG_STRIDE * (k % rows), LOG_STRIDE * ((k - (PERIODS - 1) * period) % rows)
-        dx, dy = (log[o + 5] - log[before + 5]) / (PERIODS - 1), (log[o + 6] - log[before + 6]) / (PERIODS - 1)
+        dx, dy = (
+            (log[o + LOG.px] - log[before + LOG.px]) / (PERIODS - 1),
+            (log[o + LOG.py] - log[before + LOG.py]) / (PERIODS - 1),
+        )
         drift = math.sqrt(dx * dx + dy * dy)
         if drift <= STANDS * model.extent:
             continue
-        line = model.lines[int(log[o + 9])]
+        line = model.lines[int(log[o + LOG.feature])]
         ahead = dx * (line.bx - line.ax) + dy * (line.by - line.ay) > 0.0
         ex, ey = (line.bx, line.by) if ahead else (line.ax, line.ay)
-        room = math.sqrt((ex - log[o + 5]) ** 2 + (ey - log[o + 6]) ** 2)
+        room = math.sqrt((ex - log[o + LOG.px]) ** 2 + (ey - log[o + LOG.py]) ** 2)
         if room < LASTS * drift:
             return False
     return True
@@ -167,7 +174,7 @@ def word_of(log, rows, filled, count, marks, mark):
     """
     number, edges = 0, len(marks) // 2
     for k in range(max(filled - count, 0), filled):
-        feature = int(log[LOG_STRIDE * (k % rows) + 9])
+        feature = int(log[LOG_STRIDE * (k % rows) + LOG.feature])
         slot = feature if feature >= 0 else edges + (NO_HIT - 1 - feature)
         if marks[slot] != mark:
             marks[slot] = mark

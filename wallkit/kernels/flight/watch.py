@@ -12,7 +12,19 @@ from wallkit.kernels.flight.resting import side_of
 from wallkit.kernels.flight.sensors import next_crossing, set_pull
 from wallkit.kernels.flight.sensors_on_circles import next_crossing_round
 from wallkit.kernels.jit import kernel
-from wallkit.kernels.records import BOUNCE_LIMIT, EDGE, LOG_STRIDE, NO_HIT, RUNNING, SLIDE, TIME_REACHED, VERTEX
+from wallkit.kernels.records import (
+    BOUNCE_LIMIT,
+    COUNT,
+    EDGE,
+    LOG,
+    LOG_STRIDE,
+    NO_HIT,
+    RUNNING,
+    SLIDE,
+    STATE,
+    TIME_REACHED,
+    VERTEX,
+)
 
 ROWS = 640
 """Contacts of a ball that are remembered: ten words of 64 edges."""
@@ -97,14 +109,14 @@ def fly_to_target(model, gravity, watch, radius, state, counts, ball, number, un
 
     Contacts are flown ahead by the piece and looked at after it: their flights only where somebody wants to know.
     """
-    x, y, vx, vy, since = state[0], state[1], state[2], state[3], state[4]
+    x, y, vx, vy, since = state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy], state[STATE.time]
     set_pull(model, gravity, watch.pull, EDGE, NO_HIT)
     feature, kind, nx, ny = NO_HIT, EDGE, 0.0, 0.0
     covers = number < watch.covering
     asks = covers or watch.sensors is not None
     filled, bounces, crossed = 0, 0, math.inf
-    while counts[2] == RUNNING:
-        room = min(min(PIECE, 4 + counts[1] // 4), ROWS - filled % ROWS)
+    while counts[COUNT.ending] == RUNNING:
+        room = min(min(PIECE, 4 + counts[COUNT.bounces] // 4), ROWS - filled % ROWS)
         ring = watch.log[LOG_STRIDE * (filled % ROWS) :]
         noted = fly(model, gravity, radius, state, counts, until, limit, hits, ring, room)
         row = 0
@@ -126,32 +138,38 @@ def fly_to_target(model, gravity, watch, radius, state, counts, ball, number, un
                     vx,
                     vy,
                     since,
-                    ring[o],
+                    ring[o + LOG.time],
                 )
                 if covers:
-                    cover(watch, watch.pull, number, x, y, ring[o] - since, ring[o + 1], ring[o + 2])
-            feature, kind = int(ring[o + 9]), int(ring[o + 10])
+                    cover(watch, watch.pull, number, x, y, ring[o + LOG.time] - since, ring[o + LOG.x], ring[o + LOG.y])
+            feature, kind = int(ring[o + LOG.feature]), int(ring[o + LOG.kind])
             hit = kind <= VERTEX and watch.target[tally_of(model, feature)] == 1
             if hit or crossed < math.inf:
                 crossed_first = crossed < math.inf
-                watch.time[ball] = crossed if crossed_first else ring[o]
+                watch.time[ball] = crossed if crossed_first else ring[o + LOG.time]
                 watch.met[ball] = bounces + (0 if crossed_first else 1)
                 forget(model, ring, row if crossed_first else row + 1, noted, hits)
                 return filled + row
             bounces += 1 if kind <= VERTEX else 0
             if asks:
-                since, x, y, vx, vy = ring[o], ring[o + 1], ring[o + 2], ring[o + 3], ring[o + 4]
-                nx, ny = ring[o + 7], ring[o + 8]
+                since, x, y, vx, vy = (
+                    ring[o + LOG.time],
+                    ring[o + LOG.x],
+                    ring[o + LOG.y],
+                    ring[o + LOG.vx],
+                    ring[o + LOG.vy],
+                )
+                nx, ny = ring[o + LOG.nx], ring[o + LOG.ny]
                 set_pull(model, gravity, watch.pull, kind, feature)
             row += 1
         filled += noted
     if asks:
-        end = state[4] + state[5]
+        end = state[STATE.time] + state[STATE.lost]
         crossed = crosses_at(
             model, gravity, watch.sensors, watch.pull, radius, feature, kind, nx, ny, x, y, vx, vy, since, end
         )
         if covers:
-            cover(watch, watch.pull, number, x, y, end - since, state[0], state[1])
+            cover(watch, watch.pull, number, x, y, end - since, state[STATE.x], state[STATE.y])
         if crossed < math.inf:
             watch.time[ball], watch.met[ball] = crossed, bounces
     return filled
@@ -161,8 +179,8 @@ def fly_to_target(model, gravity, watch, radius, state, counts, ball, number, un
 def forget(model, log, row, noted, hits):
     """Take back the bounces from a row on: they were flown ahead, and the ball was at its target."""
     for k in range(row, noted):
-        if log[LOG_STRIDE * k + 10] <= VERTEX:
-            hits[tally_of(model, int(log[LOG_STRIDE * k + 9]))] -= 1
+        if log[LOG_STRIDE * k + LOG.kind] <= VERTEX:
+            hits[tally_of(model, int(log[LOG_STRIDE * k + LOG.feature]))] -= 1
 
 
 @kernel
@@ -217,7 +235,7 @@ def cover(watch, pull, number, x, y, passed, to_x, to_y):
 def judge(model, gravity, lasting, watch, radius, counts, ball, number, filled):
     """Tell how a ball moves that came to a limit before it came to the target."""
     watch.word[ball] = word_of(watch.log, ROWS, filled, LAST, watch.marks, number)
-    if counts[2] != TIME_REACHED and counts[2] != BOUNCE_LIMIT:
+    if counts[COUNT.ending] != TIME_REACHED and counts[COUNT.ending] != BOUNCE_LIMIT:
         return
     watch.kind[ball] = SLOW
     if lasting == 0:

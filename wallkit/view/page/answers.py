@@ -16,10 +16,11 @@ from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
 from wallkit.scene.samples import samples
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation.run import Ending, Run
+from wallkit.view.page import aiming
 from wallkit.view.page.documents import Document, Reader
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
 from wallkit.view.page.questions import Opening
-from wallkit.view.page.worlds import CompilingError, Worlds
+from wallkit.view.page.worlds import CompilingError, Worlds, check_index
 from wallkit.walls import Walls
 from wallkit.walls.fields import MOST_RESTITUTION
 from wallkit.walls.import_options import ImportOptions
@@ -97,6 +98,20 @@ class Answers:
             table |= {"partial": True, "duration": float(run.final["time"].min())}
         return table
 
+    def aim(self, body: Table, document: Document) -> Table:
+        """Find all shots of a ball that reach a target."""
+        scene = scene_of(body, document)
+        target = body.get("target")
+        if not isinstance(target, list) or len(target) != 3:
+            raise QuestionError("target is no disc", code="bad-request", fix="give [x, y, radius]")
+        x, y, radius = (number(part, "target", -MAX_COORDINATE, MAX_COORDINATE) for part in target)
+        bounces = int(number(body.get("bounces", 3), "bounces", 0, aiming.MOST_BOUNCES))
+        check_index(scene)
+        windows = aiming.windows_of(scene, (x, y, radius), bounces)
+        if windows is None:
+            raise CompilingError
+        return aiming.windows_table(windows)
+
     def save(self, body: Table, document: Document) -> Download:
         """Give the scene, the replay of its run or the walls as a file."""
         stem = re.sub(r"[^A-Za-z0-9_-]+", "-", Path(document.name).stem).strip("-")[:60] or "wallkit"
@@ -145,6 +160,7 @@ class Answers:
             "walls": walls_table(walls, begin[:, :2], opened.scene.sensors),
             "problems": self.problems_table(document),
             "balls": balls_table(opened.scene.balls),
+            "targets": aiming.targets_of(opened.scene),
             "gravity": opened.scene.gravity,
             "materials": {
                 "restitution": first.restitution if first else 1.0,

@@ -99,6 +99,8 @@ def _replied(question: Question, answers: Answers, documents: Documents) -> Repl
         return Reply(_text(answers.document_table(document)))
     if question.name == "simulate":
         return Reply(_text(answers.simulate(question.body, document)))
+    if question.name == "aim":
+        return Reply(_text(answers.aim(question.body, document)))
     if question.name == "save":
         saved: Download = answers.save(question.body, document)
         return Reply(saved.content, saved.media, saved.name)

@@ -22,6 +22,18 @@ class CompilingError(Exception):
     """The kernels that a question needs are still being compiled, in a process apart; it can be answered after that."""
 
 
+def check_index(scene: Scene) -> None:
+    """Refuse to wait for an index that interpreted kernels would make for too long.
+
+    Raises:
+        CompilingError: there are so many edges that nothing can be said without machine code.
+    """
+    from wallkit.simulation.modelled import WAITING_PAYS, index_at_hand
+
+    if 2 * len(scene.walls.edge_starts) > WAITING_PAYS and not index_at_hand(scene.walls.has_arcs):
+        raise CompilingError
+
+
 class Worlds:
     """Remembers the last world asked about: its walls need not be indexed again for the next ball."""
 
@@ -37,12 +49,11 @@ class Worlds:
             WallkitError: a disc overlaps a wall at the start, or the scene cannot be simulated.
         """
         from wallkit.scene.start_overlaps import check_starts
-        from wallkit.simulation.modelled import WAITING_PAYS, Modelled, index_at_hand
+        from wallkit.simulation.modelled import Modelled
         from wallkit.simulation.simulate import Flights
 
         check_starts(scene)
-        if 2 * len(scene.walls.edge_starts) > WAITING_PAYS and not index_at_hand(scene.walls.has_arcs):
-            raise CompilingError
+        check_index(scene)
         key = (document.edition, *(repr(body.get(name)) for name in WORLD))
         known = self._modelled.with_balls(scene.balls) if self._modelled is not None and key == self._key else None
         self._key, self._modelled = key, known or Modelled(scene)
