@@ -28,9 +28,13 @@ if TYPE_CHECKING:
     from importers.svg.svgpathtools_paths import drawing_from_svgpathtools
     from wallkit.accuracy.reference import Reference, sure_events
     from wallkit.levels.aim import aim
+    from wallkit.levels.check_level import LevelCheck, check_level
     from wallkit.levels.windows import Window, Windows
     from wallkit.scene.opening import OpenedScene, Wishes, open_scene
+    from wallkit.scene.room_balls import RoomBalls
     from wallkit.scene.scene import Balls, Scene, SceneError
+    from wallkit.simulation.count import count
+    from wallkit.simulation.counts import Counts
     from wallkit.simulation.horizon import Horizon
     from wallkit.simulation.prepared import Prepared, prepare
     from wallkit.simulation.run import CONTACT, FINAL, Ending, Kind, Run
@@ -53,9 +57,13 @@ _HOMES = {
     "importers.read": ("read_drawing", "read_drawing_text"),
     "importers.svg.svgpathtools_paths": ("drawing_from_svgpathtools",),
     "wallkit.accuracy.reference": ("Reference", "sure_events"),
+    "wallkit.levels.check_level": ("LevelCheck", "check_level"),
     "wallkit.levels.aim": ("aim",),
     "wallkit.levels.windows": ("Window", "Windows"),
     "wallkit.scene.opening": ("OpenedScene", "Wishes", "open_scene"),
+    "wallkit.scene.room_balls": ("RoomBalls",),
+    "wallkit.simulation.count": ("count",),
+    "wallkit.simulation.counts": ("Counts",),
     "wallkit.simulation.horizon": ("Horizon",),
     "wallkit.simulation.run": ("CONTACT", "FINAL", "Ending", "Kind", "Run"),
     "wallkit.simulation.streams": ("RandomBalls", "survey_stream"),
@@ -79,6 +87,7 @@ __all__ = [
     "CONTACT",
     "FINAL",
     "Balls",
+    "Counts",
     "Drawing",
     "DrawingError",
     "DrawnPath",
@@ -89,6 +98,7 @@ __all__ = [
     "ImportOptions",
     "Kind",
     "Layer",
+    "LevelCheck",
     "LimitError",
     "Material",
     "OpenedScene",
@@ -97,6 +107,7 @@ __all__ = [
     "RandomBalls",
     "Reference",
     "Repairs",
+    "RoomBalls",
     "Run",
     "Scene",
     "SceneError",
@@ -112,6 +123,8 @@ __all__ = [
     "World",
     "__version__",
     "aim",
+    "check_level",
+    "count",
     "drawing_from_svgpathtools",
     "film",
     "free_space",

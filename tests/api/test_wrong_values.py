@@ -41,6 +41,15 @@ ARRAYS = {
     "depth": ROOM.depth, "sides": ROOM.sides, "materials": ROOM.materials, "names": ROOM.names, "layers": ROOM.layers,
 }  # fmt: skip
 
+ENSEMBLE = {
+    "balls": (*NO_WHOLE_NUMBERS, None, 0),
+    "executor": ("thread", "dask://", 4, ThreadPoolExecutor, ["threads"]),
+    "workers": (*NO_WHOLE_NUMBERS, 0),
+    "chunk": (*NO_WHOLE_NUMBERS, 0),
+    "checkpoint": (5, "/no/such/folder/survey.json", "/"),
+    "progress": ("bar", 1, True),
+}
+
 # What is called, good arguments for all that must be given, and for each parameter values that may not be.
 CALLS = {
     "Balls": (Balls, {"position": [(5.0, 5.0)], "velocity": [(3.0, 4.0)]}, {
@@ -151,6 +160,28 @@ CALLS = {
         "threads": (*NO_WHOLE_NUMBERS, 0),
         "executor": ("threads", 4, ThreadPoolExecutor),
         "check": NO_FLAGS,
+        "by_edge": NO_FLAGS,
+    }),
+    "count": (wallkit.count, {"scene": SCENE, "draw": DRAW, "balls": 5, "bounces": 3}, {
+        "scene": (None, ROOM),
+        "draw": (None, SCENE.balls),
+        "until": (*NO_TIMES, -1.0),
+        "bounces": NO_WHOLE_NUMBERS,
+        **ENSEMBLE,
+    }),
+    "check_level": (wallkit.check_level, {"scene": SCENE, "draw": DRAW, "balls": 5, "bounces": 3}, {
+        "scene": (None, ROOM),
+        "draw": (None, SCENE.balls),
+        "until": (*NO_TIMES, -1.0),
+        "bounces": NO_WHOLE_NUMBERS,
+        "target": (5, "nobody", (1.0, 2.0), (1.0, 2.0, 0.0), (1.0, 2.0, math.inf), ("1", "2", "3")),
+        **ENSEMBLE,
+    }),
+    "RoomBalls": (wallkit.RoomBalls, {"triangles": [[(0.0, 0.0), (9.0, 0.0), (0.0, 9.0)]]}, {
+        "triangles": (None, [], SQUARE, [[(0.0, 0.0)] * 3], [[(0.0, 0.0), (math.nan, 0.0), (0.0, 9.0)]], "box"),
+        "speed": (*NO_NUMBERS, -1.0),
+        "radius": (*NO_NUMBERS, -1.0),
+        "seed": (*NO_WHOLE_NUMBERS, None),
     }),
     "read_drawing": (wallkit.read_drawing, {"source": ROOT / "samples" / "room.svg"}, {
         "source": (5, None, [], "/no/such/drawing.svg", "/", ""),
@@ -256,9 +287,11 @@ CALLS = {
 }  # fmt: skip
 
 RESULTS = {
+    "Counts",
     "FreeSpace",
     "Gap",
     "Horizon",
+    "LevelCheck",
     "OpenedScene",
     "Prepared",
     "Totals",

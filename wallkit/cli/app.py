@@ -39,12 +39,13 @@ def _root(
 
 def _register_commands() -> None:
     """Attach one module a command. The modules import what is heavy only when their command runs."""
-    from wallkit.cli import aim, check, export, import_, inkscape, inspect, play, report, simulate, warm
+    from wallkit.cli import aim, check, export, import_, inkscape, inspect, play, report, simulate, survey, warm
 
     inspect.register(app)
     import_.register(app)
     check.register(app)
     simulate.register(app)
+    survey.register(app)
     aim.register(app)
     export.register(app)
     play.register(app)

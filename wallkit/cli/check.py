@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from wallkit.cli import import_options as options
+from wallkit.cli.check_balls import Wanted, fly_balls, lines, write_page
+from wallkit.cli.simulate import Gravity, Speed, Until
+from wallkit.cli.survey import Checkpoint, From, Where, Workers
 from wallkit.cli.watching import watchable
 
 if TYPE_CHECKING:
@@ -53,29 +56,63 @@ def check(
             help="Hold N points of the walls against the curves as svgpathtools has them.",
         ),
     ] = 0,
+    balls: Annotated[
+        str | None,
+        typer.Option("--balls", metavar="N", help="Fly N balls, and tell what they find out; 1e6 is a number."),
+    ] = None,
+    start: From = None,
+    target: Annotated[
+        str | None,
+        typer.Option(
+            "--to", metavar="NAME|X,Y,R", help="What is to be reached: sensor, target, wall, WALL:EDGE, circle."
+        ),
+    ] = None,
+    until: Until = None,
+    bounces: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="End after N bounces a ball (default, without --until: 2000).", min=0),
+    ] = None,
+    speed: Speed = None,
+    gravity: Gravity = None,
+    seed: Annotated[int, typer.Option(metavar="K", help="Seed of --balls.", min=0)] = 0,
+    out: Annotated[
+        str | None, typer.Option("-o", "--out", metavar="OUT.html", help="Write a page about --balls, with pictures.")
+    ] = None,
+    executor: Where = "threads",
+    workers: Workers = None,
+    checkpoint: Checkpoint = None,
     importing: dict[str, Any] | None = None,
 ) -> None:
-    """Find problems and leaks, with places and fixes; exit with 1 when there are findings."""
+    """Find problems and leaks, with places and fixes, and what many balls find out; exit with 1 on findings."""
     from wallkit.cli.scene_input import opened
-    from wallkit.scene.opening import Wishes
 
     _check_radius(radius)
-    given = given_of(opened(file, Wishes(importing=options.options_of(importing or {}), may_be_empty=True)))
+    wanted = Wanted(balls, start, target, until, bounces, speed, gravity, seed, out, executor, workers, checkpoint)
+    wanted.check()
+    found = opened(file, wanted.wishes(options.options_of(importing or {})))
+    given = given_of(found)
     audited = _audited(given, audit, file) if audit else None
     given.problems += [] if audited is None else audited.problems()
+    flown = None if wanted.balls is None else fly_balls(found, radius, wanted)
+    given.problems += [] if flown is None else flown.check.problems()
     look = look_over(given, radius)
     walls, problems, space, reach = look.walls, look.problems, look.space, look.reach
     findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
         _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
+    if flown is not None and out is not None:
+        write_page(out, flown, file)
     if as_json:
         report = _report(walls, problems, space, reach, len(findings))
         report |= {} if audited is None else {"audit": audited.to_json()}
+        report |= {} if flown is None else {"balls": flown.check.to_json()}
         print(json.dumps(report, ensure_ascii=False))
     else:
         _tell(walls, problems, space, reach, given.assumed)
         if audited is not None:
             print(audited.sentence())
+        for line in () if flown is None else lines(flown, out):
+            print(line)
     raise typer.Exit(1 if findings else 0)
 
 

@@ -290,6 +290,10 @@ class Model(NamedTuple):
     """``Corner`` by vertex."""
     edge_wall: Any
     corner_wall: Any
+    edge_tally: Any
+    """By edge: to which of the counts of bounces one off it is added, its wall's or its own."""
+    corner_tally: Any
+    """By vertex: the same."""
     restitution: Any
     """By wall: normal, tangential; None when all are 1."""
     static_friction: Any

@@ -42,13 +42,12 @@ def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
     Returns:
         The spot, or None where no face has room.
     """
-    import shapely
-
     rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
     if not rings:
         return None
-    lines = [np.vstack([ring, ring[:1]]) if c else ring for ring, c in zip(rings, walls.closed, strict=True)]
-    noded = shapely.node(shapely.multilinestrings([shapely.linestrings(line) for line in lines]))
+    import shapely
+
+    noded = _noded(walls, rings)
     tree = shapely.STRtree(shapely.get_parts(noded))
     best: Spot | None = None
     for face in _faces(walls, noded, anywhere):
@@ -60,6 +59,27 @@ def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
         if spot and better and (anywhere or not _in_material(walls, spot)):
             best = spot
     return best
+
+
+def face_around(walls: Walls, x: float, y: float) -> Spot | None:
+    """Give the roomiest spot of the face of the walls that a place is in; None where it is in no bounded one."""
+    import shapely
+
+    rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
+    if not rings:
+        return None
+    noded = _noded(walls, rings)
+    faces = [face for face in _faces(walls, noded, anywhere=True) if shapely.contains_xy(face, x, y)]
+    tree = shapely.STRtree(shapely.get_parts(noded))
+    return _spot(min(faces, key=shapely.area), tree) if faces else None
+
+
+def _noded(walls: Walls, rings: list[FloatArray]) -> Any:
+    """Give the walls' lines, cut where they cross."""
+    import shapely
+
+    lines = [np.vstack([ring, ring[:1]]) if c else ring for ring, c in zip(rings, walls.closed, strict=True)]
+    return shapely.node(shapely.multilinestrings([shapely.linestrings(line) for line in lines]))
 
 
 def _faces(walls: Walls, noded: Any, anywhere: bool) -> list[Any]:
@@ -156,21 +176,33 @@ def scattered(walls: Walls, spot: Spot, count: int, radius: float, random: np.ra
     """
     import shapely
 
-    from wallkit.scene.scene import SceneError
-
-    x0, y0, x1, y1 = spot.face.bounds
-    # Around a corner a buffer of 32 chords a quarter is short by 0.03 %, and arcs bow out of the face by _FINE_STEP.
-    room = shapely.buffer(spot.face, -1.0005 * radius - 2e-5 * max(x1 - x0, y1 - y0), quad_segs=32)
+    room = room_for(spot, radius)
     shapely.prepare(room)
-    if shapely.is_empty(room):
-        raise SceneError(
-            f"a ball of radius {radius:g} has no room",
-            code="no-room",
-            fix=f"the roomiest spot takes {spot.room:.6g}: give a smaller --radius",
-        )
     x0, y0, x1, y1 = room.bounds
     places = np.empty((0, 2))
     while len(places) < count:
         tried = random.uniform((x0, y0), (x1, y1), (2 * count + 64, 2))
         places = np.concatenate([places, tried[shapely.contains_xy(room, tried[:, 0], tried[:, 1])]])
     return places[:count]
+
+
+def room_for(spot: Spot, radius: float) -> Any:
+    """Give where the centre of a ball fits in the face of a spot: a polygon, or several, of shapely.
+
+    Raises:
+        SceneError: a ball of that radius fits nowhere there.
+    """
+    import shapely
+
+    from wallkit.scene.scene import SceneError
+
+    x0, y0, x1, y1 = spot.face.bounds
+    # Around a corner a buffer of 32 chords a quarter is short by 0.03 %, and arcs bow out of the face by _FINE_STEP.
+    room = shapely.buffer(spot.face, -1.0005 * radius - 2e-5 * max(x1 - x0, y1 - y0), quad_segs=32)
+    if shapely.is_empty(room):
+        raise SceneError(
+            f"a ball of radius {radius:g} has no room",
+            code="no-room",
+            fix=f"the roomiest spot takes {spot.room:.6g}: give a smaller --radius",
+        )
+    return room

@@ -41,6 +41,7 @@ class Modelled:
         model: arrays for the compiled kernels.
         origin: (2,) added to local coordinates it gives the scene's.
         radii: (n,) of the balls.
+        tallies: how many counts of bounces there are: one a wall; :meth:`by_edge` has one an edge and one a vertex.
         box: (x_min, y_min, x_max, y_max) that no wall reaches beyond, in the scene's coordinates.
     """
 
@@ -65,6 +66,7 @@ class Modelled:
         """
         self.box = _box(scene.walls)
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
+        self.tallies = len(scene.walls)
         self._size = _check_sizes(scene)
         self.origin = local_origin(scene.walls.vertices) if origin is None else origin
         self.model = self._made(scene, index, machine_code, fine)
@@ -73,6 +75,8 @@ class Modelled:
     def _made(self, scene: Scene, index: str, machine_code: bool, fine: bool) -> Model:
         walls, radius = scene.walls, float(self.radii.max(initial=0.0))
         vertices, starts, ends = walls.vertices - self.origin, walls.edge_starts, walls.edge_ends
+        edge_wall = np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets))
+        corner_wall = np.repeat(np.arange(len(walls)), np.diff(walls.offsets))
         lines, bulges = lines_of(vertices, starts, ends), walls.bulges[starts]
         arcs = arcs_of(lines, bulges)
         corners = no_corners()
@@ -93,8 +97,10 @@ class Modelled:
             lines=lines,
             arcs=arcs,
             corners=corners.records,
-            edge_wall=np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)),
-            corner_wall=np.repeat(np.arange(len(walls)), np.diff(walls.offsets)),
+            edge_wall=edge_wall,
+            corner_wall=corner_wall,
+            edge_tally=edge_wall,
+            corner_tally=corner_wall,
             restitution=_restitution(scene),
             static_friction=None if gravity is None else _static_friction(scene),
             one_sided=_one_sided(scene),
@@ -131,6 +137,14 @@ class Modelled:
             return None
         other = copy(self)
         other.radii = radii
+        return other
+
+    def by_edge(self) -> Modelled:
+        """Give the same model with bounces counted by edge, then by vertex."""
+        edges, corners = len(self.model.edge_wall), len(self.model.corner_wall)
+        other = copy(self)
+        other.model = self.model._replace(edge_tally=np.arange(edges), corner_tally=np.arange(edges, edges + corners))
+        other.tallies, other._lists = edges + corners, None
         return other
 
     @property

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import concurrent.futures
 from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.arguments import of_type, whole_number
+from wallkit.arguments import flag, of_type, whole_number
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.batches.lockstep import Outcome
 from wallkit.scene.scene import Scene, SceneError
@@ -18,6 +18,7 @@ from wallkit.simulation.run import Ending
 from wallkit.simulation.simulate import limits
 from wallkit.simulation.survey_backends import LEAST, way_to_fly
 from wallkit.simulation.threads import cores, in_threads
+from wallkit.walls import Walls
 
 
 @dataclass(eq=False, repr=False)
@@ -30,6 +31,8 @@ class Totals:
         velocity: (n, 2) its last velocity.
         time: (n,) when it ended.
         hits: (W,) int64, bounces of all balls by wall.
+        edge_hits: (E,) int64, the same by edge, in the order of all walls' edges, where asked for; else None.
+        vertex_hits: (V,) int64, bounces off vertices, which discs alone meet and which are no edge's; likewise.
         ending: (n,) uint8, see :class:`wallkit.simulation.run.Ending`.
         crossings: (S, 2) int64, how often balls entered each sensor of the scene, and left it: crossed it against and
             along its outward normal.
@@ -42,6 +45,8 @@ class Totals:
     hits: NDArray[np.int64]
     ending: NDArray[np.uint8]
     crossings: NDArray[np.int64]
+    edge_hits: NDArray[np.int64] | None = None
+    vertex_hits: NDArray[np.int64] | None = None
 
     def __repr__(self) -> str:
         counts = np.bincount(self.ending, minlength=len(Ending))
@@ -61,6 +66,7 @@ def survey(
     threads: int | None = None,
     executor: Executor | None = None,
     check: bool = True,
+    by_edge: bool = False,
 ) -> Totals:
     """Fly every ball until a time, a number of bounces, or an ending of its own, and keep only totals.
 
@@ -75,6 +81,7 @@ def survey(
         executor: threads of your own to use instead (a ``concurrent.futures.ThreadPoolExecutor``). The balls' totals
             are written into memory that all threads share, so that processes cannot take their place.
         check: look whether a disc overlaps a wall at the start; False where that is known, to save the time.
+        by_edge: count bounces by edge and by vertex too.
 
     Raises:
         SceneError: neither limit was given, an argument is none of what may be, or the scene cannot be simulated.
@@ -86,15 +93,29 @@ def survey(
         scene, "scene", (Scene, Prepared), "a Scene, or what prepare() made of one", error=SceneError, code="bad-scene"
     )
     ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
-    scene, modelled = ready.scene, ready.modelled
+    if flag(by_edge, "by_edge", error=SceneError, code="bad-argument"):
+        ready = replace(ready, modelled=ready.modelled.by_edge())
+    walls, modelled = ready.scene.walls, ready.modelled
     threads = max(1, min(cores() if threads is None else threads, len(modelled.radii) // LEAST))
     outcome = _room_for(len(modelled.radii))
     with way_to_fly(ready)(ready, limit_time, limit_bounces, outcome, threads) as work:
         found, *others = in_threads(work, threads, executor)
     for other in others:
         found += other
-    hits, crossings = found[: len(scene.walls)], found[len(scene.walls) :].reshape(-1, 2)
-    return Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings)
+    hits, crossings = found[: modelled.tallies], found[modelled.tallies :].reshape(-1, 2)
+    totals = Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings)
+    if by_edge:
+        totals.edge_hits, totals.vertex_hits = hits[: len(walls.edge_starts)], hits[len(walls.edge_starts) :]
+        totals.hits = hits_by_wall(walls, totals.edge_hits, totals.vertex_hits)
+    return totals
+
+
+def hits_by_wall(walls: Walls, edge_hits: NDArray[np.int64], vertex_hits: NDArray[np.int64]) -> NDArray[np.int64]:
+    """(W,) bounces by wall, of those by edge and by vertex."""
+    hits = np.zeros(len(walls), dtype=np.int64)
+    np.add.at(hits, np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets)), edge_hits)
+    np.add.at(hits, np.repeat(np.arange(len(walls)), np.diff(walls.offsets)), vertex_hits)
+    return hits
 
 
 def check_threads(threads: int | None) -> int | None:

@@ -40,14 +40,14 @@ Flying = Callable[[Prepared, float, int, Outcome, int], AbstractContextManager[W
 
 
 def nothing_found(ready: Prepared) -> NDArray[np.int64]:
-    """(W + 2 S,) of 0: bounces by wall, then for each sensor how often it was entered, and left."""
+    """(W + 2 S,) of 0: bounces by wall, or edge and vertex; then for each sensor how often it was entered, and left."""
     sensors = ready.scene.sensors if ready.sensors is not None else None
-    return np.zeros(len(ready.scene.walls) + 2 * len(sensors or ()), dtype=np.int64)
+    return np.zeros(ready.modelled.tallies + 2 * len(sensors or ()), dtype=np.int64)
 
 
 @contextmanager
 def _fly_in_step(ready: Prepared, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
-    """Give what a thread does to fly balls in lockstep, until none is left: bounces by wall."""
+    """Give what a thread does to fly balls in lockstep, until none is left: counts of bounces."""
     model, start, radius = ready.modelled.model, _start(ready), _radius(ready)
 
     def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
@@ -62,7 +62,7 @@ def _fly_in_step(ready: Prepared, until: float, limit: int, outcome: Outcome, _t
 
 @contextmanager
 def _fly_as_waves(ready: Prepared, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
-    """Give what a thread does to fly balls as a wave through the grid, until none is left: bounces by wall."""
+    """Give what a thread does to fly balls as a wave through the grid, until none is left: counts of bounces."""
     model, start, radius = ready.modelled.model, _start(ready), _radius(ready)
     order = np.arange(len(ready.modelled.radii)) if ready.order is None else ready.order
 
@@ -85,11 +85,11 @@ def _fly_as_waves(ready: Prepared, until: float, limit: int, outcome: Outcome, _
 
 @contextmanager
 def _from_one_counter(ready: Prepared, batches: Callable[[Queue, NDArray[np.int64]], Batch]) -> Iterator[Work]:
-    """Give what a thread does that takes its balls from a counter shared by all, batch by batch: bounces by wall."""
+    """Give what a thread does that takes its balls from a counter shared by all, batch by batch: counts of bounces."""
     count, counter = len(ready.modelled.radii), np.zeros(1, dtype=np.int64)
 
     def work() -> NDArray[np.int64]:
-        hits = np.zeros(len(ready.scene.walls), dtype=np.int64)
+        hits = np.zeros(ready.modelled.tallies, dtype=np.int64)
         fly_below = batches(Queue(counter, np.zeros(2, dtype=np.int64)), hits)
         for stop in (*range(AT_ONCE, count, AT_ONCE), count):
             fly_below(stop)
@@ -129,7 +129,7 @@ def _scratch(rows: int) -> Scratch:
 
 @contextmanager
 def _fly_one_by_one(ready: Prepared, until: float, limit: int, outcome: Outcome, threads: int) -> Iterator[Work]:
-    """Give what a thread does to fly balls one after the other, part by part: bounces by wall, crossings by sensor."""
+    """Give what a thread does to fly balls one after the other, part by part: counts of bounces, then of crossings."""
     modelled = ready.modelled
     order = np.arange(len(modelled.radii)) if ready.order is None else ready.order
     x0, y0 = modelled.origin.tolist()
@@ -155,13 +155,13 @@ def _fly(
     ready: Prepared, radii: FloatArray, states: FloatArray, counts: NDArray[np.int64], until: float, limit: int,
     found: NDArray[np.int64],
 ) -> None:  # fmt: skip
-    model, walls = ready.modelled.model, len(ready.scene.walls)
+    model, tallies = ready.modelled.model, ready.modelled.tallies
     if ready.sensors is None:
         compiled(fly_all)(model, model.gravity, radii, states, counts, until, limit, found, np.empty(0), 1)
         return
     pull, log = None if model.gravity is None else np.empty(2), np.empty(LOGGED * LOG_STRIDE)
     compiled(fly_sensed)(
-        model, model.gravity, pull, ready.sensors, walls, radii, states, counts, until, limit, found, log, LOGGED
+        model, model.gravity, pull, ready.sensors, tallies, radii, states, counts, until, limit, found, log, LOGGED
     )
 
 

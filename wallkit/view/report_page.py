@@ -28,7 +28,7 @@ def report_html(report: Report) -> str:
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
-        f"<title>wallkit: speed against error</title><style>{_css()}</style></head>\n<body><main>\n{body}\n"
+        f"<title>wallkit: speed against error</title><style>{css()}</style></head>\n<body><main>\n{body}\n"
         f"<footer>{escape(report.foot())}</footer>\n</main></body></html>\n"
     )
 
@@ -36,28 +36,30 @@ def report_html(report: Report) -> str:
 def _contest(found: Contest, *, shown: bool) -> str:
     rows = [tables.point_row(point) for points in found.series().values() for point in points]
     opened = " open" if shown else ""
-    table = _table(tables.POINT_HEAD, rows)
-    return f"<details{opened}><summary>{escape(tables.title(found))}</summary>{table}</details>"
+    figures = table(tables.POINT_HEAD, rows)
+    return f"<details{opened}><summary>{escape(tables.title(found))}</summary>{figures}</details>"
 
 
 def _horizon(report: Report) -> str:
     text = "Bounces good to 1e-6: as the run itself promises, and as a run with as many digits as it takes shows."
     rows = [tables.departure_row(row) for row in report.departures]
-    return f"<h2>How far a run holds</h2><p>{text}</p>{_table(tables.DEPARTURE_HEAD, rows)}"
+    return f"<h2>How far a run holds</h2><p>{text}</p>{table(tables.DEPARTURE_HEAD, rows)}"
 
 
 def _costs(report: Report) -> str:
     rows = [tables.cost_row(row) for row in report.costs]
-    return f"<h2>What each modelled thing costs</h2>{_table(tables.COST_HEAD, rows)}"
+    return f"<h2>What each modelled thing costs</h2>{table(tables.COST_HEAD, rows)}"
 
 
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Write a table."""
     top = "".join(f"<th>{escape(word)}</th>" for word in head)
     body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
     return f'<div class="wide"><table><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
-def _css() -> str:
+def css() -> str:
+    """Give the style of a page of figures and tables."""
     rest = (
         "body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,sans-serif}"
         "main{max-width:1180px;margin:0 auto;padding:12px}figure{margin:0;overflow-x:auto}h2{margin:28px 12px 8px}"

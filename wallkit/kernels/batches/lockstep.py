@@ -39,7 +39,8 @@ ROOM, REACH = FROM_X, FROM_Y
 """Of discs; points alone need to know where they came from."""
 SCRATCH = 22 * LANES
 ROW_SIZE = 4
-"""Normal of a line or place of a corner, 2 / (n.n), wall: a row for each of ``model.ids``. Lanes name features so."""
+"""Normal of a line or place of a corner, 2 / (n.n), count of bounces (``Model.edge_tally``): a row for each of
+``model.ids``. Lanes name features so."""
 NONE = float(NO_HIT)
 STILL_LIMIT = float(still_limit(None))
 MANY = 2.0**20
@@ -99,7 +100,7 @@ def fly_in_step(model, radius, start, queue, stop, until, limit, hits, outcome, 
         stop: number of the ball after the last.
         until: time at which to stop, or inf.
         limit: number of bounces at which to stop.
-        hits: bounces by wall, added to.
+        hits: counts of bounces, see ``Model.edge_tally``, added to.
         outcome: written for these balls.
         scratch: see ``Scratch``.
     """
@@ -164,10 +165,10 @@ def _list_rows(model, rows):
     lines, count = model.cells[0].corners, model.cells[0].end
     for k in range(lines):
         line = model.lines[model.ids[k]]
-        rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3] = line.nx, line.ny, line.twice, model.edge_wall[model.ids[k]]
+        rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3] = line.nx, line.ny, line.twice, model.edge_tally[model.ids[k]]
     for k in range(lines, count):
         corner = model.corners[model.ids[k]]
-        rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3] = corner.x, corner.y, 0.0, model.corner_wall[model.ids[k]]
+        rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3] = corner.x, corner.y, 0.0, model.corner_tally[model.ids[k]]
 
 
 @kernel
@@ -358,7 +359,7 @@ def _bounce(s, radius, lines, until, limit):
 
 @kernel
 def _count(s, hits, met, rows, flying):
-    """Count bounces by wall; if there is but one, those of a ball count when it has ended."""
+    """Count bounces; if there is but one count, those of a ball count when it has ended."""
     if len(hits) == 1:
         return
     for i in range(flying):

@@ -62,6 +62,7 @@ from wallkit.kernels.flight.flight import (
     normal_of,
     passes,
     still_limit,
+    tally_of,
     tolerance_of,
     wall_of,
 )
@@ -134,7 +135,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
         stop: the place after the last.
         until: time at which to stop, or inf.
         limit: number of bounces at which to stop.
-        hits: bounces by wall, added to.
+        hits: counts of bounces, see ``Model.edge_tally``, added to.
         outcome: written for these balls, see ``Outcome``.
         scratch: see ``WaveScratch``.
     """
@@ -326,7 +327,7 @@ def _count(model, met, count, hits):
     """Count bounces off features, many together, so that one does not wait for another's memory: 0 are left."""
     # Two loops: the walls of all features are fetched before the first is counted.
     for k in range(count):
-        met[k] = wall_of(model, met[k])
+        met[k] = tally_of(model, met[k])
     for k in range(count):
         hits[met[k]] += 1
     return 0

@@ -60,7 +60,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
         counts: integers of the ball, see ``Counts``.
         until: time at which to stop, or inf.
         limit: number of bounces at which to stop.
-        hits: bounces by wall, added to.
+        hits: counts of bounces, see ``Model.edge_tally``, added to.
         log: flat floats, ``LOG_STRIDE`` a contact; empty to keep no contacts.
         capacity: contacts that fit in ``log``.
 
@@ -103,7 +103,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                 continue
         ball, nx, ny, wall = turned(model, gravity, radius, feature, ball)
         before, last, bounces = (before if feature == last else last), feature, bounces + 1
-        hits[wall] += 1
+        hits[tally_of(model, feature)] += 1
         noted = note(log, noted, clock, ball, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
         ball, grip, ending = after_bounce(model, gravity, radius, feature, wall, ball, grip, nx, ny, tolerance)
     ball, clock, start, ending = flown_on(model, gravity, ball, clock, start, ending, until)
@@ -334,6 +334,12 @@ def normal_of(model, feature, x, y):
 def wall_of(model, feature):
     """Wall of an edge or a corner."""
     return model.edge_wall[feature] if feature >= 0 else model.corner_wall[-2 - feature]
+
+
+@kernel
+def tally_of(model, feature):
+    """Which count of bounces one off an edge or a corner is added to."""
+    return model.edge_tally[feature] if feature >= 0 else model.corner_tally[-2 - feature]
 
 
 @kernel

@@ -183,13 +183,13 @@ def fly_sensed(model, gravity, pull, sensors, walls, radii, states, counts, unti
         gravity: ``model.gravity``.
         pull: scratch of 2 floats, None without gravity.
         sensors: their model, with the same local origin.
-        walls: their number, W.
+        walls: how many counts of bounces there are, W.
         radii: (n,) of the balls.
         states: (n, STATE_SIZE), read and written.
         counts: (n, 10), see ``Counts``, read and written.
         until: time at which to stop, or inf.
         limit: number of bounces at which to stop.
-        found: (W + 2 S,) added to: bounces by wall, then for each sensor how often it is entered, and left.
+        found: (W + 2 S,) added to: counts of bounces, then for each sensor how often it is entered, and left.
         log: scratch of capacity LOG_STRIDE floats.
         capacity: 1 or more.
     """
