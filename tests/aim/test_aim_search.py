@@ -1,6 +1,7 @@
 """Aim by search: curves, discs at corners, gravity; beside closed forms, rounded walls and dense fans of shots."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -14,6 +15,7 @@ from wallkit.levels import obstacles, unfolding
 from wallkit.levels import search as searching
 from wallkit.levels.search import Shooter
 from wallkit.levels.unfolding import unfold
+from wallkit.view.aim_picture import aim_canvas
 
 
 def sinai(curves):
@@ -131,6 +133,10 @@ def test_under_gravity_two_parabolas_reach_a_target(monkeypatch):
         moved = 10 * time * np.array([-math.sin(t), math.cos(t)])
         across = abs(moved[0] * velocity[1] - moved[1] * velocity[0]) / np.hypot(*velocity)
         assert window.width == pytest.approx(2 * 0.2 / across, rel=0.02)
+    picture = aim_canvas(wallkit.Scene(floor, gravity=(0, -10)), windows, speed=10).to_svg()
+    paths = re.findall(r'<path class="wk-path[^>]* d="([^"]*)"', picture)
+    assert len(paths) == 2
+    assert all(path.count("Q") == 1 for path in paths)  # a parabola each
 
 
 def test_rolling_friction_lets_a_ball_fall_short(monkeypatch):
@@ -162,3 +168,14 @@ def test_nothing_moves_from_a_dead_wall(monkeypatch):
     assert windows.searched_share == 1.0
     up = next(window for window in windows if window.bounces == 1)  # whatever meets the wall below the target
     assert up.low == pytest.approx(0.0, abs=1e-6)
+
+
+def test_borders_are_where_simulate_has_them():
+    """A billionth of a radian within a border a shot reaches the target, and outside it does not, or by another way."""
+    rings, start, target = room(2)
+    level = scene(rings[:3])
+    windows = wallkit.aim(level, start, target, 5)
+    assert len(windows) > 20
+    angle = np.concatenate([border + off for border in (windows.low, windows.high) for off in (-1e-9, 1e-9)])
+    flown = Shooter.of(level, start, target, 5, 0.0, 1.0).fly(angle)
+    assert flown.reached.tolist() == by_windows(windows, angle).tolist()

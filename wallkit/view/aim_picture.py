@@ -16,17 +16,21 @@ from wallkit.simulation.simulate import simulate
 from wallkit.view.canvas import Canvas, Command, Disc, Label, Shape
 from wallkit.view.frame import Frame, united
 from wallkit.view.picture import MARGIN, WIDTH, draw_walls, finish, started
-from wallkit.view.run_picture import draw_sensors, scene_box
+from wallkit.view.run_picture import draw_paths, draw_sensors, scene_box
 from wallkit.view.theme import RAMP_STEPS
+from wallkit.view.tracks import tracks
 
 MOST_DRAWN = 60
 """Beams that are drawn, the widest; the picture says so where there are more."""
+_LOOKS, _FALL = 4001, 100.0  # places on the last flight of a falling shot; how long it is looked at without an end
 INNER = 2.0**-20
 """Of its width: so far within a window its outermost shots are flown."""
 
 
 def aim_canvas(scene: Scene, windows: Windows, *, speed: float = 50.0, title: str = "", width: float = WIDTH) -> Canvas:
     """Draw windows as beams that leave the ball and end at the target, coloured by bounces; the widest has a line.
+
+    Under gravity a beam is drawn as the path in its middle.
 
     Args:
         scene: in which they were found.
@@ -43,9 +47,10 @@ def aim_canvas(scene: Scene, windows: Windows, *, speed: float = 50.0, title: st
     draw_walls(canvas, scene.walls, frame, free=np.array([windows.start]))
     draw_sensors(canvas, scene, frame)
     shown = np.argsort(-windows.width, kind="stable")[:MOST_DRAWN]
+    falls = scene.gravity is not None and any(scene.gravity)
     for index in shown[::-1].tolist():
-        _draw_beam(canvas, frame, scene, windows, index, speed)
-    if len(shown):
+        (_draw_path if falls else _draw_beam)(canvas, frame, scene, windows, index, speed)
+    if len(shown) and not falls:
         middle = _paths(scene, windows, [windows[int(shown[0])].middle], int(windows.bounces[shown[0]]), speed)[0]
         _line(canvas, frame, middle, windows.target)
     canvas.add(Disc("target", *frame.point(x, y), max(r * frame.scale, 3.0), title="target"))
@@ -75,11 +80,34 @@ def _draw_beam(canvas: Canvas, frame: Frame, scene: Scene, windows: Windows, ind
         corners = (low[k], low[k + 1], high[k + 1], high[k])
         commands += [("M" if i == 0 else "L", *corner) for i, corner in enumerate(corners)]
         commands.append(("Z",))
-    step = round((RAMP_STEPS - 1) * window.bounces / max(windows.most_bounces, 1))
+    step = _step(windows, window.bounces)
     by = "searched" if window.searched else "unfolded"
     told = f"{window.width:.3g} rad at {math.degrees(window.middle):.4f} degrees, {window.bounces} bounces, {by}"
     for k in range(0, len(commands), 5):  # a path of its own for each flight: even-odd would cut out where they cross
         canvas.add(Shape("beam", commands[k : k + 5], step=step, opacity=0.35, title=told))
+
+
+def _draw_path(canvas: Canvas, frame: Frame, scene: Scene, windows: Windows, index: int, speed: float) -> None:
+    """Draw the shot in the middle of a window, with its parabolas, until it enters the target."""
+    window = windows[index]
+    velocity = speed * np.array([[math.cos(window.middle), math.sin(window.middle)]])
+    shot = replace(scene, balls=Balls([windows.start], velocity, windows.radius), sensors=None)
+    run = simulate(shot, bounces=window.bounces + 1)
+    met = run.contacts_of(0)
+    met = met["time"][(met["kind"] == Kind.EDGE) | (met["kind"] == Kind.VERTEX)]
+    since = float(met[window.bounces - 1]) if window.bounces else 0.0
+    until = float(met[window.bounces]) if len(met) > window.bounces else since + _FALL * (since or 1.0)
+    times = np.linspace(since, until, _LOOKS)
+    x, y, r = windows.target
+    near = np.hypot(*(run.position(times)[:, 0] - (x, y)).T)
+    end = float(times[int(np.argmax(near < r)) if (near < r).any() else int(near.argmin())])
+    flight = tracks(simulate(shot, until=end))
+    draw_paths(canvas, flight, np.full(len(flight.time), _step(windows, window.bounces)), frame)
+
+
+def _step(windows: Windows, bounces: int) -> int:
+    """Give the step on the ramp of so many bounces."""
+    return round((RAMP_STEPS - 1) * bounces / max(windows.most_bounces, 1))
 
 
 def _line(canvas: Canvas, frame: Frame, path: FloatArray, target: tuple[float, float, float]) -> None:
