@@ -49,12 +49,13 @@ def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
         return None
     lines = [np.vstack([ring, ring[:1]]) if c else ring for ring, c in zip(rings, walls.closed, strict=True)]
     noded = shapely.node(shapely.multilinestrings([shapely.linestrings(line) for line in lines]))
+    tree = shapely.STRtree(shapely.get_parts(noded))
     best: Spot | None = None
     for face in _faces(walls, noded, anywhere):
         # A circle in a face of area A has at most the radius sqrt(A / pi): smaller faces cannot win any more.
         if best and math.sqrt(face.area / math.pi) <= best.room:
             continue
-        spot = _spot(face, noded)
+        spot = _spot(face, tree)
         better = spot and (best is None or spot.room > best.room)
         if spot and better and (anywhere or not _in_material(walls, spot)):
             best = spot
@@ -66,7 +67,7 @@ def _faces(walls: Walls, noded: Any, anywhere: bool) -> list[Any]:
     import shapely
 
     bounded = shapely.get_parts(shapely.polygonize([*shapely.get_parts(noded)]))
-    faces = [*bounded] if anywhere else [*bounded[~_solid_faces(walls, bounded)]]
+    faces = [*bounded] if anywhere else _largest_free(walls, bounded)
     if not walls.closed.all() and (anywhere or walls.solid is None or not walls.solid.room):
         around = shapely.get_parts(shapely.difference(shapely.envelope(noded), shapely.union_all(bounded)))
         around = [part for part in around if part.geom_type == "Polygon" and not part.is_empty]
@@ -78,22 +79,32 @@ def _faces(walls: Walls, noded: Any, anywhere: bool) -> list[Any]:
     return faces[:_FACES]
 
 
-def _solid_faces(walls: Walls, faces: Any) -> Any:
-    """Mark faces that are material by what the import has decided; none where nobody has."""
+def _largest_free(walls: Walls, faces: Any) -> list[Any]:
+    """Give the largest faces that are no material by what the import has decided; all where nobody has.
+
+    Some at a time: to ask every face of a nest of n walls takes n^2 steps.
+    """
     import shapely
 
-    if walls.solid is None or not len(faces):
-        return np.zeros(len(faces), dtype=np.bool_)
-    inner = shapely.get_coordinates(shapely.point_on_surface(faces))
-    around, _ = walls_around(straight_edges(walls), inner)
-    return (np.bincount(around, minlength=len(faces)) + walls.solid.room) % 2 == 1
+    if walls.solid is None:
+        return [*faces]
+    order = np.argsort(-shapely.area(faces), kind="stable")
+    edges, chosen = straight_edges(walls), []
+    for start in range(0, len(order), 4 * _FACES):
+        some = faces[order[start : start + 4 * _FACES]]
+        around, _ = walls_around(edges, shapely.get_coordinates(shapely.point_on_surface(some)))
+        solid = (np.bincount(around, minlength=len(some)) + walls.solid.room) % 2 == 1
+        chosen += [*some[~solid]]
+        if len(chosen) >= _FACES:
+            break
+    return chosen
 
 
 def _is_nearly_closed(face: Any, noded: Any) -> bool:
     """Tell whether most ways out of a face's roomiest spot end at a wall."""
     import shapely
 
-    spot = _spot(face, noded)
+    spot = _spot(face, shapely.STRtree(shapely.get_parts(noded)))
     if spot is None:
         return False
     x0, y0, x1, y1 = noded.bounds
@@ -116,11 +127,14 @@ def _in_material(walls: Walls, spot: Spot) -> bool:
 
 
 def _spot(face: Any, walls: Any) -> Spot | None:
+    """The roomiest spot of a face, with a tree of all lines: some may lie in it."""
     import shapely
 
     size = math.sqrt(shapely.area(face))
     free = face
-    inner = shapely.intersection(walls, shapely.buffer(face, -1e-6 * size))
+    within = shapely.buffer(face, -1e-6 * size)
+    lines = walls.geometries[np.sort(walls.query(within, predicate="intersects"))]
+    inner = shapely.intersection(shapely.multilinestrings(lines), within)
     if not shapely.is_empty(inner):  # open walls inside: thickened by a hair, they become holes
         free = shapely.difference(face, shapely.buffer(inner, 1e-6 * size))
         free = max(shapely.get_parts(free), key=shapely.area, default=face)
