@@ -12,7 +12,7 @@ _MAX_APART = 100  # findings, beyond which nobody reads them one by one
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class FindingKind:
     """A kind of finding.
 
     Attributes:
@@ -34,7 +34,7 @@ class Kind:
 class _Entry:
     """One kind's first case and how many there were."""
 
-    kind: Kind
+    kind: FindingKind
     position: int | None
     what: str
     layer: str
@@ -52,7 +52,7 @@ class Findings:
 
     def add(
         self,
-        kind: Kind,
+        kind: FindingKind,
         position: int | None,
         *,
         what: str = "",
@@ -84,7 +84,7 @@ class Findings:
         x, y = at if at is not None and all(map(good_coordinate, at)) else (None, None)
         self._entries[key] = _Entry(kind, position, what, layer, name, x, y, count)
 
-    def has(self, kind: Kind) -> bool:
+    def has(self, kind: FindingKind) -> bool:
         """Tell whether there was a case of a kind."""
         return any(entry.kind is kind for entry in self._entries.values())
 

@@ -108,7 +108,7 @@ def test_every_example_runs(example, folder, capsys):
 
 # A code stands in the source as code="...", or at one place of a call that makes or collects findings.
 PLACES = {
-    "Kind": 0, "Problem": 0, "count": 0, "note": 0, "note_where": 0, "say": 0, "_report": 0,
+    "FindingKind": 0, "Problem": 0, "count": 0, "note": 0, "note_where": 0, "say": 0, "_report": 0,
     "problem": 1, "refused": 4,
 }  # fmt: skip
 SEVERITIES = {"error", "warning", "info"}

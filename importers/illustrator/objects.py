@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from importers.drawing import DrawnPath, FillRule, Layer, Segment
-from importers.findings import Findings, Kind
+from importers.findings import FindingKind, Findings
 from importers.illustrator import findings
 from importers.illustrator.state import Group, Paint, colour_of
 from importers.illustrator.text import decode
@@ -64,7 +64,7 @@ class Objects:
         self._hidden = False
         self._locked = False
         self._text = False
-        self._objects = 0  # depth in `/Kind : ... ;`
+        self._objects = 0  # depth in `/FindingKind : ... ;`
         self._group = Group("root")
         self._bare_layer = ""  # a layer's name that came without `Lb`
         self._count = 0  # of segments, paths and groups
@@ -77,7 +77,7 @@ class Objects:
         """Raise LimitError for what was hit at the operator at hand."""
         raise limit_error(limit, f"{figure:,}", file=self.file, line=self.source.line(self.position))
 
-    def find(self, kind: Kind, *, what: str = "", position: int | None = None) -> None:
+    def find(self, kind: FindingKind, *, what: str = "", position: int | None = None) -> None:
         """Note a finding at the operator at hand, or at `position`."""
         point = self._segments[-1][-2:] if self._segments else None
         place = self.position if position is None else position
@@ -209,7 +209,7 @@ class Objects:
 
     # --- what is no path --------------------------------------------------------------------------------
 
-    def _leave_out(self, kind: Kind, _operands: Operands) -> None:
+    def _leave_out(self, kind: FindingKind, _operands: Operands) -> None:
         self.find(kind)
         self.named = None
 
@@ -234,7 +234,7 @@ class Objects:
         self._leave_out(findings.PLACED, [])
 
     def _begin_object(self, operands: Operands) -> None:
-        """``/Kind :``: an object of newer versions that is no path; ``;`` ends it."""
+        """``/FindingKind :``: an object of newer versions that is no path; ``;`` ends it."""
         names = [operand.raw for operand in operands if isinstance(operand, Text)]
         if not self._objects and names:
             kind = names[-1].decode("latin-1")[:24]

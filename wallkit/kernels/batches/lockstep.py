@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from wallkit.kernels.batches.ball_queue import NO_BALL, next_ball
 from wallkit.kernels.flight.flight import has_left, still_limit, tolerance_of
+from wallkit.kernels.flight.motion import reflect
 from wallkit.kernels.flight.point_in_corner import settle
 from wallkit.kernels.impact.line_impact import scan_corners, scan_point, slack_of
 from wallkit.kernels.jit import kernel, rare_kernel
@@ -336,11 +337,7 @@ def _bounce(s, radius, lines, until, limit):
             at_corner = row >= lines
             nx, ny = x - nx if at_corner else nx, y - ny if at_corner else ny
             twice = 2.0 / (nx * nx + ny * ny) if at_corner else twice
-        # v - 2 (v.n) n / n.n, scaled to the squared speed: ``motion.reflect`` without restitution.
-        normal = vx * nx + vy * ny
-        factor = normal * twice
-        wx, wy = vx - factor * nx, vy - factor * ny
-        scale = 1.5 - 0.5 * ((wx * wx + wy * wy) / energy)
+        wx, wy, _energy = reflect(None, 0, nx, ny, twice, vx, vy, energy)
         bounces = s[BOUNCES + i] + 1.0 if hit else s[BOUNCES + i]
         ending = float(BOUNCE_LIMIT) if bounces >= limit else float(RUNNING)
         ending = ending if hit else float(COLLAPSE)
@@ -348,8 +345,8 @@ def _bounce(s, radius, lines, until, limit):
         open_end = float(LEFT_SCENE) if until == math.inf else float(TIME_REACHED)
         s[ENDING + i] = open_end if row == NONE else ending
         s[X + i], s[Y + i], s[TIME + i], s[LOST + i] = x, y, time, lost
-        s[VX + i] = wx * scale if hit else vx
-        s[VY + i] = wy * scale if hit else vy
+        s[VX + i] = wx if hit else vx
+        s[VY + i] = wy if hit else vy
         s[LAST + i] = row if hit else s[LAST + i]
         s[BOUNCES + i], s[STILL + i] = bounces, still
         s[BEST + i] = (until - time) - lost

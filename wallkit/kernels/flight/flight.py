@@ -8,8 +8,9 @@ from wallkit.kernels.flight.damping import free_time, last_flight, slowed
 from wallkit.kernels.flight.gravity import bounce, facing, first_contact, kept_energy, lifted, move
 from wallkit.kernels.flight.guide import guide
 from wallkit.kernels.flight.motion import advance
-from wallkit.kernels.flight.point_in_corner import normal_at, settle
+from wallkit.kernels.flight.point_in_corner import settle
 from wallkit.kernels.flight.resting import held_after, keep, stopped_between
+from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.records import (
     ABSORBED,

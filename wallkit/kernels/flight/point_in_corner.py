@@ -11,8 +11,9 @@ import math
 
 from wallkit.kernels.flight.motion import reflect
 from wallkit.kernels.impact.arc_impact import holds
+from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.index.grid import home
-from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.jit import rare_kernel
 from wallkit.kernels.records import AMBIGUOUS, COLLAPSES, NO_HIT
 
 SAME = 1e-9
@@ -109,21 +110,6 @@ def _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tol
         tx, ty = -tx, -ty
     scale = math.sqrt((dx * dx + dy * dy) * (tx * tx + ty * ty))
     return (dx * tx + dy * ty) / scale
-
-
-@kernel
-def normal_at(model, arcs, edge, x, y):
-    """A normal of an edge at a point on it, any length, and 2 / (n.n): outward of a line, out of an arc's circle.
-
-    The normal of an arc, turned a quarter to the left, points from its a to its b, as that of a line does.
-    """
-    if arcs is not None:
-        arc = arcs[edge]
-        if arc.radius > 0.0:
-            nx, ny = x - arc.ax + arc.sx, y - arc.ay + arc.sy
-            return nx, ny, 2.0 / (nx * nx + ny * ny)
-    line = model.lines[edge]
-    return line.nx, line.ny, line.twice
 
 
 @rare_kernel

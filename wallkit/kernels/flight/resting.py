@@ -21,7 +21,8 @@ from wallkit.kernels.flight.gravity import LEVEL, kept_energy
 from wallkit.kernels.flight.guide import STRAIGHT, ahead_of, guide, off_guide, outside, press
 from wallkit.kernels.flight.obstacles import SMOOTH_JOINT, following, one_sided, side_after
 from wallkit.kernels.flight.pendulum import period
-from wallkit.kernels.flight.point_in_corner import came_from, normal_at, touching
+from wallkit.kernels.flight.point_in_corner import came_from, touching
+from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.index.grid import home
 from wallkit.kernels.jit import kernel, rare_kernel

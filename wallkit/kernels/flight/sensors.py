@@ -14,9 +14,10 @@ from wallkit.kernels.flight.flight import fly, normal_of
 from wallkit.kernels.flight.gravity import first_contact, move
 from wallkit.kernels.flight.guide import STRAIGHT, guide
 from wallkit.kernels.flight.motion import advance
-from wallkit.kernels.flight.point_in_corner import normal_at, touching
+from wallkit.kernels.flight.point_in_corner import touching
 from wallkit.kernels.flight.resting import side_of
 from wallkit.kernels.flight.sensors_on_circles import next_crossing_round
+from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.index.grid import home
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import COUNT, EDGE, FREE, LOG, LOG_STRIDE, NO_HIT, RUNNING, SLIDE, STATE
