@@ -19,7 +19,7 @@ from wallkit.scene.scene import Scene
 
 BOUNCES = 3  # the error is taken after so many: few enough that chaos has not yet mixed everything up
 WRONG = 0.01  # a ball is somewhere else when it is off by this part of the scene's size
-WAYS = ("exact", "stop", "full-step", "reflect-in-place")
+METHODS = ("exact", "stop", "full-step", "reflect-in-place")
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,7 +154,7 @@ def contestants(subject: Subject, effort: Effort, size: float) -> Iterator[engin
             yield engines.exact(subject.arcs(part * size), "exact, arcs", f"within {part * size:.2g}", part * size)
         if not subject.swept:
             yield engines.exact(best, "exact, arcs", "as drawn", 0.0)
-    for way in WAYS:
+    for way in METHODS:
         yield from (engines.stepped(best, way, dt) for dt in effort.steps)
     yield from engines.others(fine, best, list(effort.steps))
 

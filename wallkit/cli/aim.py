@@ -71,9 +71,8 @@ def aim_at(
 
     if out:
         check_picture_ending(Path(out).suffix, out)
-    place = None if start is None else pair(start, "--from")
     wishes = Wishes(
-        ball=() if place is None else (place,), radius=radius, speed=speed, gravity=_vector(gravity),
+        ball=() if start is None else (pair(start, "--from"),), radius=radius, speed=speed, gravity=_vector(gravity),
         restitution=restitution, tangential_restitution=tangential_restitution, friction=friction, drag=drag,
         bounces=bounces, importing=drawing_options.options_of(importing or {}),
     )  # fmt: skip

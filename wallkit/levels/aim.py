@@ -77,21 +77,16 @@ def aim(
                               least=1e-12, most=0.1)  # fmt: skip
     if progress is not None and not callable(progress):
         raise arguments.refused("progress", progress, "a function of one number, or None", SceneError, "bad-argument")
-    disc = target_of(scene, target)
-    pace = _speed(scene, speed)
+    disc, pace = target_of(scene, target), _speed(scene, speed)
     alone = replace(scene, balls=Balls([place], [(pace, 0.0)], size), sensors=None)
     check_starts(alone)
-    if not _unfolds(alone):
-        unfolded, intervals = None, np.array([[-math.pi, math.pi]])
-    else:
-        obstacles = obstacles_of(alone.walls, size)
-        unfolded = unfold(obstacles, place, disc, most, limit, progress)
-        unfolded = unfolded._replace(words=_of_edges(unfolded, obstacles.edge))
+    unfolded, intervals = None, np.array([[-math.pi, math.pi]])
+    if _unfolds(alone):
+        unfolded = _unfolded(alone.walls, size, place, disc, most, limit, progress)
         intervals = _to_search(unfolded)
     searched = None
     if len(intervals):
-        shooter = Shooter.of(alone, place, disc, most, size, pace)
-        searched = search(shooter, intervals, limit, finest, progress)
+        searched = search(Shooter.of(alone, place, disc, most, size, pace), intervals, limit, finest, progress)
     return _windows(alone, place, disc, most, unfolded, intervals, searched, finest)
 
 
@@ -129,9 +124,21 @@ def _unfolds(scene: Scene) -> bool:
     return not any(acts) and not dead
 
 
-def _of_edges(unfolded: Unfolded, edge: IntArray) -> IntArray:
-    words = unfolded.words
-    return np.where(words >= 0, edge[np.maximum(words, 0)] if len(edge) else words, NONE)
+def _unfolded(
+    walls: Walls,
+    radius: float,
+    place: Place,
+    disc: Disc,
+    bounces: int,
+    most_beams: int,
+    progress: Callable[[int], None] | None,
+) -> Unfolded:
+    """Unfold the walls, moved out by the radius; words name edges of the walls."""
+    obstacles = obstacles_of(walls, radius)
+    unfolded = unfold(obstacles, place, disc, bounces, most_beams, progress)
+    words, edge = unfolded.words, obstacles.edge
+    named = np.where(words >= 0, edge[np.maximum(words, 0)] if len(edge) else words, NONE)
+    return unfolded._replace(words=named)
 
 
 def _to_search(unfolded: Unfolded) -> FloatArray:

@@ -34,8 +34,9 @@ FINEST = 1e-7
 """Radians between neighbouring shots that differ, at the least, where neither reaches the target."""
 POLISHED = 1e-14
 """Radians to which the borders of a window are known."""
-CHUNK, MOST_FLIGHTS = 64, 1 << 24
-"""First gaps that are worked on together, and flights of all shots that they may come to: 32 bytes each in memory."""
+CHUNK, MOST_FLIGHTS = 1024, 1 << 23
+"""First pairs that are worked on together, and flights of all shots that they may come to: 32 bytes each in memory. Of
+more, fewer pairs are worked on together."""
 
 
 class Searched(NamedTuple):
@@ -171,48 +172,77 @@ def search(
     Raises:
         LimitError: it takes more shots.
     """
-    found, flown = [], 0
-    for low, high in intervals.tolist():
-        count = max(2, math.ceil((high - low) / FIRST_STEP))
-        angles = np.linspace(low, high, count + 1)
-        for first in range(0, count, CHUNK):
-            part, shots = _refined(shooter, angles[first : first + CHUNK + 1], finest, most_shots - flown)
-            flown += len(part)
-            found.append(_windows(part, shots))
-            if progress is not None:
-                progress(flown)
+    angle, interval = _first_shots(intervals)
+    found, flown, chunks = [], 0, [(first, CHUNK) for first in range(0, len(angle) - 1, CHUNK)][::-1]
+    while chunks:
+        first, size = chunks.pop()
+        last = first + size + 1  # neighbouring chunks share a shot
+        part = _refined(shooter, angle[first:last], interval[first:last], finest, most_shots - flown)
+        if part is None:
+            half = size // 2
+            chunks += [(first + half, size - half), (first, half)]
+            continue
+        flown += len(part[0])
+        found.append(_windows(*part))
+        if progress is not None:
+            progress(flown)
     if not found:
         return Searched(np.empty(0), np.empty(0), np.empty(0, np.int64), np.empty((0, shooter.bounces), np.int64), 0)
     low, high, bounces, words = (np.concatenate(parts) for parts in zip(*found, strict=True))
     return Searched(low, high, bounces, words, flown)
 
 
-def _refined(shooter: Shooter, angle: FloatArray, finest: float, most: int) -> tuple[FloatArray, Shots]:
-    """Fly shots in directions in rising order, and more between them: all directions in rising order, and the shots.
+def _first_shots(intervals: FloatArray) -> tuple[FloatArray, IntArray]:
+    """Choose the first directions, in rising order, both ends of each interval among them; and the interval of each."""
+    counts = [max(2, math.ceil((high - low) / FIRST_STEP)) + 1 for low, high in intervals.tolist()]
+    angles = [np.linspace(low, high, count) for (low, high), count in zip(intervals.tolist(), counts, strict=True)]
+    angle = np.concatenate(angles) if angles else np.empty(0)
+    return angle, np.repeat(np.arange(len(counts)), counts)
 
-    A pair is looked at once: when it is divided two new ones take its place.
+
+def _refined(
+    shooter: Shooter, angle: FloatArray, interval: IntArray, finest: float, most: int
+) -> tuple[FloatArray, IntArray, Shots] | None:
+    """Fly shots in directions in rising order, and more between them: all directions, their intervals, and the shots.
+
+    A pair is looked at once: when it is divided two new ones take its place. None if it comes to more than memory may
+    hold, and there are pairs that may be worked on one by one.
     """
-    shots, open_pairs = shooter.fly(angle), np.ones(len(angle) - 1, dtype=np.bool_)
+    shots, count, pairs = shooter.fly(angle), len(angle), len(angle) - 1
+    left = np.flatnonzero(interval[1:] == interval[:-1])
+    right = left + 1
     while True:
-        left = np.flatnonzero(open_pairs)
-        one, other = _rows(shots, left), _rows(shots, left + 1)
-        divide = left[_differ(shooter, angle[left + 1] - angle[left], one, other, finest)]
-        if not len(divide):
-            return angle, shots
-        middle = 0.5 * (angle[divide] + angle[divide + 1])
-        if len(angle) + len(divide) > min(most, MOST_FLIGHTS // (shooter.bounces + 1)):
+        divide = _differ(shooter, angle[right] - angle[left], _rows(shots, left), _rows(shots, right), finest)
+        left, right = left[divide], right[divide]
+        if not len(left):
+            order = np.lexsort((angle[:count], interval[:count]))
+            return angle[order], interval[order], _rows(shots, order)
+        more = count + len(left)
+        held = more > MOST_FLIGHTS // (shooter.bounces + 1)
+        if held and pairs > 1:
+            return None
+        if held or more > most:
             raise LimitError(
                 "more shots than are allowed for the directions that cannot be unfolded",
                 code="too-many-shots",
                 fix="allow fewer bounces, or more beams (most_beams=, --most-beams)",
             )
-        new = shooter.fly(middle)
-        order = np.insert(np.arange(len(angle)), divide + 1, len(angle) + np.arange(len(divide)))
-        open_pairs = np.zeros(len(order) - 1, dtype=np.bool_)
-        at = divide + np.arange(len(divide))
-        open_pairs[at] = open_pairs[at + 1] = True
-        angle = np.concatenate([angle, middle])[order]
-        shots = Shots(*(np.concatenate([a, b])[order] for a, b in zip(shots, new, strict=True)))
+        if more > len(angle):
+            angle, interval = _with_room(angle, 2 * more), _with_room(interval, 2 * more)
+            shots = Shots(*(_with_room(column, 2 * more) for column in shots))
+        angle[count:more] = 0.5 * (angle[left] + angle[right])
+        interval[count:more] = interval[left]
+        for column, new in zip(shots, shooter.fly(angle[count:more]), strict=True):
+            column[count:more] = new
+        middle = np.arange(count, more)
+        left, right, count = np.concatenate([left, middle]), np.concatenate([middle, right]), more
+
+
+def _with_room(array: Any, rows: int) -> Any:
+    """Give a copy with room for so many rows."""
+    larger = np.empty((rows, *array.shape[1:]), dtype=array.dtype)
+    larger[: len(array)] = array
+    return larger
 
 
 def _rows(shots: Shots, rows: IntArray) -> Shots:
@@ -241,12 +271,17 @@ def _differ(shooter: Shooter, width: FloatArray, one: Shots, other: Shots, fines
     return divided
 
 
-def _windows(angle: FloatArray, shots: Shots) -> tuple[FloatArray, FloatArray, IntArray, IntArray]:
-    """Put neighbouring shots that reach the target by the same word together."""
+def _windows(angle: FloatArray, interval: IntArray, shots: Shots) -> tuple[FloatArray, FloatArray, IntArray, IntArray]:
+    """Put neighbouring shots of an interval that reach the target by the same word together."""
     hit = np.flatnonzero(shots.reached >= 0)
     bounces = shots.reached[hit]
     words = np.where(np.arange(shots.word.shape[1] - 1)[None, :] < bounces[:, None], shots.word[hit][:, :-1], NO_HIT)
-    same = (np.diff(hit) == 1) & (bounces[1:] == bounces[:-1]) & (words[1:] == words[:-1]).all(axis=1)
+    same = (
+        (np.diff(hit) == 1)
+        & (np.diff(interval[hit]) == 0)
+        & (bounces[1:] == bounces[:-1])
+        & (words[1:] == words[:-1]).all(axis=1)
+    )
     if not len(hit):
         return np.empty(0), np.empty(0), bounces, words
     first = np.flatnonzero(np.concatenate([[True], ~same]))

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from wallkit.scene.drawn_scene import Drawn
 
 
-Kind = Literal["drawing", "walls", "scene"]
+FileKind = Literal["drawing", "walls", "scene"]
 
 _TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
@@ -62,7 +62,7 @@ class SceneFile:
     importing: ImportOptions | None = None
 
 
-def kind_of(data: bytes) -> Kind:
+def kind_of(data: bytes) -> FileKind:
     """Tell by its content whether a file holds walls, a scene or (whatever else it is) a drawing.
 
     JSON that names its format is believed; TOML is a text whose first line that is no comment sets a key or opens

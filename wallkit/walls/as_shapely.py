@@ -50,7 +50,7 @@ def straightened(walls: Walls, tolerance: float | None = None) -> tuple[FloatArr
     """Put lines in the place of arcs: vertices and offsets as in Walls. Line edges stay as they are."""
     if not walls.has_arcs:
         return walls.vertices, walls.offsets
-    counts, inner, ranks = arc_points(walls, largest_distance(walls) if tolerance is None else tolerance)
+    counts, inner, ranks = points_in_arcs(walls, largest_distance(walls) if tolerance is None else tolerance)
     first = np.cumsum(counts) - counts
     vertices = np.empty((int(counts.sum()), 2))
     vertices[first] = walls.vertices
@@ -64,7 +64,7 @@ def largest_distance(walls: Walls) -> float:
     return walls.tolerance or 1e-4 * math.hypot(high_x - low_x, high_y - low_y) or 1.0
 
 
-def arc_points(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, IntArray]:
+def points_in_arcs(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, IntArray]:
     """Points along each arc: vertices that each vertex turns into, the new points, and their rank from 1."""
     following = np.arange(1, len(walls.vertices) + 1)
     full = np.diff(walls.offsets) > 0

@@ -131,9 +131,8 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, fresh: Any, va
         if path[i, 5] == 0.0 and not across < 0:
             break  # not a bounce that a neighbour shares: it began in contact
         S, A, B, M = contact(vx, vy, path, bend, keep, pull, i)
-        # Var of the place along the wall, S Var(x) S^T: its trace, and the rounding of both coordinates.
         place = _times_turned(_times(S, xx), S)
-        variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]
+        variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]  # the trace of S Var(x) S^T, and rounding
         if not variance[i] < 1e300:
             break
         # dx' = A dx and dv' = B dx + M dv.

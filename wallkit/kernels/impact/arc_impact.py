@@ -53,7 +53,6 @@ def scan_arcs_point(arcs, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, 
         wy = y - arc.ay
         ex = wx + arc.sx
         ey = wy + arc.sy
-        # e = w + s and s.s = R^2: e.e - R^2 = w.w + 2 w.s, no difference of squares of the size R^2.
         power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
         along = ex * vx + ey * vy
         on = ids[k] == last
@@ -70,14 +69,12 @@ def scan_arcs_point(arcs, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, 
         if not leaves and (inside or not enters):
             continue
         # |e + t v|^2 = R^2 has the roots (-e.v -+ h) / v^2, h^2 = (e.v)^2 - v^2 power = (R |v|)^2 - (e x v)^2.
-        # The second form, as a product, where the first would cancel: grazing hits keep their digits.
         cross = abs(ex * vy - ey * vx)
         square = (arc.radius * speed - cross) * (arc.radius * speed + cross)
         part = energy * power
         square = along * along - part if along * along - part > part else square
         root = math.sqrt(max(square, 0.0))
-        # Each root in the form whose terms add up: in at power / (h - e.v); from the arc itself, where the power is
-        # rounding, the whole chord; out at (h - e.v) / v^2, or, moving outwards, at -power / (e.v + h).
+        # In at power / (h - e.v); from the arc itself the whole chord; out at (h - e.v) / v^2 or -power / (e.v + h).
         if not inside and enters:
             t = power / (root - along)
         elif on and energy * abs(power) > WELL_KNOWN * along * along:
@@ -186,8 +183,7 @@ def scan_arcs_disc(
             from_outside = arc.sweep > 0.0 and not stands_across(one_sided, edge_wall, ids[k], out_gap, deep)
             from_inside = arc.sweep < 0.0 and not stands_across(one_sided, edge_wall, ids[k], in_gap, deep)
         t = -1.0
-        # From outside the circle the back of the arc is met first. Where the arc does not lie there the disc may fly by
-        # its end, into the circle, and meet the hollow.
+        # From outside the back of the arc comes first; beside the arc the disc may fly in, and meet the hollow.
         if power >= 0.0:
             if along >= 0.0:
                 continue

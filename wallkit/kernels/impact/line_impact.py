@@ -149,24 +149,9 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
 
 @kernel
 def scan_corners(
-    corners,
-    ids,
-    start,
-    stop,
-    one_sided,
-    corner_wall,
-    fans,
-    radius,
-    x,
-    y,
-    vx,
-    vy,
-    energy,
-    last,
-    tolerance,
-    best,
+    corners, ids, start, stop, one_sided, corner_wall, fans, radius, x, y, vx, vy, energy, last, tolerance, best,
     feature,
-):
+):  # fmt: skip
     """Earliest contact of a disc with the corners of entries start to stop.
 
     With e = p - corner, |e + t v| = r has the discriminant D = r^2 - (e x v)^2 / v^2, taken from the distance at

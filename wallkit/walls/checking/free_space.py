@@ -29,7 +29,7 @@ from wallkit.walls.checking.narrow_places import with_feet
 from wallkit.walls.checking.parts import Parts
 from wallkit.walls.checking.room_circles import larger_circles
 from wallkit.walls.checking.self_check import diagonal
-from wallkit.walls.crossings import find_contacts
+from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.walls import Walls, WallsError
 
@@ -208,11 +208,11 @@ def _noded(edges: Edges) -> tuple[FloatArray, FloatArray] | None:
     GEOS looks for crossings in steps that grow with the square of walls around each other, so where there are none
     it is not asked.
     """
-    contacts = find_contacts(edges)
-    if not contacts.complete or len(contacts.crossing_at) > MOST_CROSSINGS:
+    touches = find_touches(edges)
+    if not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS:
         return None
-    copied = (contacts.copy_of != np.arange(len(contacts.copy_of))).any()
-    if not (copied or len(contacts.crossing_at) or len(contacts.touch_at) or len(contacts.overlap_at)):
+    copied = (touches.copy_of != np.arange(len(touches.copy_of))).any()
+    if not (copied or len(touches.crossing_at) or len(touches.touch_at) or len(touches.overlap_at)):
         return edges.a, edges.b
     lines = shapely.linestrings(np.stack([edges.a, edges.b], axis=1))
     parts = shapely.get_parts(shapely.node(shapely.multilinestrings(lines)))

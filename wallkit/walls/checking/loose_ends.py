@@ -21,7 +21,7 @@ from wallkit.walls.checking.open_ends import OWN, BoolArray, OpenEnds, Surroundi
 from wallkit.walls.checking.overshoots import Overshoots, overshoots
 from wallkit.walls.walls import Walls
 
-Kind = Literal["corner", "middle", "bridge", "extend", "foot", "trim"]
+EndKind = Literal["corner", "middle", "bridge", "extend", "foot", "trim"]
 
 _ASKEW = 3.0  # a move along the own line is taken up to so many times the distance, else an edge is added
 
@@ -45,7 +45,7 @@ class LooseEnd:
         back: where the first end moves back to before the bridge is added, if it reaches past the second.
     """
 
-    kind: Kind
+    kind: EndKind
     ends: tuple[int, ...]
     distance: float
     need: float

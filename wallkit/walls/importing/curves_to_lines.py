@@ -24,7 +24,7 @@ from wallkit.geometry.cubics import chord_bound, cut_between, evaluate, extreme_
 from wallkit.geometry.ellipse_arcs import Arcs
 from wallkit.geometry.ragged import numbered
 from wallkit.geometry.segments import segment_distance
-from wallkit.walls.importing.segments import ARC, CUBIC, Strokes
+from wallkit.walls.importing.segments import KIND_ARC, KIND_CUBIC, Segments
 
 _DEEPEST = 40  # halvings: t is then below 1e-12, and rounding, not the curve, is what is left
 
@@ -48,7 +48,7 @@ class Pieces:
     normal_error: float | None = None
 
 
-def flatten(strokes: Strokes, tolerance: float) -> Pieces:
+def flatten(strokes: Segments, tolerance: float) -> Pieces:
     """Turn every segment into lines within ``tolerance`` (> 0); end points of segments stay bit for bit.
 
     Raises:
@@ -57,7 +57,7 @@ def flatten(strokes: Strokes, tolerance: float) -> Pieces:
     cubic_id, cubic_t = _cubic_cuts(strokes.cubics, tolerance)
     arc_id, arc_t = _arc_cuts(strokes.arcs, tolerance)
     counts = np.ones(len(strokes.kinds), dtype=np.int64)
-    cubic_at, arc_at = np.flatnonzero(strokes.kinds == CUBIC), np.flatnonzero(strokes.kinds == ARC)
+    cubic_at, arc_at = np.flatnonzero(strokes.kinds == KIND_CUBIC), np.flatnonzero(strokes.kinds == KIND_ARC)
     counts[cubic_at] += np.bincount(cubic_id, minlength=len(cubic_at))
     counts[arc_at] += np.bincount(arc_id, minlength=len(arc_at))
     within_limit(int(counts.sum()) + len(strokes.starts))

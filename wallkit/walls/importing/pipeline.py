@@ -13,7 +13,7 @@ from importers.drawing import Drawing, DrawnPath
 from importers.problems import Problem
 from wallkit.geometry.arrays import FloatArray
 from wallkit.walls.checking.self_check import straight_edges, validate
-from wallkit.walls.crossings import find_contacts
+from wallkit.walls.crossings import find_touches
 from wallkit.walls.import_options import ImportOptions, ImportWishes
 from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_arcs
 from wallkit.walls.importing.choose_paths import choose
@@ -24,7 +24,7 @@ from wallkit.walls.importing.drawn_sensors import drawn_places, drawn_sensors
 from wallkit.walls.importing.fill_rule import material_rings
 from wallkit.walls.importing.outlines import Outlines, assemble, keep_sides, on_grid
 from wallkit.walls.importing.placing import placed
-from wallkit.walls.importing.segments import Strokes, default_tolerance, gather
+from wallkit.walls.importing.segments import Segments, default_tolerance, gather
 from wallkit.walls.nesting import depths
 from wallkit.walls.orient import turned_to
 from wallkit.walls.repairing.passes import repair
@@ -103,12 +103,12 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
     return walls if sensors is None else replace(walls, sensors=sensors_like(walls, sensors))
 
 
-def _pieces(strokes: Strokes, within: float, options: ImportOptions) -> Pieces:
+def _pieces(strokes: Segments, within: float, options: ImportOptions) -> Pieces:
     return fit_arcs(strokes, within) if options.curves == "arcs" else flatten(strokes, within)
 
 
 def _outlines(
-    strokes: Strokes, pieces: Pieces, paths: list[DrawnPath], options: ImportOptions
+    strokes: Segments, pieces: Pieces, paths: list[DrawnPath], options: ImportOptions
 ) -> tuple[Outlines, float]:
     """Make clean polylines, on the grid that is asked for: them, and how far that moved anything at most."""
     outlines = assemble(strokes, pieces, paths)
@@ -182,17 +182,17 @@ def nested(outlines: Outlines, options: ImportOptions, tolerance: float, balls: 
     """Find out which rings are edges of paint, nest them, decide what is solid, repair if asked to, turn, and check."""
     plain = replace(outlines.to_walls(options.sides), tolerance=tolerance)
     edges = straight_edges(plain)
-    contacts = find_contacts(edges)
-    keep, dropped = material_rings(outlines, edges, contacts.crossing_walls)
+    touches = find_touches(edges)
+    keep, dropped = material_rings(outlines, edges, touches.crossing_walls)
     problems = outlines.problems + dropped
     if not keep.all():
         outlines = outlines.keep(keep)
         plain = replace(outlines.to_walls(options.sides), tolerance=tolerance)
         edges = straight_edges(plain)
-        contacts = find_contacts(edges)
+        touches = find_touches(edges)
     owners = [outlines.paths[owner] for owner in outlines.owner.tolist()]
     lines = [path.line for path in owners]
-    depth, parent = depths(edges, contacts.crossing_walls)
+    depth, parent = depths(edges, touches.crossing_walls)
     solid = decide(Nested(edges, depth, parent, owners), options, balls)
     repairs = options.repairs
     if repairs is not None:
@@ -201,7 +201,7 @@ def nested(outlines: Outlines, options: ImportOptions, tolerance: float, balls: 
         problems = problems + [change.to_problem() for change in done.changes] + done.violations
         return replace(done.walls, solid=solid, problems=_still_true(problems, done.walls))
     walls = turned_to(plain, depth, solid.room)
-    found = validate(plain, lines=lines, edges=edges, contacts=contacts)
+    found = validate(plain, lines=lines, edges=edges, touches=touches)
     return replace(walls, solid=solid, problems=problems + found)
 
 

@@ -1,4 +1,4 @@
-"""Strokes: the segments of many subpaths as arrays, so that what follows runs without a Python loop per edge.
+"""Segments: those of many subpaths as arrays, so that what follows runs without a Python loop per edge.
 
 Quadratics are raised to cubics (the same curve). Elliptic arcs go from their end points to centre and axes.
 """
@@ -15,17 +15,17 @@ from importers.drawing import Segment, Subpath
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.ellipse_arcs import Arcs, centre_form
 
-LINE, CUBIC, ARC = 0, 1, 2
+KIND_LINE, KIND_CUBIC, KIND_ARC = 0, 1, 2
 
 
 @dataclass(slots=True)
-class Strokes:
+class Segments:
     """Subpaths as arrays: subpath ``s`` has the segments ``offsets[s]`` to ``offsets[s + 1]``.
 
     Attributes:
         starts: (S, 2) where each subpath starts.
         offsets: (S + 1,) int64.
-        kinds: (N,) LINE, CUBIC or ARC.
+        kinds: (N,) KIND_LINE, KIND_CUBIC or KIND_ARC.
         ends: (N, 2) end point of each segment, bit for bit as in the file.
         begins: (N, 2) start point of each segment.
         cubics: (C, 4, 2) the cubics, in order.
@@ -41,7 +41,7 @@ class Strokes:
     arcs: Arcs
 
 
-def gather(subpaths: Iterable[Subpath], scale: float = 1.0, flip_y: bool = False) -> Strokes:
+def gather(subpaths: Iterable[Subpath], scale: float = 1.0, flip_y: bool = False) -> Segments:
     """Collect subpaths into arrays, scaled and mirrored if asked (untouched bit for bit if not)."""
     starts: list[tuple[float, float]] = []
     offsets, kinds, ends = [0], [], []
@@ -59,7 +59,7 @@ def gather(subpaths: Iterable[Subpath], scale: float = 1.0, flip_y: bool = False
     start_array = np.array(starts, dtype=np.float64).reshape(-1, 2) * factor
     end_array = np.array(ends, dtype=np.float64).reshape(-1, 2) * factor
     offset_array = np.array(offsets, dtype=np.int64)
-    return Strokes(
+    return Segments(
         starts=start_array,
         offsets=offset_array,
         kinds=np.array(kinds, dtype=np.int8),
@@ -73,17 +73,17 @@ def gather(subpaths: Iterable[Subpath], scale: float = 1.0, flip_y: bool = False
 def _add(segment: Segment, x: float, y: float, cubics: list[tuple[float, ...]], arcs: list[tuple[float, ...]]) -> int:
     kind = segment[0]
     if kind == "L":
-        return LINE
+        return KIND_LINE
     if kind == "C":
         cubics.append((x, y, *segment[1:]))
-        return CUBIC
+        return KIND_CUBIC
     if kind == "Q":
         x1, y1, x2, y2 = segment[1:]
         third = (x + 2 * x1) / 3, (y + 2 * y1) / 3, (x2 + 2 * x1) / 3, (y2 + 2 * y1) / 3
         cubics.append((x, y, *third, x2, y2))
-        return CUBIC
+        return KIND_CUBIC
     arcs.append((x, y, *segment[1:]))
-    return ARC
+    return KIND_ARC
 
 
 def _begins(starts: FloatArray, offsets: IntArray, ends: FloatArray) -> FloatArray:
@@ -102,7 +102,7 @@ def _scaled(arcs: Arcs, factor: FloatArray) -> Arcs:
     return Arcs(arcs.centre * factor, u, -v, -arcs.start, -arcs.turn)  # v a quarter turn left of u again
 
 
-def default_tolerance(strokes: Strokes, most: float = 0.1) -> float:
+def default_tolerance(strokes: Segments, most: float = 0.1) -> float:
     """0.1 % of the diagonal of the box of all end and control points, at most ``most``."""
     points = np.concatenate([strokes.starts, strokes.ends, strokes.cubics.reshape(-1, 2)])
     if not len(points):
