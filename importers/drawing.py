@@ -99,6 +99,7 @@ class DrawnPath:
         tags: free words the file carries for it (``data-*`` attributes, notes), by name.
         title: what the file calls it to people who look at it (SVG's ``title``), or ``""``.
         clipped: the clip that cuts it, where one does: the path itself is whole; None where nothing cuts it.
+        error: how far its subpaths are at most from what the file draws; 0 but where a clip was applied to curves.
         levels: what each of its layers and groups, itself, and the clones that show it say, the nearest last;
             ``()`` where a reader knows no more than ``layer``, ``groups``, ``name`` and ``tags``.
     """
@@ -120,6 +121,7 @@ class DrawnPath:
     title: str = ""
     levels: tuple[Level, ...] = ()
     clipped: Clip | None = None
+    error: float = 0.0
 
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""

@@ -70,6 +70,13 @@ def test_what_is_wholly_inside_keeps_its_curves_and_what_is_outside_goes():
 def test_a_circle_under_a_half_plane_is_half_a_disc_within_the_tolerance():
     body = '<circle cx="100" cy="100" r="50" fill="red" clip-path="url(#c)"/>'
     walls = wallkit.import_walls(svg(body, clip('<rect width="100" height="200"/>')), apply_clips=True, tolerance=1e-3)
+    # The farthest that a chord of the circle is off is what the walls say of themselves, at its middle
+    radius = np.hypot(*(walls.vertices - 100).T)
+    on_circle = radius > 50 - 1e-6
+    chords = np.hypot(*np.diff(walls.vertices[on_circle], axis=0).T)
+    sagitta = 50 - np.sqrt(2500 - chords[chords < 50] ** 2 / 4)
+    assert walls.measured_error == pytest.approx(sagitta.max(), rel=1e-3)
+    assert 0 < walls.measured_error <= 1e-3
     # Chords within t of the circle leave less than its length times t
     assert area(walls) == pytest.approx(np.pi * 50**2 / 2, abs=np.pi * 50 * 1e-3)
 

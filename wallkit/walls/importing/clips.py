@@ -57,7 +57,8 @@ def clipped(drawing: Drawing, tolerance: float) -> Drawing:
         cut.append(path)
         gone += not subpaths
         if subpaths:
-            paths.append(replace(path, subpaths=subpaths, fill_rule="evenodd", clipped=None))
+            error = cutter.error
+            paths.append(replace(path, subpaths=subpaths, fill_rule="evenodd", clipped=None, error=error))
     problems = [problem for problem in drawing.problems if problem.code not in _APPLIED]
     if cut:
         problems.append(_told(cut, gone, tolerance))
@@ -75,18 +76,24 @@ def _told(cut: list[DrawnPath], gone: int, tolerance: float) -> Problem:
 
 
 class _Cutter:
-    """Areas of clips, each made once."""
+    """Areas of clips, each made once.
+
+    Attributes:
+        error: how far lines are at most from the curves of the path that was cut last, and of its clips.
+    """
 
     def __init__(self, tolerance: float) -> None:
         self._tolerance = tolerance
-        self._areas: dict[int, Any] = {}
+        self._areas: dict[int, tuple[Any, float]] = {}
+        self.error = 0.0
         self._segments = 0
 
     def seen(self, path: DrawnPath) -> list[Subpath] | None:
         """Give what of a path is seen; None where that is all of it."""
         assert path.clipped is not None
-        area = self._area(path.clipped)
-        lines, closed = _flat(path.subpaths, self._tolerance)
+        area, of_clips = self._area(path.clipped)
+        lines, closed, own = _flat(path.subpaths, self._tolerance)
+        self.error = max(own, of_clips)
         filled = [line for line, ring in zip(lines, closed, strict=True) if ring and path.fill is not None]
         others = [line for line, ring in zip(lines, closed, strict=True) if not (ring and path.fill is not None)]
         ways = [shapely.LineString(line) for line in others if len(line) > 1]
@@ -98,40 +105,45 @@ class _Cutter:
             subpaths += [_open(way)] if area.covers(way) else [_open(part) for part in _parts(way, area)]
         return subpaths
 
-    def _area(self, clip: Clip) -> Any:
-        """Give what clips leave, from the outermost in."""
+    def _area(self, clip: Clip) -> tuple[Any, float]:
+        """Give what clips leave, from the outermost in, and how near that is."""
         waiting: list[Clip] = []
         inner: Clip | None = clip
         while inner is not None and id(inner) not in self._areas:
             waiting.append(inner)
             inner = inner.outer
-        area = None if inner is None else self._areas[id(inner)]
+        area, error = (None, 0.0) if inner is None else self._areas[id(inner)]
         for one in reversed(waiting):
-            own = shapely.union_all([self._covered(shape, one) for shape in one.shapes])
-            area = self._areas[id(one)] = own if area is None else shapely.intersection(area, own)
+            covered = [self._covered(shape, one) for shape in one.shapes]
+            own = shapely.union_all([shape for shape, _ in covered])
+            area = own if area is None else shapely.intersection(area, own)
+            error = max([error, *(near for _, near in covered)])
             shapely.prepare(area)
-        return area
+            self._areas[id(one)] = area, error
+        return area, error
 
-    def _covered(self, shape: Shape, clip: Clip) -> Any:
+    def _covered(self, shape: Shape, clip: Clip) -> tuple[Any, float]:
         """Give the area of a shape; its open subpaths count as closed."""
         subpaths, rule = shape
         self._segments += sum(len(sub.segments) for sub in subpaths)
         if self._segments > MAX_ELEMENTS:
             raise limit_error("segments of clips, as often as they are used", f"{MAX_ELEMENTS:,}")
-        lines, _ = _flat([Subpath(transform(sub.segments, clip.matrix), True) for sub in subpaths], self._tolerance)
-        return _painted(lines, rule)
+        placed = [Subpath(transform(sub.segments, clip.matrix), True) for sub in subpaths]
+        lines, _, error = _flat(placed, self._tolerance)
+        return _painted(lines, rule), error
 
 
-def _flat(subpaths: Sequence[Subpath], tolerance: float) -> tuple[list[FloatArray], list[bool]]:
-    """Give each subpath as points, those of a closed one with the first again at the end."""
+def _flat(subpaths: Sequence[Subpath], tolerance: float) -> tuple[list[FloatArray], list[bool], float]:
+    """Give each subpath as points, a closed one's with the first again at the end, and how far they are off at most."""
     drawn = [sub for sub in subpaths if len(sub.segments) > 1]
     strokes = gather(drawn)
-    outlines = assemble(strokes, flatten(strokes, tolerance), [DrawnPath(drawn)])
+    pieces = flatten(strokes, tolerance)
+    outlines = assemble(strokes, pieces, [DrawnPath(drawn)])
     lines = []
     for index, ring in enumerate(outlines.closed.tolist()):
         line = outlines.vertices[outlines.offsets[index] : outlines.offsets[index + 1]]
         lines.append(np.concatenate([line, line[:1]]) if ring else line)
-    return lines, outlines.closed.tolist()
+    return lines, outlines.closed.tolist(), pieces.error
 
 
 def _painted(rings: list[FloatArray], rule: FillRule) -> Any:

@@ -84,6 +84,7 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
     if not len(balls):
         balls = np.array([(marker.x, marker.y) for marker in markers if marker.kind == "spawn"]).reshape(-1, 2)
     outlines, moved = _outlines(strokes, pieces, chosen, options)
+    cut = scale * max((path.error for path in chosen), default=0.0)
     walls = nested(keep_sides(outlines) if flip_y else outlines, options, within, balls)
     sensors, doubtful = _sensors(choice.sensors, options, within)
     found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *choice.problems, *pointless)]
@@ -92,7 +93,7 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
         units=drawing.units if scale == 1 else "",
         y_axis=_flipped(drawing.y_axis) if flip_y else drawing.y_axis,
         tolerance=within,
-        measured_error=walls.measured_error + pieces.error + moved,
+        measured_error=walls.measured_error + pieces.error + moved + cut,
         measured_normal_error=pieces.normal_error,
         source_file=drawing.file,
         source_sha256=drawing.sha256,

@@ -109,7 +109,7 @@ def _art_box(drawing: Drawing) -> Box | None:
 def _path(path: DrawnPath, moved: Point, factor: float) -> DrawnPath:
     width = None if path.stroke_width is None else path.stroke_width * factor
     subpaths = [Subpath([_segment(part, moved, factor) for part in sub.segments], sub.closed) for sub in path.subpaths]
-    return replace(path, subpaths=subpaths, stroke_width=width)
+    return replace(path, subpaths=subpaths, stroke_width=width, error=path.error * factor)
 
 
 def _segment(segment: Segment, moved: Point, factor: float) -> Segment:
