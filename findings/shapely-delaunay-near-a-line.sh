@@ -34,5 +34,5 @@ for triangle in shapely.get_parts(shapely.delaunay_triangles(shapely.multipoints
     radius = np.hypot(*(a - centre))
     deepest = max(deepest, 1 - np.hypot(*(POINTS - centre).T).min() / radius)
 print(f"deepest point in a circle: {deepest:.2f} of its radius")
-sys.exit(deepest < 0.4)  # 1: this has changed
+sys.exit(int(deepest < 0.4))  # 1: this has changed
 PYTHON
