@@ -53,6 +53,14 @@ Drag = Annotated[
     float | None,
     typer.Option(metavar="K", help="Drag: rate of dv/dt = -K v, per second.", min=0),
 ]
+Meeting = Annotated[
+    bool | None,
+    typer.Option("--meeting/--no-meeting", help="Discs meet one another; points never do.", show_default=False),
+]
+BallRestitution = Annotated[
+    float | None,
+    typer.Option(metavar="E", help="Part of their normal speed that a contact of two discs leaves.", min=0, max=1),
+]
 Out = Annotated[
     list[str] | None,
     typer.Option("-o", "--out", metavar="OUT", help=f"Where to; the ending decides: {' '.join(FORMATS)}. Repeatable."),
@@ -87,6 +95,8 @@ def simulate_file(
     tangential_restitution: Tangential = None,
     friction: Friction = None,
     drag: Drag = None,
+    meeting: Meeting = None,
+    ball_restitution: BallRestitution = None,
     colour: Annotated[Literal["time", "speed"], typer.Option(help="What the path's colour tells.")] = "time",
     heat: Annotated[bool, typer.Option("--heat", help="Pictures show where balls spend their time.")] = False,
     theme: Annotated[
@@ -102,7 +112,7 @@ def simulate_file(
     wishes = Wishes(
         pairs(ball, "--ball"), None if velocity is None else pair(velocity, "--velocity"), speed, angle, radius,
         balls, seed, None if gravity is None else pair(gravity, "--gravity"), restitution, tangential_restitution,
-        friction, drag, until, bounces, drawing_options.options_of(importing or {}),
+        friction, drag, meeting, ball_restitution, until, bounces, drawing_options.options_of(importing or {}),
     )  # fmt: skip
     targets = _targets(out or [], form)
     scene = opened(file, wishes)
@@ -171,7 +181,7 @@ def progress_bar(label: str, after: float = 0.5) -> Iterator[Callable[[float], N
 
 def _trust(run: Run) -> list[Any]:
     """Ask for each ball of a small run how far it is good; many balls would take longer than their flight."""
-    if not 0 < len(run.ending) <= 10 or len(run.contacts) > 20_000:
+    if run.scene.meeting or not 0 < len(run.ending) <= 10 or len(run.contacts) > 20_000:
         return []
     return list(run.trusted_until())
 

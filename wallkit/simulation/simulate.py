@@ -18,7 +18,7 @@ from wallkit.kernels.flight.resting import side_of
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.records import LOG_STRIDE, NO_HIT, PASSING, RUNNING, STARTING, STATE_SIZE, Counts
 from wallkit.scene.scene import Scene, SceneError
-from wallkit.scene.start_overlaps import check_starts, settled
+from wallkit.scene.start_overlaps import check_apart, check_starts, settled
 from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.run import CONTACT, FINAL, Ending, Run
 from wallkit.simulation.sensors import with_crossings
@@ -76,6 +76,11 @@ def simulate(
     if flag(settle, "settle", error=SceneError, code="bad-argument"):
         scene = settled(scene)
     check_starts(scene)
+    if scene.meeting:
+        check_apart(scene)
+        from wallkit.simulation.meeting_run import simulate_meeting
+
+        return with_crossings(simulate_meeting(scene, limit_time, limit_bounces, mode=mode, progress=progress))
     flights = Flights(scene, mode=mode)
     logs: list[FloatArray] = []
     owners: list[NDArray[np.int32]] = []
@@ -222,6 +227,11 @@ class Flights:
         final["vx"], final["vy"], final["time"] = states[:, 2], states[:, 3], states[:, 4] + states[:, 5]
         return final
 
+    @property
+    def bounces(self) -> NDArray[np.int64]:
+        """(n,) bounces of each ball so far."""
+        return np.array([counts[1] for counts in self._counts], dtype=np.int64)
+
     def endings(self) -> tuple[Ending, ...]:
         """How each ball ended."""
         final = self.final()
@@ -247,7 +257,7 @@ class Flights:
         contacts["px"], contacts["py"] = log[:, 5] + ox, log[:, 6] + oy
         contacts["nx"], contacts["ny"] = log[:, 7], log[:, 8]
         contacts["kind"] = log[:, 10].astype(np.uint8)
-        wall, edge = self._places(log[:, 9].astype(np.int64))
+        wall, edge = self.places(log[:, 9].astype(np.int64))
         contacts["wall"], contacts["edge"] = wall, edge
         return contacts
 
@@ -256,7 +266,7 @@ class Flights:
         walls, edge_in_wall = self.modelled.index_of_edge(self.scene)
         return walls, edge_in_wall, np.repeat(np.arange(len(self.scene.walls)), np.diff(self.scene.walls.offsets))
 
-    def _places(self, feature: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def places(self, feature: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Wall of each feature, and edge within it, -1 for a corner."""
         walls, edge_in_wall, corner_wall = self._wall_tables
         is_edge = feature >= 0

@@ -82,6 +82,12 @@ def survey_stream(
         SceneError: at once for an argument that is none of what may be; with the first chunk as ``survey``.
     """
     of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
+    if scene.meeting:
+        raise SceneError(
+            "balls of a stream are flown a chunk after the other, and cannot meet",
+            code="meeting-not-modelled",
+            fix="survey one scene with all its balls, or leave out meeting",
+        )
     if not callable(draw):
         may_be = "a function of a first number and a count that returns Balls, such as RandomBalls"
         raise refused("draw", draw, may_be, SceneError, "bad-argument")

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import concurrent.futures
+from collections.abc import Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.arguments import of_type, whole_number
+from wallkit.arguments import of_type, refused, whole_number
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.batches.lockstep import Outcome
 from wallkit.scene.scene import Scene, SceneError
+from wallkit.simulation.meeting_survey import fly_together, survey_each
 from wallkit.simulation.prepared import Prepared, prepare
 from wallkit.simulation.run import Ending
 from wallkit.simulation.simulate import limits
@@ -25,7 +28,7 @@ class Totals:
     """What is left of a survey.
 
     Attributes:
-        bounces: (n,) int64, of each ball.
+        bounces: (n,) int64, of each ball; where two balls meet, one for each of them.
         position: (n, 2) where each ball ended.
         velocity: (n, 2) its last velocity.
         time: (n,) when it ended.
@@ -53,6 +56,7 @@ class Totals:
         return f"<Totals: {', '.join(parts)}>"
 
 
+@overload
 def survey(
     scene: Scene | Prepared,
     until: float | None = None,
@@ -61,14 +65,39 @@ def survey(
     threads: int | None = None,
     executor: Executor | None = None,
     check: bool = True,
-) -> Totals:
+) -> Totals: ...
+
+
+@overload
+def survey(
+    scene: Sequence[Scene | Prepared],
+    until: float | None = None,
+    bounces: int | None = None,
+    *,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    check: bool = True,
+) -> list[Totals]: ...
+
+
+def survey(
+    scene: Scene | Prepared | Sequence[Scene | Prepared],
+    until: float | None = None,
+    bounces: int | None = None,
+    *,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    check: bool = True,
+) -> Totals | list[Totals]:
     """Fly every ball until a time, a number of bounces, or an ending of its own, and keep only totals.
 
-    Balls do not meet, so each is flown alone; the result is the same, bit for bit, for any number of threads, and
-    the same as that of :func:`wallkit.simulate`. Kernels are compiled and release the interpreter's lock.
+    Balls that do not meet are flown each alone. Those that meet (``Scene(meeting=True)``) are flown together, on one
+    thread; of a list of scenes each is a piece of work for a thread. The result is the same, bit for bit, for any
+    number of threads, and the same as that of :func:`wallkit.simulate`. Kernels are compiled and release the
+    interpreter's lock.
 
     Args:
-        scene: walls, balls, and what acts; from :func:`prepare`, it is not prepared again.
+        scene: walls, balls, and what acts; from :func:`prepare`, it is not prepared again. Or a list of such.
         until: seconds; None for no end in time.
         bounces: bounces a ball; None for the guard of ``simulate``. At least one of the two must be given.
         threads: how many to use; None for one a core.
@@ -76,23 +105,42 @@ def survey(
             are written into memory that all threads share, so that processes cannot take their place.
         check: look whether a disc overlaps a wall at the start; False where that is known, to save the time.
 
+    Returns:
+        The totals; of a list of scenes a list, in their order.
+
     Raises:
         SceneError: neither limit was given, an argument is none of what may be, or the scene cannot be simulated.
     """
     limit_time, limit_bounces = limits(until, bounces)
     threads = check_threads(threads)
     _check_executor(executor)
-    of_type(
-        scene, "scene", (Scene, Prepared), "a Scene, or what prepare() made of one", error=SceneError, code="bad-scene"
-    )
+    may_be = "a Scene, or what prepare() made of one, or a list of such"
+    if isinstance(scene, list | tuple):
+        for one in scene:
+            of_type(one, "scene", (Scene, Prepared), may_be, error=SceneError, code="bad-scene")
+        many = [one if isinstance(one, Prepared) else prepare(one, check=check) for one in scene]
+
+        def alone(one: Prepared) -> Totals:
+            return survey(one, until, bounces, threads=1)
+
+        return survey_each(many, alone, cores() if threads is None else threads, executor)
+    if not isinstance(scene, Scene | Prepared):
+        raise refused("scene", scene, may_be, SceneError, "bad-scene")
     ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
     scene, modelled = ready.scene, ready.modelled
     threads = max(1, min(cores() if threads is None else threads, len(modelled.radii) // LEAST))
     outcome = _room_for(len(modelled.radii))
+    if scene.meeting:
+        found = fly_together(ready, limit_time, limit_bounces, outcome)
+        return _totals(scene, outcome, found)
     with way_to_fly(ready)(ready, limit_time, limit_bounces, outcome, threads) as work:
         found, *others = in_threads(work, threads, executor)
     for other in others:
         found += other
+    return _totals(scene, outcome, found)
+
+
+def _totals(scene: Scene, outcome: Outcome, found: NDArray[np.int64]) -> Totals:
     hits, crossings = found[: len(scene.walls)], found[len(scene.walls) :].reshape(-1, 2)
     return Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings)
 
