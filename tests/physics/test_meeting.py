@@ -341,3 +341,26 @@ def test_laying_neighbours_together_in_memory_changes_no_bit(monkeypatch: pytest
     ordered = wallkit.simulate(scene, until=12.0, mode="compiled")
     assert np.array_equal(plain.contacts, ordered.contacts)
     assert np.array_equal(plain.final, ordered.final)
+
+
+def test_under_gravity_energy_stays_among_discs_that_bounce_and_meet() -> None:
+    scene = gas(4, gravity=(0.3, -1.0))
+    scene.balls = wallkit.Balls(scene.balls.position, scene.balls.velocity, 0.45, scene.balls.mass)
+    run = wallkit.simulate(scene, until=10.0)
+    assert np.count_nonzero(run.contacts["kind"] == wallkit.Kind.BALL) > 50
+    mass, pull = scene.balls.mass, np.array([0.3, -1.0])
+    energies = [
+        float(mass @ ((run.velocity(t) ** 2).sum(axis=1) / 2 - run.position(t) @ pull)) for t in (0.0, 5.0, 10.0)
+    ]
+    assert energies[1:] == pytest.approx([energies[0]] * 2, abs=1e-11)  # times are roots, good to 2^-41 of the room
+    assert np.array_equal(run.contacts, simulate_meeting(scene, 10.0, 10**6, per_disc=0.2).contacts)
+
+
+def test_under_gravity_walls_that_would_hold_discs_are_refused_by_name() -> None:
+    floor = wallkit.Scene(room(restitution=0.8), wallkit.Balls([(5, 5)], [(0, 0)], 0.5), (0.0, -1.0), meeting=True)
+    with pytest.raises(wallkit.SceneError, match=r"wall 0 has the restitution 0\.8") as told:
+        wallkit.prepare(floor)
+    assert told.value.code == "meeting-not-modelled"
+    standing = wallkit.Scene(room(), wallkit.Balls([(5, 0.5)], [(0, 0)], 0.5), (0.0, -1.0), meeting=True)
+    with pytest.raises(wallkit.SceneError, match=r"ball 0 at \(5, 0.5\) starts in touch with a wall"):
+        wallkit.simulate(standing, until=1.0)

@@ -31,15 +31,16 @@ from wallkit.kernels.meeting.wall_contacts import states_at
 from wallkit.kernels.records import LOG_STRIDE, STATE_SIZE, Counts, in_lists
 from wallkit.scene.scene import Scene
 from wallkit.simulation.meeting_cells import along_a_curve, box_of, cell_of, cells_for, near_walls
-from wallkit.simulation.modelled import Modelled, check_modelled
+from wallkit.simulation.meeting_rules import check_modelled
+from wallkit.simulation.modelled import Modelled
 
 PER_DISC = 2.0
 """Cells a disc, where the discs themselves do not set their size."""
 CHUNK = 1 << 16
 """Contacts in one piece of a log."""
-SOON = 2000
-"""Events that interpreted kernels take, some 0.1 ms each, before a run waits for the compiler."""
-FEW = 200
+SOON = 40_000
+"""Events that interpreted kernels take, some 50 microseconds each, before a run waits for the compiler."""
+FEW = 500
 """Discs up to which it is worth while to interpret at all."""
 MANY, OFTEN = 2_000, 50
 """Discs from which on they are brought into order again, so that neighbours are close in memory, and after how many
@@ -82,7 +83,7 @@ class Meeting:
             begin(self.modelled.lists.gravity, self._lists, 0.0)
         else:
             compiled(begin)(self.modelled.model.gravity, self._discs, 0.0)
-        self._since = 0
+        self._since, self._interpreted = 0, 0
 
     def __len__(self) -> int:
         return self._count
@@ -148,7 +149,8 @@ class Meeting:
                 made, now, self.reached = meet(
                     self.modelled.lists, gravity, self._lists, until, limit, self.hits, log, room, budget
                 )
-                if self.mode == "auto" and not self.reached:
+                self._interpreted += made
+                if self.mode == "auto" and not self.reached and (made < room or self._interpreted > SOON // 4):
                     self._compile()
             else:
                 _compiled.add(self._features)

@@ -141,22 +141,6 @@ class Modelled:
         return wall, np.arange(len(wall)) - offsets[wall]
 
 
-def check_modelled(scene: Scene) -> None:
-    """Refuse what has no exact answer where discs meet; see docs/meeting.md.
-
-    Raises:
-        SceneError: it names what acts, and what to leave out.
-    """
-    for name in ("rolling_friction", "drag"):
-        if getattr(scene, name):
-            acts = name.replace("_", " ")
-            raise SceneError(
-                f"balls meet, and {acts} acts: between contacts their relative motion is not straight",
-                code="meeting-not-modelled",
-                fix=f"leave out {name}, or meeting",
-            )
-
-
 def _check_sizes(scene: Scene) -> float:
     """Refuse what is so large or so small that squares of products of two of it are no numbers any more.
 

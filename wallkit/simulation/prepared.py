@@ -15,7 +15,8 @@ from wallkit.kernels.jit import compiled
 from wallkit.kernels.records import Model
 from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.scene.start_overlaps import check_apart, check_starts
-from wallkit.simulation.modelled import Modelled, check_modelled
+from wallkit.simulation.meeting_rules import check_modelled
+from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.sensors import modelled_sensors
 
 CLOSE_CELLS = 1 << 15

@@ -224,7 +224,8 @@ class Run(Pictured):
                 walls are off by their ``measured_error``.
 
         Raises:
-            WallkitError: the tolerance is not above 0, or the source is none of the two.
+            WallkitError: the tolerance is not above 0, the source is none of the two, or balls meet: how the error of
+                one becomes that of another is not known here.
         """
         from wallkit.simulation.horizon import trusted_until
 
@@ -237,6 +238,12 @@ class Run(Pictured):
             least=arguments.ABOVE_0,
         )
         arguments.word(source, "source", ("rounding", "drawing"), error=WallkitError, code="bad-source")
+        if self.scene.meeting and np.count_nonzero(self.scene.balls.radius) > 1:
+            raise WallkitError(
+                "balls meet: how the error of one becomes that of another is not known here",
+                code="meeting-not-modelled",
+                fix="compare with a run whose start is off by a rounding",
+            )
         ends = self.final["time"].tolist()
         return [
             trusted_until(self.scene, self.contacts_of(ball), ball, tolerance, source, end)

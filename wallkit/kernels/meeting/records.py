@@ -21,10 +21,9 @@ NOBODY, WALL, LOOK, NOTHING = 2**32 - 1, 2**32 - 2, 2**32 - 3, 2**32 - 4
 """In place of a disc: none; and what is due otherwise: a contact with a wall, a search for what is due, nothing."""
 DISCS = 2**32 - 4
 """All below are discs."""
-FLYING, FRESH, KEPT, RESTING, FIXED, OUT = 0, 1, 2, 3, 4, 5
+FLYING, FRESH, FIXED, OUT = 0, 1, 2, 3
 """How a disc is: flying since a contact with a wall; flying since a contact with a disc (its cold state is to be made
-anew); kept by a wall under gravity; resting; ended where it stands, and met as if it had no end of mass; ended and
-taken out: no disc meets it."""
+anew); ended where it stands, and met as if it had no end of mass; ended and taken out: no disc meets it."""
 ROW = 17
 """Floats of a contact in the log: those of a contact with a wall (``LOG_STRIDE``), then ball, other (-1 for none), and
 the other's centre and velocity."""

@@ -21,7 +21,6 @@ from wallkit.kernels.meeting.records import (
     NUMBER,
     OUT,
     RADIUS,
-    RESTING,
     ROW,
     TIME,
     VX,
@@ -29,7 +28,17 @@ from wallkit.kernels.meeting.records import (
     X,
     Y,
 )
-from wallkit.kernels.records import ABSORBED, AMBIGUOUS_CORNER, AT_REST, COLLAPSE, RUNNING
+from wallkit.kernels.records import (
+    ABSORBED,
+    AMBIGUOUS_CORNER,
+    AT_REST,
+    COLLAPSE,
+    JOINING,
+    LEAVING,
+    PASSING,
+    RUNNING,
+    SLIDING,
+)
 
 MOST = 2**62
 """Bounces that no ball reaches."""
@@ -84,6 +93,15 @@ def cold(gravity, discs, ball):
     own[BEING] = FLYING
 
 
+@kernel
+def give_up_if_held(discs, ball):
+    """End a disc that a wall comes to hold under gravity, by an approach with no speed: others cannot meet it."""
+    counts = discs.counts[ball]
+    holds = counts[5] in (JOINING, SLIDING, LEAVING, PASSING)
+    if counts[2] == AT_REST or (counts[2] == RUNNING and holds):
+        counts[2] = COLLAPSE
+
+
 @rare_kernel
 def take_wall_contact(model, gravity, discs, ball, hits, log, noted):
     """Make the contact of a disc with a wall that is due, and note it: the next row of the log."""
@@ -94,14 +112,14 @@ def take_wall_contact(model, gravity, discs, ball, hits, log, noted):
     found = fly_on(model, gravity, row[RADIUS], state, counts, widened(row[DUE], row[TIME]), hits, tried)
     row[X], row[Y], row[VX], row[VY], row[TIME], row[LOST] = state[0], state[1], state[2], state[3], state[4], state[5]
     own[BOUNCES], own[MET] = counts[1], NOBODY
+    if gravity is not None:
+        give_up_if_held(discs, ball)
     ending = counts[2]
-    if ending == ABSORBED:
+    if ending == ABSORBED or (gravity is not None and ending != RUNNING):
         quit_cell(discs, ball)
         own[BEING] = OUT
     elif ending in (COLLAPSE, AMBIGUOUS_CORNER):
         own[BEING], row[VX], row[VY] = FIXED, 0.0, 0.0
-    elif ending == AT_REST:
-        own[BEING] = RESTING
     if found == 0:
         return noted
     if len(log) > 0:
