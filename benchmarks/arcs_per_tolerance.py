@@ -17,19 +17,19 @@ import numpy as np
 from importers.drawing import Subpath
 from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_arcs
 from wallkit.walls.importing.curves_to_lines import flatten
-from wallkit.walls.importing.segments import Strokes, gather
+from wallkit.walls.importing.segments import Segments, gather
 
 TOLERANCES = [10.0**-k for k in range(7)]
 FEWEST_FOR_LINES = 1e-4  # below it lines take millions of edges
 
 
-def cubics(count: int) -> Strokes:
+def cubics(count: int) -> Segments:
     """Random cubics in a square of 100: a third of them with loops, cusps nearly so, and inflections."""
     points = np.random.default_rng(1).uniform(0, 100, (count, 4, 2))
     return gather(Subpath([("M", *p[0].tolist()), ("C", *p[1:].ravel().tolist())], False) for p in points)
 
 
-def ellipses(count: int) -> Strokes:
+def ellipses(count: int) -> Segments:
     """Half ellipses of 100 by 10 to 90, turned at random."""
     rng = np.random.default_rng(2)
     subpaths = []
@@ -40,7 +40,7 @@ def ellipses(count: int) -> Strokes:
     return gather(subpaths)
 
 
-def flower(count: int) -> tuple[Strokes, float]:
+def flower(count: int) -> tuple[Segments, float]:
     """The closed line r = 200 (1 + 0.15 cos 3a + 0.07 sin 5a) as Hermite cubics, and what the least of arcs needs.
 
     Returns:
@@ -67,7 +67,7 @@ def order(few: float, many: float) -> str:
     return f"{math.log(10) / math.log(many / few):.2f}" if few and many > few else ""
 
 
-def table(name: str, strokes: Strokes, count: int) -> None:
+def table(name: str, strokes: Segments, count: int) -> None:
     print(f"\n{name}\n")
     heads = [
         "tolerance",

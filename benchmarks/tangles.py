@@ -23,6 +23,7 @@ TANGLES = {
     "ring across a square": ((75, 150, 300), False, "[rng.uniform(0, 1000, (n, 2)), SQUARE], True"),
     "rings of 150": ((5, 10, 20), False, "list(rng.uniform(0, 1000, (n, 150, 2))), True"),
     "open polylines of 20": ((50, 100, 200), False, "list(rng.uniform(0, 1000, (n, 20, 2))), False"),
+    "crossing lines, few": ((250, 500, 1000), False, "list(rng.uniform(0, 1000, (n, 2, 2))), False"),
     "crossing lines": ((1750, 3500, 7000), False, "list(rng.uniform(0, 1000, (n, 2, 2))), False"),
     "walks of 100": ((100, 200, 400), False, "list(1000 * rng.random((n, 1, 2)) + walks(n)), False"),
     "identical squares": ((500, 1000, 2000), False, "[SQUARE] * n, True"),
@@ -34,8 +35,12 @@ CHILD = """
 import json, resource, sys, time
 import numpy as np
 import importers.drawing as d
-from wallkit.walls.build import import_walls
-from wallkit.walls.free_space import free_space
+try:
+    from wallkit.walls.checking.free_space import free_space
+    from wallkit.walls.importing.pipeline import import_walls
+except ImportError:  # builds from before these had folders of their own
+    from wallkit.walls.build import import_walls
+    from wallkit.walls.free_space import free_space
 n, looks, code = int(sys.argv[1]), sys.argv[2] == "True", sys.argv[3]
 rng = np.random.default_rng(1)
 SQUARE = [(-300, -300), (300, -300), (300, 300), (-300, 300)]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from wallkit.walls.checking.self_check import straight_edges, validate
-from wallkit.walls.crossings import find_contacts
+from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.nesting import depths
 from wallkit.walls.orient import oriented
@@ -49,9 +49,9 @@ def test_a_million_edges(benchmark, rings):
 
     def whole():
         edges = straight_edges(walls)
-        contacts = find_contacts(edges)
-        turned = oriented(walls, False, edges, contacts)
-        return turned, validate(turned, edges=edges, contacts=contacts)
+        touches = find_touches(edges)
+        turned = oriented(walls, False, edges, touches)
+        return turned, validate(turned, edges=edges, touches=touches)
 
     turned, problems = benchmark.pedantic(whole, rounds=1)
     assert problems == []

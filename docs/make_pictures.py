@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from wallkit import Run, simulate
+from wallkit import ImportOptions, Run, aim, simulate
 from wallkit.scene.opening import Wishes, open_scene
+from wallkit.view.aim_picture import aim_canvas
 from wallkit.view.film import film
 from wallkit.view.picture import walls_svg
 from wallkit.view.raster import png
@@ -54,11 +55,19 @@ def sinai_film() -> bytes:
     return film(run, "gif", seconds=8.0)
 
 
+def aimed() -> str:
+    """All shots through a room that reach a target."""
+    scene = open_scene(SAMPLES / "room.svg", Wishes(importing=ImportOptions(curves="lines"))).scene
+    windows = aim(scene, (720, 345), (297, 523, 10), 5)
+    return aim_canvas(scene, windows, title="samples/room.svg: all shots that reach the ring within 5 bounces").to_svg()
+
+
 PICTURES: dict[str, Callable[[], str | bytes]] = {
     "lagoon.svg": lagoon,
     "lagoon-walls.svg": lagoon_walls,
     "pinball.svg": pinball,
     "stadium-heat.png": stadium_heat,
+    "aim.svg": aimed,
     "sinai.gif": sinai_film,
 }
 

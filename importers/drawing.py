@@ -57,6 +57,25 @@ class Level:
     note: str = ""
 
 
+Shape = tuple[list["Subpath"], FillRule]
+Matrix = tuple[float, float, float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Clip:
+    """An area outside of which nothing of a path is seen: what shapes cover together, and the clips around it leave.
+
+    Attributes:
+        shapes: subpaths and fill rule of each.
+        matrix: from their coordinates to the drawing's: x' = a x + c y + e, y' = b x + d y + f.
+        outer: the clip around this one.
+    """
+
+    shapes: tuple[Shape, ...]
+    matrix: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+    outer: Clip | None = None
+
+
 @dataclass(slots=True, repr=False)
 class DrawnPath:
     """One painted object of the file: its subpaths share fill, stroke and marks.
@@ -79,6 +98,7 @@ class DrawnPath:
         line: line in the file where it begins, from 1; None where lines mean nothing.
         tags: free words the file carries for it (``data-*`` attributes, notes), by name.
         title: what the file calls it to people who look at it (SVG's ``title``), or ``""``.
+        clipped: the clip that cuts it, where one does: the path itself is whole; None where nothing cuts it.
         levels: what each of its layers and groups, itself, and the clones that show it say, the nearest last;
             ``()`` where a reader knows no more than ``layer``, ``groups``, ``name`` and ``tags``.
     """
@@ -99,6 +119,7 @@ class DrawnPath:
     tags: dict[str, str] = field(default_factory=dict)
     title: str = ""
     levels: tuple[Level, ...] = ()
+    clipped: Clip | None = None
 
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
@@ -248,6 +269,16 @@ class Drawing(Pictured):
             return None
         xs, ys = zip(*points, strict=True)
         return min(xs), min(ys), max(xs), max(ys)
+
+    def to_svgpathtools(self) -> list[Any]:
+        """Give a ``svgpathtools.Path`` for each path, hidden ones included: the same curves, bit for bit.
+
+        Points are complex numbers x + i y in the units and axes of the drawing. A closed subpath has its closing edge.
+        ``drawing_from_svgpathtools(paths, units=..., y_axis=...)`` makes the same paths of them again.
+        """
+        from importers.svg.svgpathtools_paths import svgpathtools_paths  # late: it brings scipy
+
+        return svgpathtools_paths(self.paths)
 
 
 def _subpaths(subpaths: list[Subpath]) -> str:

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from importers.read import read_drawing, read_drawing_text
     from importers.svg.svgpathtools_paths import drawing_from_svgpathtools
     from wallkit.accuracy.reference import Reference, sure_events
+    from wallkit.levels.aim import aim
+    from wallkit.levels.windows import Window, Windows
     from wallkit.scene.opening import OpenedScene, Wishes, open_scene
     from wallkit.scene.scene import Balls, Scene, SceneError
     from wallkit.simulation.horizon import Horizon
@@ -51,6 +53,8 @@ _HOMES = {
     "importers.read": ("read_drawing", "read_drawing_text"),
     "importers.svg.svgpathtools_paths": ("drawing_from_svgpathtools",),
     "wallkit.accuracy.reference": ("Reference", "sure_events"),
+    "wallkit.levels.aim": ("aim",),
+    "wallkit.levels.windows": ("Window", "Windows"),
     "wallkit.scene.opening": ("OpenedScene", "Wishes", "open_scene"),
     "wallkit.simulation.horizon": ("Horizon",),
     "wallkit.simulation.run": ("CONTACT", "FINAL", "Ending", "Kind", "Run"),
@@ -102,9 +106,12 @@ __all__ = [
     "WallkitError",
     "Walls",
     "WallsError",
+    "Window",
+    "Windows",
     "Wishes",
     "World",
     "__version__",
+    "aim",
     "drawing_from_svgpathtools",
     "film",
     "free_space",

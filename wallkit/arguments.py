@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from importers.errors import WallkitError
 from wallkit.geometry.arrays import FloatArray
 
-Kind = type[WallkitError]
+ErrorKind = type[WallkitError]
 
 
-def refused(name: str, value: object, may_be: str, error: Kind, code: str) -> WallkitError:
+def refused(name: str, value: object, may_be: str, error: ErrorKind, code: str) -> WallkitError:
     """Make the error: what was given for which argument, and what may be."""
     return error(f"{name} is {reprlib.repr(value)}", code=code, fix=f"give {may_be}")
 
@@ -31,7 +31,7 @@ def number(
     name: str,
     may_be: str = "a finite number",
     *,
-    error: Kind,
+    error: ErrorKind,
     code: str,
     least: float = -math.inf,
     most: float = math.inf,
@@ -57,7 +57,14 @@ MOST = 2**62
 
 
 def whole_number(
-    value: object, name: str, may_be: str = "a whole number", *, error: Kind, code: str, least: int, most: int = MOST
+    value: object,
+    name: str,
+    may_be: str = "a whole number",
+    *,
+    error: ErrorKind,
+    code: str,
+    least: int,
+    most: int = MOST,
 ) -> int:
     """Give a whole number from ``least`` to ``most``; 1e6 is one, 2.5 is none."""
     found = number(value, name, may_be, error=error, code=code, least=least, most=most)
@@ -66,14 +73,14 @@ def whole_number(
     return int(value) if isinstance(value, numbers.Integral) else int(found)
 
 
-def flag(value: object, name: str, *, error: Kind, code: str) -> bool:
+def flag(value: object, name: str, *, error: ErrorKind, code: str) -> bool:
     """Give True or False; no other value stands for one of them."""
     if not isinstance(value, bool | np.bool_):
         raise refused(name, value, "True or False", error, code)
     return bool(value)
 
 
-def word(value: object, name: str, words: Sequence[str], *, error: Kind, code: str) -> str:
+def word(value: object, name: str, words: Sequence[str], *, error: ErrorKind, code: str) -> str:
     """Give one of several words."""
     if not (isinstance(value, str) and value in words):
         *others, last = map(repr, words)
@@ -81,20 +88,20 @@ def word(value: object, name: str, words: Sequence[str], *, error: Kind, code: s
     return value
 
 
-def text(value: object, name: str, *, error: Kind, code: str) -> str:
+def text(value: object, name: str, *, error: ErrorKind, code: str) -> str:
     """Give a text."""
     if not isinstance(value, str):
         raise refused(name, value, "a text", error, code)
     return value
 
 
-def of_type(value: Any, name: str, types: type | tuple[type, ...], may_be: str, *, error: Kind, code: str) -> None:
+def of_type(value: Any, name: str, types: type | tuple[type, ...], may_be: str, *, error: ErrorKind, code: str) -> None:
     """Refuse what is of none of the types."""
     if not isinstance(value, types):
         raise refused(name, value, may_be, error, code)
 
 
-def floats(value: object, name: str, may_be: str, *, error: Kind, code: str) -> FloatArray:
+def floats(value: object, name: str, may_be: str, *, error: ErrorKind, code: str) -> FloatArray:
     """Give an array of float64 of the shape that the value has; an array of float64 is given back as it is.
 
     Texts, truth values and complex numbers are no numbers here, though NumPy would make some of them.
@@ -110,7 +117,7 @@ def floats(value: object, name: str, may_be: str, *, error: Kind, code: str) -> 
     return np.asarray(array, dtype=np.float64)
 
 
-def chosen(value: Any, count: int, name: str, *, error: Kind, code: str) -> NDArray[np.int64]:
+def chosen(value: Any, count: int, name: str, *, error: ErrorKind, code: str) -> NDArray[np.int64]:
     """Give the numbers, 0 to ``count`` - 1, that a choice means: numbers in any order, a mask, or a slice."""
     may_be = f"numbers from 0 to {count - 1}, {count} truth values, or a slice"
     if isinstance(value, slice):

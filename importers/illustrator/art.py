@@ -15,6 +15,7 @@ from importers.illustrator.objects import Handler, Objects, Operands, Text
 from importers.illustrator.programs import MOVERS
 from importers.illustrator.state import Group
 from importers.limits import MAX_COORDINATE, MAX_ELEMENTS, MAX_OPERATORS, good_coordinate, limit_error
+from importers.regions import ALL, Region, reach_of, region_of
 from importers.sources import Source
 
 __all__ = ["Art", "Operands", "Text"]
@@ -313,8 +314,22 @@ class Art(Objects):
             path.tags["text"] = "frame"
         self.paths.append(path)
         self._grouped.append(group)
+        if clip:
+            group.region = region_of([path]).within(group.region)
+        elif path.visible and not guide and group.region is not ALL and (fills or strokes):
+            self._look_at_clips(path, group.region, begin)
         self.named = path
         self._count += 1 + sum(len(subpath.segments) + 1 for subpath in subpaths)
+
+    def _look_at_clips(self, path: DrawnPath, region: Region, begin: int) -> None:
+        """Note the clip that cuts a path, and say so."""
+        wide = reach_of(path)
+        if wide is None or not region.cuts(wide):
+            return
+        path.clipped = region.clip
+        kinds = [findings.CLIP, findings.OUTSIDE] if region.misses(wide) else [findings.CLIP]
+        for kind in kinds:
+            self.findings.add(kind, begin, layer=path.layer, at=path.subpaths[0].segments[0][1:])
 
     def _flush(self) -> None:
         """End a path that nothing painted (pasted text): each of its subpaths is one."""

@@ -109,3 +109,17 @@ LARGE_CANVAS = Kind(
     "the drawing is on a large canvas: its coordinates are in units of {what} pt and are given as written",
     "scale the walls by that number to have points",
 )
+CLIP = Kind(
+    "clip-not-applied",
+    "warning",
+    "a shape under a clipping path is taken whole",
+    "{count} shapes under clipping paths are taken whole",
+    "cut them there (--apply-clips), or in the drawing program, if their walls are to end there",
+)
+OUTSIDE = Kind(
+    "outside-clip",
+    "warning",
+    "a shape is wholly outside its clipping path, so nothing of it is seen",
+    "{count} shapes are wholly outside their clipping paths, so nothing of them is seen",
+    "leave them out with --apply-clips, or delete them, if they are to be no walls",
+)

@@ -140,12 +140,13 @@ class Objects:
     def _begin_group(self, _operands: Operands) -> None:
         outer = self._group
         hidden, locked = outer.hidden or self._hidden, outer.locked or self._locked
-        self._open(Group("u", outer, "", hidden, locked, outer.layer, outer.depth + 1))
+        self._open(Group("u", outer, "", hidden, locked, outer.layer, outer.depth + 1, region=outer.region))
 
     def _begin_clip(self, _operands: Operands) -> None:
         outer = self._group
         hidden, locked = outer.hidden or self._hidden, outer.locked or self._locked
-        self._open(Group("q", outer, "", hidden, locked, outer.layer, outer.depth + 1, self._paint.copy()))
+        paint, depth = self._paint.copy(), outer.depth + 1
+        self._open(Group("q", outer, "", hidden, locked, outer.layer, depth, paint, region=outer.region))
         self._save([])
 
     def _end_group(self, _operands: Operands) -> None:
@@ -178,7 +179,7 @@ class Objects:
         self.layers.append(record)
         outer = self._group
         hidden, locked = outer.hidden or not visible, outer.locked or not enabled
-        self._open(Group("layer", outer, "", hidden, locked, "", outer.depth + 1, record=record))
+        self._open(Group("layer", outer, "", hidden, locked, "", outer.depth + 1, record=record, region=outer.region))
         self._hidden = self._locked = False
 
     def _name_layer(self, operands: Operands) -> None:

@@ -105,7 +105,7 @@ def refusal(why: str, file: str) -> DrawingError:
     return DrawingError(
         f"the file is a PostScript program: {why}",
         code="postscript-program",
-        fix=f"let Ghostscript run it and give the PDF: {convert_command(name)}; in Python: via='ghostscript'",
+        fix=f"let Ghostscript run it and give the PDF: {convert_command(name)}; or add --via ghostscript",
         file=file,
     )
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from importers import colours
 from importers.drawing import Layer
+from importers.regions import ALL, Region
 
 
 @dataclass(slots=True)
@@ -36,6 +37,7 @@ class Group:
         depth: how many are around it.
         paint: what ``Q`` brings back.
         record: the drawing's entry of a layer.
+        region: what clips in it and around it leave.
     """
 
     kind: str
@@ -47,6 +49,7 @@ class Group:
     depth: int = 0
     paint: Paint | None = None
     record: Layer | None = None
+    region: Region = ALL
 
     def names(self) -> tuple[str, ...]:
         """Give the names of the groups up to this one, outermost first, layers not among them."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -60,6 +61,7 @@ class Form:
     marked: bool  # it is optional content of its own
     layer: Layer | None
     grouped: bool  # it is drawn as a whole, with the opacity of fills at hand
+    box: tuple[float, float, float, float] | None  # two corners, in its own units: nothing of it is seen outside
 
 
 class PageReader(Painter):
@@ -304,6 +306,7 @@ class PageReader(Painter):
                 content is not None,
                 layer,
                 word(get(get(stream, "/Group"), "/S")) == "/Transparency",
+                _four(stream),
             )
         return self._forms[key]
 
@@ -319,6 +322,8 @@ class PageReader(Painter):
             self._push_marked(form.layer)
         if form.matrix != IDENTITY:
             self._transform([*form.matrix])
+        if form.box is not None:
+            self._clip_to_box(*form.box)
         if form.grouped:
             graphics = self._graphics
             unseen = graphics.unseen or graphics.fill_alpha <= 0.0
@@ -375,3 +380,10 @@ class PageReader(Painter):
         if self._text_shown:
             self._find(common.TEXT)
         self._text_shown = False
+
+
+def _four(stream: Any) -> tuple[float, float, float, float] | None:
+    """Give the box that a form says; None where it says none."""
+    numbers = [number(part) for part in items(get(stream, "/BBox"))]
+    four = [part for part in numbers if part is not None and math.isfinite(part)]
+    return (four[0], four[1], four[2], four[3]) if len(four) == len(numbers) == 4 else None

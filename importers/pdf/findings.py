@@ -60,6 +60,20 @@ NUMBER = Kind(
     "{count} transforms (first by {what}) have numbers too large to compute with; what is drawn with them is left out",
     "correct the numbers, or save or export the drawing again",
 )
+MASK = Kind(
+    "mask-not-applied",
+    "warning",
+    "a shape under a soft mask, or under hundreds of clips, is taken whole",
+    "{count} shapes under soft masks, or under hundreds of clips, are taken whole",
+    "cut them in the drawing program if their walls are to end there",
+)
+TILING = Kind(
+    "pattern-left-out",
+    "info",
+    "a shape is painted with a tiling pattern, whose own art is left out",
+    "{count} shapes are painted with tiling patterns, whose own art is left out",
+    "draw the tiles as shapes of their own (in a drawing program: expand the pattern) if they are to be walls",
+)
 ANNOTATION = Kind(
     "annotation-left-out",
     "warning",

@@ -16,10 +16,12 @@ from importers.limits import MAX_COORDINATE, MAX_DEPTH, limit_error
 from importers.pdf import findings
 from importers.pdf.document import get, items, number, word
 from importers.pdf.state import IDENTITY, Graphics, multiply
+from importers.regions import ALL, reach_of, region_of
 
 Operands = list[Any]  # numbers as bytes, names as Name, texts as None
 Handler = Callable[[Operands], None]
-State = tuple[float | None, float | None, float | None]  # opacity of fills, of strokes, line width
+# Opacity of fills, of strokes, line width, and whether there is a soft mask
+State = tuple[float | None, float | None, float | None, bool | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +39,8 @@ class Painter:
         paths: in the order of drawing.
         findings: what was left out or could not be read.
         resources: of the content that is being read; its reader sets them.
-        spaces: kinds of its colour spaces by name, as far as they were asked for.
-        states: opacity of fills and strokes and line width of its sets of attributes, as far as they were asked for.
+        spaces: kinds of its colour spaces, and of its patterns, by name, as far as they were asked for.
+        states: opacity of fills and strokes, line width and mask of its sets of attributes, as far as asked for.
         graphics_depth: kept states that this content must leave alone; its reader sets it.
     """
 
@@ -58,7 +60,7 @@ class Painter:
         self._subpaths: list[Subpath] = []
         self._reopen: Segment | None = None
         self._spoiled = False
-        self._clip = False
+        self._clip: FillRule | None = None
         self._count = 0
 
     def begin_page(self, right: float, up: float) -> None:
@@ -73,7 +75,8 @@ class Painter:
         handlers.update({b"y": self._curve_to_point, b"h": self._close, b"re": self._rectangle})
         for name in ("f", "F", "f*", "B", "B*", "b", "b*", "S", "s", "n"):
             handlers[name.encode()] = partial(self._paint, name)
-        handlers.update({b"W": self._set_clip, b"W*": self._set_clip, b"q": self._keep, b"Q": self._restore})
+        handlers.update({b"W": partial(self._set_clip, "nonzero"), b"q": self._keep, b"Q": self._restore})
+        handlers[b"W*"] = partial(self._set_clip, "evenodd")
         handlers.update({b"cm": self._transform, b"w": self._set_width, b"gs": self._set_state})
         for name, attribute in (("g", "fill"), ("rg", "fill"), ("k", "fill")):
             handlers[name.encode()] = partial(self._set_device_colour, attribute)
@@ -156,8 +159,19 @@ class Painter:
         self._segments = [("M", *points[0]), *(("L", *point) for point in points[1:])]
         self._close([])
 
-    def _set_clip(self, _operands: Operands) -> None:
-        self._clip = True
+    def _set_clip(self, rule: FillRule, _operands: Operands) -> None:
+        self._clip = rule
+
+    def _clip_to(self, subpaths: list[Subpath], rule: FillRule) -> None:
+        """Let nothing be seen outside of a path, until ``Q``; its open subpaths count as closed."""
+        graphics, own = self._graphics, region_of([DrawnPath(subpaths, fill_rule=rule)])
+        if not own.cuts(graphics.region.box):
+            return  # a rectangle around all that is seen: programs write the page's over and over
+        if graphics.clips < MAX_DEPTH:
+            region = own.within(graphics.region)
+            self._graphics = replace(graphics, region=region, clips=graphics.clips + 1)
+        else:
+            self._graphics = replace(graphics, masked=True)
 
     def _paint(self, operator: str, _operands: Operands) -> None:
         """Paint the path and forget it; ``n`` paints nothing and is how clipping paths end."""
@@ -167,34 +181,63 @@ class Painter:
             self._subpaths.append(Subpath(self._segments, closed=closing))
         subpaths, spoiled, clip = self._subpaths, self._spoiled, self._clip
         self._segments, self._subpaths, self._reopen = [], [], None
-        self._clip = self._spoiled = False
+        self._clip, self._spoiled = None, False
         if not subpaths:
             return
         if spoiled:
             self._find(common.COORDINATE)
             return
         rule: FillRule = "evenodd" if operator.endswith("*") else "nonzero"
-        self._add_path(subpaths, kind, rule, clip=clip and kind == "n")
+        self._add_path(subpaths, kind, rule, clip=clip is not None and kind == "n")
+        if clip is not None:
+            self._clip_to(subpaths, clip)
 
     def _add_path(self, subpaths: list[Subpath], kind: str, rule: FillRule, *, clip: bool) -> None:
         """Put a path into the drawing with the marks that are in force."""
         graphics, layer = self._graphics, self._layer
         fills = kind in "fFBb" and graphics.fill_seen
         strokes = kind in "SsBb" and graphics.stroke_seen
-        self.paths.append(
-            DrawnPath(
-                subpaths,
-                layer=layer.name if layer else "",
-                visible=not self._hidden,
-                locked=layer.locked if layer else False,
-                clip=clip,
-                fill=graphics.fill if fills else None,
-                stroke=graphics.stroke if strokes else None,
-                stroke_width=graphics.width_on_page() if strokes else None,
-                fill_rule=rule,
-            )
+        path = DrawnPath(
+            subpaths,
+            layer=layer.name if layer else "",
+            visible=not self._hidden,
+            locked=layer.locked if layer else False,
+            clip=clip,
+            fill=graphics.fill if fills else None,
+            stroke=graphics.stroke if strokes else None,
+            stroke_width=graphics.width_on_page() if strokes else None,
+            fill_rule=rule,
         )
+        self.paths.append(path)
+        if not clip and not self._hidden and (fills or strokes):
+            if (fills and graphics.fill_tiled) or (strokes and graphics.stroke_tiled):
+                self._find(findings.TILING, at=subpaths[0].segments[0][1:])
+            self._look_at_clips(path)
         self._count += 1 + sum(len(subpath.segments) + 1 for subpath in subpaths)
+
+    def _clip_to_box(self, x0: float, y0: float, x1: float, y1: float) -> None:
+        """Let nothing be seen outside of a box in the units of the content."""
+        spoiled, self._spoiled = self._spoiled, False
+        numbers = self._place([x0, y0, x1, y0, x1, y1, x0, y1])
+        if not self._spoiled:
+            points = [*zip(numbers[0::2], numbers[1::2], strict=True)]
+            self._clip_to([Subpath([("M", *points[0]), *(("L", *point) for point in points[1:])], True)], "nonzero")
+        self._spoiled = spoiled
+
+    def _look_at_clips(self, path: DrawnPath) -> None:
+        """Note the clip that cuts a path, and say so."""
+        region, start = self._graphics.region, path.subpaths[0].segments[0][1:]
+        if self._graphics.masked:
+            self._find(findings.MASK, at=start)
+        if region is ALL:
+            return
+        wide = reach_of(path)
+        if wide is None or not region.cuts(wide):
+            return
+        path.clipped = region.clip
+        self._find(common.CLIP, at=start)
+        if region.misses(wide):
+            self._find(common.OUTSIDE, at=start)
 
     # --- state ------------------------------------------------------------------------------------------
 
@@ -224,9 +267,13 @@ class Painter:
             raise TypeError(name)
         if name.text not in self.states:
             found = get(get(self.resources, "/ExtGState"), name.text)
-            self.states[name.text] = (number(get(found, "/ca")), number(get(found, "/CA")), number(get(found, "/LW")))
-        fill, stroke, width = self.states[name.text]
+            mask = get(found, "/SMask")
+            numbers = (number(get(found, "/ca")), number(get(found, "/CA")), number(get(found, "/LW")))
+            self.states[name.text] = (*numbers, None if mask is None else word(mask) != "/None")
+        fill, stroke, width, masked = self.states[name.text]
         graphics = self._graphics
+        if masked is not None:
+            graphics = replace(graphics, masked=masked)
         if fill is not None:
             graphics = replace(graphics, fill_alpha=fill)
         if stroke is not None:
@@ -263,8 +310,10 @@ class Painter:
         """``sc`` and ``scn``: as many numbers as the colour space has, or a pattern's name."""
         graphics = self._graphics
         space = graphics.fill_space if attribute == "fill" else graphics.stroke_space
+        tiled = False
         if operands and isinstance(operands[-1], Name):
             colour: str | None = "pattern"
+            tiled = self._is_tiling(operands[-1])
         elif space in ("/Separation", "/DeviceN", "/Indexed"):
             # An ink whose own colour a program would compute: how much of it there is must do.
             colour = colours.gray(1.0 - min(max(map(float, operands), default=0.0), 1.0))
@@ -272,11 +321,19 @@ class Painter:
             colour = colours.from_components([*map(float, operands)])
         if colour is None:
             raise ValueError(operands)
-        self._graphics = _repaint(graphics, attribute, colour, space)
+        self._graphics = _repaint(graphics, attribute, colour, space, tiled)
+
+    def _is_tiling(self, name: Name) -> bool:
+        """Tell whether a pattern is made of tiles, which are content of their own; others are shadings."""
+        key = f"pattern {name.text}"
+        if key not in self.spaces:
+            found = get(get(self.resources, "/Pattern"), name.text)
+            self.spaces[key] = "tiling" if number(get(found, "/PatternType")) == 1 else "shading"
+        return self.spaces[key] == "tiling"
 
 
-def _repaint(graphics: Graphics, attribute: str, colour: str, space: str) -> Graphics:
+def _repaint(graphics: Graphics, attribute: str, colour: str, space: str, tiled: bool = False) -> Graphics:
     """Give the state with another colour."""
     if attribute == "fill":
-        return replace(graphics, fill=colour, fill_space=space)
-    return replace(graphics, stroke=colour, stroke_space=space)
+        return replace(graphics, fill=colour, fill_space=space, fill_tiled=tiled)
+    return replace(graphics, stroke=colour, stroke_space=space, stroke_tiled=tiled)

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from importers.limits import MAX_COORDINATE
+from importers.regions import ALL, Region
 
 Matrix = tuple[float, float, float, float, float, float]
 IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
@@ -39,6 +40,11 @@ class Graphics:
         fill_alpha: opacity of fills; 0 paints nothing.
         stroke_alpha: the same for strokes.
         unseen: a group around it is drawn with opacity 0.
+        fill_tiled: fills are made of tiles.
+        stroke_tiled: the same for strokes.
+        region: what clips leave.
+        masked: a soft mask is in force, or there are too many clips in each other to follow.
+        clips: so many clips are in each other.
     """
 
     matrix: Matrix = IDENTITY
@@ -50,6 +56,11 @@ class Graphics:
     fill_alpha: float = 1.0
     stroke_alpha: float = 1.0
     unseen: bool = False
+    fill_tiled: bool = False
+    stroke_tiled: bool = False
+    region: Region = ALL
+    masked: bool = False
+    clips: int = 0
 
     @property
     def fill_seen(self) -> bool:

@@ -2,29 +2,20 @@
 
 from __future__ import annotations
 
-import contextlib
-import gc
 import hashlib
 import re
-from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
+from importers.collector import collector_paused
 from importers.drawing import Drawing
 from importers.errors import DrawingError, WallkitError
 from importers.problems import Problem
 
+if TYPE_CHECKING:
+    from importers.svg.matrix import Matrix
+    from importers.svg.source import Source
+
 _SVG_TAG = re.compile(rb"<(?:[A-Za-z_][\w.-]*:)?svg[\s>/]")
-
-
-@contextlib.contextmanager
-def _collector_paused() -> Iterator[None]:
-    """Pause Python's cycle collector: it would look through a growing drawing over and over, and find nothing."""
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            gc.enable()
 
 
 def looks_like_svg(data: bytes) -> bool:
@@ -60,8 +51,27 @@ def read_svg(data: bytes, file: str = "") -> Drawing:
     return drawing
 
 
-def _read(data: bytes, file: str) -> Drawing:
+def read_tree(data: bytes, file: str = "") -> tuple[Any, Matrix]:
+    """Parse an SVG document for somebody who writes into it.
+
+    Args:
+        data: the file's bytes, not compressed.
+        file: its name, for messages.
+
+    Returns:
+        Its outermost element (of lxml), and the matrix from that one's user units to the px of :func:`read_svg`.
+
+    Raises:
+        DrawingError, LimitError: as :func:`read_svg` does.
+    """
     from importers.svg.reader import Reader
+
+    source, _ = _parsed(data, file)
+    return source.root, Reader(source).enter().matrix
+
+
+def _parsed(data: bytes, file: str) -> tuple[Source, str]:
+    """Parse it, and say what is wrong with its bytes."""
     from importers.svg.source import decode, parse
 
     text, damage = decode(data, file)
@@ -70,7 +80,14 @@ def _read(data: bytes, file: str) -> Drawing:
         tag = source.root.tag.rpartition("}")[2]
         fix = "give a file whose outermost element is svg"
         raise DrawingError(f"an XML file of <{tag}>, not SVG", code="not-a-drawing", fix=fix, file=file)
-    with _collector_paused():
+    return source, damage
+
+
+def _read(data: bytes, file: str) -> Drawing:
+    from importers.svg.reader import Reader
+
+    source, damage = _parsed(data, file)
+    with collector_paused():
         drawing = Reader(source).read()
     if damage:
         fix = "save the file as UTF-8; names may be wrong, outlines are not"

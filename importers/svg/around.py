@@ -6,10 +6,10 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from importers.drawing import Drawing, Layer, Level
+from importers.regions import ALL, Region
 from importers.svg.inheritance import Style
 from importers.svg.matrix import Matrix
 from importers.svg.notes import Notes
-from importers.svg.regions import ALL, Region
 from importers.svg.units import Viewport
 
 

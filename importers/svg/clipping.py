@@ -7,13 +7,13 @@ from typing import Any
 
 from importers.boxes import Box
 from importers.drawing import DrawnPath
+from importers.regions import ALL, UNKNOWN, Region, region_of
 from importers.svg.cascade import Cascade
 from importers.svg.colour import NOTHING, split_url
 from importers.svg.inheritance import Style
 from importers.svg.matrix import IDENTITY, Matrix
 from importers.svg.placing import element_matrix, has_transform
 from importers.svg.references import References
-from importers.svg.regions import ALL, UNKNOWN, Region, region_of
 from importers.svg.shapes import SHAPES
 from importers.svg.source import Source
 from importers.svg.style import Declared

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from importers.boxes import box_of
 from importers.drawing import DrawnPath
+from importers.regions import EVERYWHERE, Region, reach_of
 from importers.svg.matrix import Matrix, transform
 from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS
 from importers.svg.notes import Notes
 from importers.svg.references import References
-from importers.svg.regions import EVERYWHERE, Region
 from importers.svg.shapes import Lengths, Shape
 
 _NEVER = frozenset(("defs", "clipPath", "mask", "pattern", "marker", "symbol"))
@@ -106,6 +105,8 @@ def note_shape(
 def note_unseen(tag: str, element: Any, path: DrawnPath, page: Region, clip: Region, notes: Notes) -> None:
     """Say that not all of a shape, or nothing of it, is seen for a clip, a mask or the end of the picture.
 
+    A clip that cuts it is noted at the path.
+
     Args:
         tag: of the element.
         element: the shape.
@@ -117,11 +118,9 @@ def note_unseen(tag: str, element: Any, path: DrawnPath, page: Region, clip: Reg
     x, y = start = path.subpaths[0].segments[0][1:]
     if clip.box == EVERYWHERE and clip.exact and not page.misses((x, y, x, y)):
         return  # its first point is seen, and nothing cuts it
-    box = box_of([path])
-    if box is None:
+    wide = reach_of(path)
+    if wide is None:
         return
-    reach = 2.0 * (path.stroke_width or 0.0)  # half the width, as far as a corner of it may jut out
-    wide = (box[0] - reach, box[1] - reach, box[2] + reach, box[3] + reach)
     if clip.misses(wide):
         message = f"<{tag}> is wholly outside its clip, so nothing of it is seen"
         fix = "delete it if it is to be no wall"
@@ -130,7 +129,13 @@ def note_unseen(tag: str, element: Any, path: DrawnPath, page: Region, clip: Reg
         message = f"<{tag}> is wholly outside the picture, so nothing of it is seen"
         fix = "delete it if it is to be no wall, or make the picture larger"
         notes.add("outside-picture", "warning", message, element, fix=fix, layer=path.layer, name=path.name, at=start)
-    if clip.cuts(wide):
-        message = "a shape under a clip path or a mask is taken whole"
+    if not clip.cuts(wide):
+        return
+    if clip.known:
+        path.clipped = clip.clip
+        fix = "cut it there (--apply-clips), or in the drawing program, if its walls are to end there"
+        notes.count("clip-not-applied", "warning", "a shape under a clip path is taken whole", element, fix=fix)
+    else:
+        message = "a shape under a mask, or a clip that is no clipPath, is taken whole"
         fix = "cut it in the drawing program if its walls are to end there"
-        notes.count("clip-not-applied", "warning", message, element, fix=fix)
+        notes.count("mask-not-applied", "warning", message, element, fix=fix)

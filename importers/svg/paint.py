@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from importers.limits import MAX_COORDINATE
 from importers.svg.cascade import Cascade
 from importers.svg.colour import NOTHING, parse_colour, split_url
 from importers.svg.inheritance import Style
 from importers.svg.references import References
 from importers.svg.source import Source
+from importers.svg.units import Viewport, to_px
 
 _INITIAL = Style()
 
@@ -33,6 +35,16 @@ class Paints:
         if paint not in self._words:
             self._words[paint] = self._server(paint)
         return self._words[paint]
+
+    def stroke(self, style: Style, viewport: Viewport, scale: float) -> tuple[str | None, float | None]:
+        """Give the paint and the width of a stroke that is seen; a stroke without width paints nothing."""
+        stroke = self.word(style.stroke) if style.stroke_seen else None
+        if stroke is None:
+            return None, None
+        width = to_px(style.stroke_width, viewport.diagonal, style.font) * scale
+        if width <= 0:
+            return None, None
+        return stroke, width if width <= MAX_COORDINATE else None
 
     def _server(self, paint: str) -> str | None:
         parts = split_url(paint)

@@ -171,10 +171,8 @@ def _interpret(tokens: list[str]) -> tuple[list[Subpath], int]:
                 x, y = (number + bx, y) if kind == "H" else (x, number + by)
                 segments.append(("L", x, y))
             elif kind == "A":
-                x0, y0, (rx, ry, degrees) = x, y, map(float, tokens[i : i + 3])
-                large, sweep = _FLAGS[tokens[i + 3]], _FLAGS[tokens[i + 4]]
-                x, y = float(tokens[i + 5]) + bx, float(tokens[i + 6]) + by
-                segments += arc_segments(x0, y0, rx, ry, degrees, large, sweep, x, y)
+                arc, x, y = _arc(x, y, bx, by, tokens[i : i + 7])
+                segments += arc
             else:
                 last, cx, cy, x, y = _curve(segments, kind, last, cx, cy, x, y, bx, by, tokens[i : i + _COUNTS[kind]])
         except (ValueError, IndexError, KeyError):
@@ -183,6 +181,18 @@ def _interpret(tokens: list[str]) -> tuple[list[Subpath], int]:
         if kind not in "SQT":
             last = kind
     return subpaths, i
+
+
+def _arc(x0: float, y0: float, bx: float, by: float, tokens: list[str]) -> tuple[list[Segment], float, float]:
+    """Draw A from a point: its segments, and the point where it ends.
+
+    Raises:
+        ValueError: a number is missing or none; a KeyError or an IndexError: a flag, or the end, is.
+    """
+    rx, ry, degrees = map(float, tokens[:3])
+    large, sweep = _FLAGS[tokens[3]], _FLAGS[tokens[4]]
+    x, y = float(tokens[5]) + bx, float(tokens[6]) + by
+    return arc_segments(x0, y0, rx, ry, degrees, large, sweep, x, y), x, y
 
 
 def _curve(

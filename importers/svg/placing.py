@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from importers.boxes import Box
+from importers.regions import Region
 from importers.svg.inheritance import Style
 from importers.svg.matrix import IDENTITY, Matrix, multiply, translation
-from importers.svg.regions import Region
 from importers.svg.shapes import Lengths
 from importers.svg.style import Declared
 from importers.svg.transforms import resolve

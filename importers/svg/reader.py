@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from importers.boxes import Box, box_of, box_of_segments
+from importers.boxes import Box, box_of
 from importers.drawing import Drawing, DrawnPath, Layer, Level, Subpath
-from importers.limits import LETTERS_OF_A_STEP, MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
+from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.numbers import NumberError
+from importers.regions import ALL, Region
 from importers.svg.around import Around, BoxFirst, Reading
 from importers.svg.cascade import Cascade
 from importers.svg.clipping import Clips
@@ -25,19 +26,17 @@ from importers.svg.pages import pages_of, sheet_of
 from importers.svg.paint import Paints
 from importers.svg.placing import DEFAULT_SIZE, element_matrix, has_transform, nested_viewport, root_viewport, use_size
 from importers.svg.references import References
-from importers.svg.regions import ALL, Region
-from importers.svg.shapes import SHAPES, Lengths, Shape, make_shape
+from importers.svg.shapes import SHAPES, Lengths, Shapes, within_bounds
 from importers.svg.source import Source
 from importers.svg.style import Declared
-from importers.svg.units import Viewport, to_px
+from importers.svg.units import Viewport
 
 _GROUPS = frozenset(("g", "a", "svg", "switch", "use"))
 
 Attributes = dict[str, str]
 
-# Of a visit to any element, of drawing a shape and of following a reference; see limits.Work
+# Of a visit to any element, and of following a reference; see limits.Work
 _STEPS_OF_A_VISIT = 10
-_STEPS_OF_A_SHAPE = 25
 _STEPS_OF_A_USE = 25
 # Groups with a transform-box inside of groups with one: each level reads its content once more.
 _MAX_ASIDE = 8
@@ -62,7 +61,7 @@ class Reader:
         self.clips = Clips(self.references, self.cascade, source, self.prefix)
         self.layers: dict[str, Layer] = {}
         self.stack: list[tuple[Any, Around]] = []
-        self.shapes: dict[Any, Shape] = {}
+        self.shapes = Shapes(source.work)
         self.boxes: dict[Any, Box | None] = {}
         self.aside = 0
         self.segments = 0
@@ -75,7 +74,7 @@ class Reader:
             fix = f'add xmlns="{SVG_NS}" to the svg element'
             self.notes.add("missing-namespace", "warning", "browsers show nothing of this file", root, fix=fix)
         self.drawing.problems += self.source.problems
-        self._enter_root(root)
+        self._push_children(root, self.enter())
         self._walk()
         self.references.report(self.notes)
         self.drawing.layers = list(self.layers.values())
@@ -126,7 +125,9 @@ class Reader:
             name=name,
         )
 
-    def _enter_root(self, root: Any) -> None:
+    def enter(self) -> Around:
+        """Read the outermost element, and give what its children have around them."""
+        root = self.source.root
         declared = self.cascade.declared(root, self.source.attributes(root), self.initial)
         try:
             style = self.cascade.inherited(self.initial, declared)
@@ -146,8 +147,7 @@ class Reader:
         hidden = declared.get("display") == "none"
         region = ALL if page is None else Region(page)
         around = Around(matrix, style, viewport, page=region, hidden=hidden, unseen=_without_opacity(declared))
-        around = around._replace(clip=self._clip(declared, around, matrix, lambda: None))
-        self._push_children(root, around)
+        return around._replace(clip=self._clip(declared, around, matrix, lambda: None))
 
     def _push_children(self, element: Any, around: Around) -> None:
         if around.depth >= MAX_DEPTH:
@@ -379,10 +379,10 @@ class Reader:
         if hidden and self.aside:  # what is not displayed counts for no box
             return
         lengths = Lengths(attributes, declared, around.viewport, style.font)
-        shape = self._shape(tag, element, attributes, lengths, bool(around.chain))
+        shape = self.shapes.of(tag, element, attributes, lengths, bool(around.chain))
         matrix = around.matrix
         if has_transform(declared):
-            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, lambda: _own_box(shape)))
+            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, shape.box))
         own_name = name_of(element, attributes, self.illustrator)
         name = around.label or own_name or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
@@ -393,7 +393,7 @@ class Reader:
         self.segments += sum(len(sub.segments) for sub in subpaths)
         if self.segments > MAX_ELEMENTS:
             raise limit_error("segments of all paths", f"{MAX_ELEMENTS:,}", file=self.source.file)
-        if not _within(subpaths):
+        if not within_bounds(subpaths):
             if not self.aside:
                 message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
                 self.notes.add("bad-coordinate", "error", message, element, layer=around.layer, name=name)
@@ -405,7 +405,7 @@ class Reader:
         fill, stroke, width = None, None, None
         if not (around.unseen or _without_opacity(declared)):
             fill = self.paints.word(style.fill) if style.fill_seen and tag != "line" else None
-            stroke, width = self._stroke(style, around.viewport, matrix)
+            stroke, width = self.paints.stroke(style, around.viewport, mean_scale(matrix))
         drawn = DrawnPath(
             subpaths=subpaths,
             name=name,
@@ -426,53 +426,15 @@ class Reader:
         if drawn.visible:
             clip = around.clip
             if "clip-path" in declared or "mask" in declared:
-                clip = self._clip(declared, around, matrix, lambda: _own_box(shape))
+                clip = self._clip(declared, around, matrix, shape.box)
             note_unseen(tag, element, drawn, around.page, clip, self.notes)
 
     def _merged(self, levels: tuple[Level, ...]) -> dict[str, str]:
         self.work.charge("tags", sum(1 + 4 * len(level.tags) for level in levels))
         return merged(levels)
 
-    def _shape(self, tag: str, element: Any, attributes: Attributes, lengths: Lengths, copied: bool) -> Shape:
-        """Give what a shape draws; lists of points and path data that are copied are read once."""
-        data = "d" if tag == "path" else "points"
-        own = copied and data in attributes and data not in lengths.declared
-        shape = self.shapes.get(element) if own else None
-        if shape is None:
-            text = lengths.declared.get(data) or attributes.get(data)
-            if text:
-                self.work.charge("path data", len(text) // LETTERS_OF_A_STEP)
-            shape = make_shape(tag, attributes, lengths)
-            if own:
-                self.shapes[element] = shape
-        self.work.charge("shapes", _STEPS_OF_A_SHAPE + sum(len(sub.segments) for sub in shape.subpaths))
-        return shape
-
-    def _stroke(self, style: Style, viewport: Viewport, matrix: Matrix) -> tuple[str | None, float | None]:
-        """Give the paint and the width of a stroke that is seen; a stroke without width paints nothing."""
-        stroke = self.paints.word(style.stroke) if style.stroke_seen else None
-        if stroke is None:
-            return None, None
-        width = to_px(style.stroke_width, viewport.diagonal, style.font) * mean_scale(matrix)
-        if width <= 0:
-            return None, None
-        return stroke, width if width <= MAX_COORDINATE else None
-
-
-def _own_box(shape: Shape) -> Box | None:
-    return box_of_segments(segment for sub in shape.subpaths for segment in sub.segments)
-
 
 def _without_opacity(declared: Declared) -> bool:
     """Tell whether an element and all in it is fully transparent; what has no box has no opacity of its own."""
     opacity = declared.get("opacity")
     return isinstance(opacity, float) and opacity <= 0 and declared.get("display") != "contents"
-
-
-def _within(subpaths: list[Subpath]) -> bool:  # every number finite and no larger than coordinates may be
-    for sub in subpaths:
-        for segment in sub.segments:
-            for number in segment[1:]:
-                if not -MAX_COORDINATE <= number <= MAX_COORDINATE:
-                    return False
-    return True

@@ -6,13 +6,16 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+from importers.boxes import Box, box_of_segments
 from importers.drawing import Segment, Subpath
+from importers.limits import LETTERS_OF_A_STEP, MAX_COORDINATE, Work
 from importers.numbers import NumberError
 from importers.svg.arcs import full_ellipse
 from importers.svg.path_data import COMMA, NUMBER, Fault, check_length, parse_path_data
 from importers.svg.style import INITIAL, Declared, Pending, TooLarge, parse_declaration
 from importers.svg.units import Font, Terms, Viewport, needs_metrics, needs_window, parse_length, to_px
 
+_STEPS_OF_A_SHAPE = 25  # of work, see limits.Work
 # What percentages of it refer to.
 _AXES = {
     "x": "width",
@@ -106,6 +109,51 @@ class Shape:
     fault: Fault | None = None
     attribute: str = ""
     nothing: str = ""
+
+    def box(self) -> Box | None:
+        """Give the box of what it draws; None where that is nothing."""
+        return box_of_segments(segment for sub in self.subpaths for segment in sub.segments)
+
+
+class Shapes:
+    """Reads the shapes of a document; lists of points and path data that are copied are read once."""
+
+    def __init__(self, work: Work) -> None:
+        self._work = work
+        self._read: dict[Any, Shape] = {}
+
+    def of(self, tag: str, element: Any, attributes: Any, lengths: Lengths, copied: bool) -> Shape:
+        """Give what an element draws.
+
+        Args:
+            tag: one of SHAPES.
+            element: of the document.
+            attributes: its own.
+            lengths: the same, resolved.
+            copied: it is drawn by reference, and maybe again.
+        """
+        data = "d" if tag == "path" else "points"
+        own = copied and data in attributes and data not in lengths.declared
+        shape = self._read.get(element) if own else None
+        if shape is None:
+            text = lengths.declared.get(data) or attributes.get(data)
+            if text:
+                self._work.charge("path data", len(text) // LETTERS_OF_A_STEP)
+            shape = make_shape(tag, attributes, lengths)
+            if own:
+                self._read[element] = shape
+        self._work.charge("shapes", _STEPS_OF_A_SHAPE + sum(len(sub.segments) for sub in shape.subpaths))
+        return shape
+
+
+def within_bounds(subpaths: list[Subpath]) -> bool:
+    """Tell whether every number is finite and no larger than coordinates may be."""
+    for sub in subpaths:
+        for segment in sub.segments:
+            for number in segment[1:]:
+                if not -MAX_COORDINATE <= number <= MAX_COORDINATE:
+                    return False
+    return True
 
 
 def make_shape(tag: str, attributes: Any, lengths: Lengths) -> Shape:

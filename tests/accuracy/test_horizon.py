@@ -10,7 +10,7 @@ from wallkit.accuracy import scenes
 from wallkit.accuracy.reference import Reference, sure_events
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation import horizon
-from wallkit.simulation.near_misses import CORNER, GRAZE, near_misses
+from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, near_misses
 from wallkit.simulation.run import CONTACT
 from wallkit.walls import Material, Walls
 
@@ -137,7 +137,7 @@ def test_a_corner_passed_by_a_hair_is_noticed(gravity, by):
     contacts = simulate(scene, bounces=1).contacts
     assert contacts["wall"].tolist() == [1]
     near = list(near_misses(scene, horizon._flights(scene, contacts, 0), 1.0, 1e-6))
-    found = [clear for flights, clear, what in near if what == CORNER and len(flights)]
+    found = [clear for flights, clear, what in near if what == NEAR_CORNER and len(flights)]
     assert len(found) == (by < 1e-6)
     if found:
         assert found[0][0] == pytest.approx(by, abs=1e-13)
@@ -149,7 +149,7 @@ def test_a_parabola_that_turns_round_just_below_a_ceiling_is_noticed():
     scene = Scene(walls, Balls([(3.0, 2.0)], [(2.0, up)], 1.0), gravity=(0.0, -9.81))
     contacts = simulate(scene, bounces=1).contacts
     near = list(near_misses(scene, horizon._flights(scene, contacts, 0), 1.0, 1e-6))
-    clear = [found for flights, found, what in near if what == GRAZE and len(flights)]
+    clear = [found for flights, found, what in near if what == NEAR_GRAZE and len(flights)]
     assert clear[0][0] == pytest.approx(1e-8, abs=1e-13)
 
 

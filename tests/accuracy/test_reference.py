@@ -153,9 +153,3 @@ def test_sure_events_add_digits_until_nothing_changes():
 def test_too_few_digits_are_refused():
     with pytest.raises(PrecisionError, match="fewer than a double"):
         Reference(scenes.built_in()[0].scene(), 10)
-
-
-def test_without_mpmath_the_way_to_get_it_is_told(monkeypatch):
-    monkeypatch.setitem(__import__("sys").modules, "mpmath", None)
-    with pytest.raises(PrecisionError, match=r"wallkit\[precision\]"):
-        context(40)

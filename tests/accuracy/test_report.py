@@ -9,8 +9,8 @@ from typer.testing import CliRunner
 
 from wallkit import Balls, Material, Scene, SceneError, Walls
 from wallkit.accuracy import engines, scenes, tables
-from wallkit.accuracy.cases import Case, Outcome
-from wallkit.accuracy.contest import WAYS, Contest, Effort, Point, Subject, contest
+from wallkit.accuracy.cases import Case, Verdict
+from wallkit.accuracy.contest import METHODS, Contest, Effort, Point, Subject, contest
 from wallkit.accuracy.own import flattened, of_scene
 from wallkit.accuracy.report import Report, machine
 from wallkit.cli.app import _register_commands, app
@@ -113,7 +113,7 @@ def test_a_scene_with_gravity_and_losses_is_flown_by_those_who_know_both():
     walls = Walls.from_polylines([scenes.stadium().vertices], bulges=[scenes.stadium().bulges], material=Material(0.9))
     scene = Scene(walls, Balls([(0.0, 0.0), (1.0, 1.0)], [(30.0, 20.0), (0.0, 0.0)], 5.0), gravity=(0.0, -20.0))
     found = contest(of_scene("mine", scene), SMALL)
-    assert set(found.series()) == {"exact, lines", "exact, arcs", *(f"step, {way}" for way in WAYS)}
+    assert set(found.series()) == {"exact, lines", "exact, arcs", *(f"step, {way}" for way in METHODS)}
     # coordinates up to 200 and a few operations a bounce; the reference finds the quartic's roots in its own way
     assert found.series()["exact, arcs"][0].error < 1e-11
     assert found.series()["step, exact"][0].error < 1e-11
@@ -156,7 +156,7 @@ def test_wrong_use_is_told(arguments, words):
 
 
 def test_known_answers_are_shown_and_counted(monkeypatch):
-    outcomes = [Outcome("1", "1", 0.0, 0.0, ""), Outcome("1", "2", np.float64(1.0), np.float64(0.5), "")]
+    outcomes = [Verdict("1", "1", 0.0, 0.0, ""), Verdict("1", "2", np.float64(1.0), np.float64(0.5), "")]
     cases = [Case(f"case {k}", "group", "", False, lambda o=o: o) for k, o in enumerate(outcomes)]
     monkeypatch.setattr("wallkit.accuracy.cases.all_cases", lambda: cases)
     result = CliRunner().invoke(app, ["report", "--hard"])

@@ -137,6 +137,17 @@ CALLS = {
         "settle": NO_FLAGS,
         "progress": ("bar", 1, True),
     }),
+    "aim": (wallkit.aim, {"scene": SCENE, "start": (3.0, 3.0), "target": (6.0, 6.0, 0.5), "bounces": 1}, {
+        "scene": (None, ROOM, "level.toml"),
+        "start": (5.0, "ab", [(1.0, 2.0)], (1.0, math.nan), ("1", "2"), (1.0, 2.0, 3.0)),
+        "target": (5.0, "goal", None, (1.0, 2.0), (1.0, 2.0, 0.0), (1.0, 2.0, math.inf), ("1", "2", "3")),
+        "bounces": (*NO_WHOLE_NUMBERS, -1, None),
+        "radius": (*NO_NUMBERS, -1.0),
+        "speed": ("1", True, math.nan, math.inf, 0.0, -1.0),
+        "resolution": (*NO_NUMBERS, 0.0, 1.0),
+        "most_beams": (*NO_WHOLE_NUMBERS, 0, None),
+        "progress": ("bar", 1, True),
+    }),
     "survey": (wallkit.survey, {"scene": SCENE, "until": 1.0}, {
         "scene": (None, ROOM, "level.toml"),
         "until": (*NO_TIMES, -1.0),
@@ -187,8 +198,10 @@ CALLS = {
         "format": ("doc", 5),
         "options": ({"no_such_option": 1},),
     }),
-    "drawing_from_svgpathtools": (wallkit.drawing_from_svgpathtools, {}, {
+    "drawing_from_svgpathtools": (wallkit.drawing_from_svgpathtools, {"paths": []}, {
         "paths": (5, None, "M 0 0 L 1 1", [5], [["M"]], [[None]]),
+        "units": ("parsec", 5, None),
+        "y_axis": ("left", 5, None),
     }),
     "Repairs": (wallkit.Repairs, {}, {
         **dict.fromkeys(("snap", "min_width", "simplify"), (*NO_NUMBERS, -1.0)),
@@ -217,6 +230,10 @@ CALLS = {
         "run": (None, SCENE),
         "kind": (None, "avi", 1),
         "seconds": (*NO_NUMBERS, 0.0, -1.0),
+        "width": (*NO_WHOLE_NUMBERS, None, 0, 321),
+        "fps": (*NO_WHOLE_NUMBERS, 0, 30),
+        "pace": (*(wrong for wrong in NO_NUMBERS if wrong is not None), 0.0, -1.0),
+        "colour": (None, "red"),
         "theme": (None, "grey"),
         "progress": ("bar", 1, True),
     }),
@@ -244,7 +261,18 @@ CALLS = {
     }) for thing in (ROOM, SCENE, RUN)},
 }  # fmt: skip
 
-RESULTS = {"FreeSpace", "Gap", "Horizon", "OpenedScene", "Prepared", "Totals", "Wall", "__version__"}  # made by wallkit
+RESULTS = {
+    "FreeSpace",
+    "Gap",
+    "Horizon",
+    "OpenedScene",
+    "Prepared",
+    "Totals",
+    "Wall",
+    "Window",
+    "Windows",
+    "__version__",
+}  # made by wallkit
 DTYPES = {"CONTACT", "FINAL"}
 READ = {"Drawing", "DrawnPath", "Layer", "Problem", "Subpath"}  # plain records, filled by the readers piece by piece
 ENUMS_AND_ERRORS = {"DrawingError", "Ending", "Kind", "LimitError", "SceneError", "WallkitError", "WallsError"}

@@ -8,8 +8,6 @@ import sys
 import numpy as np
 import pytest
 
-from wallkit.cli.simulate import progress_bar
-
 SCENE = """
 [[walls]]
 vertices = [[0, 0], [400, 0], [400, 300], [0, 300]]
@@ -195,23 +193,6 @@ def test_lines_and_arcs_differ_in_the_walls_that_are_flown(wallkit, tmp_path):
     file.write_text(DRAWING)
     assert "arc" in wallkit("simulate", file, "--bounces", 2)[1]
     assert "arc" not in wallkit("simulate", file, "--bounces", 2, "--curves", "lines")[1].split("\n")[1]
-
-
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
-
-
-def test_progress_is_drawn_on_a_terminal_alone_and_wiped_at_the_end(monkeypatch):
-    for stream, drawn in ((Terminal(), True), (io.StringIO(), False)):
-        monkeypatch.setattr(sys, "stderr", stream)
-        with progress_bar("simulating", after=-1.0) as report:
-            assert (report is not None) == drawn
-            if report:
-                monkeypatch.setattr("time.monotonic", lambda: 1e9)  # long after
-                report(0.5)
-                assert "simulating [###############...............]  50 %" in stream.getvalue()
-        assert stream.getvalue().endswith("\r\x1b[K") == drawn
 
 
 def test_snap_closes_a_gap_before_the_balls_fly(wallkit, tmp_path):

@@ -14,7 +14,7 @@ from levels import TABLE, Start, program, run, sample, text_of, three_walls
 import wallkit
 from wallkit.walls import Material
 
-SECONDS = 10.0
+SECONDS = 30.0
 SPEED = 6.0  # m/s in levels of 20 m; every bounce of it is above the engines' 1 m/s
 
 C_PROGRAM = Path(__file__).parent / "engines"

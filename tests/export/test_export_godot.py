@@ -12,7 +12,7 @@ import wallkit
 from wallkit.export import ExportOptions, build_level
 from wallkit.walls import Material
 
-SECONDS = 5
+SECONDS = 30
 GAME = """
 extends SceneTree
 

@@ -13,7 +13,7 @@ import wallkit
 from wallkit.export import formats, loader_of
 from wallkit.walls import Material
 
-SECONDS = 10
+SECONDS = 30
 
 
 def games(names, kind, tmp_path, y_axis, metres, speed):

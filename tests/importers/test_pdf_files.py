@@ -599,3 +599,24 @@ def test_a_file_without_a_catalogue_is_broken_in_words(root):
     with pytest.raises(DrawingError) as caught:
         read_pdf(data)
     assert caught.value.code in ("broken-pdf", "no-pages")
+
+
+def test_art_in_tiles_is_told_and_shadings_are_no_tiles():
+    document = pikepdf.new()
+    page = document.add_blank_page(page_size=(100, 100))
+    tile = document.make_stream(b"0 0 3 3 re f")
+    tile.PatternType, tile.PaintType, tile.TilingType = 1, 1, 1
+    tile.BBox, tile.XStep, tile.YStep = [0, 0, 5, 5], 5, 5
+    shading = pikepdf.Dictionary(PatternType=2)
+    page.Resources = pikepdf.Dictionary(Pattern=pikepdf.Dictionary(P0=tile, P1=shading))
+    page.Contents = document.make_stream(
+        b"/Pattern cs /P0 scn 10 10 20 20 re f 1 0 0 rg 0 0 5 5 re f /Pattern cs /P1 scn 40 10 9 9 re f"
+        b" /Pattern CS /P0 SCN 50 50 9 9 re S"
+    )
+    data = io.BytesIO()
+    document.save(data)
+    drawing = read_pdf(data.getvalue())
+    (told,) = [problem for problem in drawing.problems if problem.code == "pattern-left-out"]
+    assert told.message.startswith("2 shapes")
+    assert (told.x, told.y) == (10, 10)
+    assert [path.fill or path.stroke for path in drawing.paths] == ["pattern", "#ff0000", "pattern", "pattern"]

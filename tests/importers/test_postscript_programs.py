@@ -163,7 +163,16 @@ def by_matplotlib(folder):
     return (folder / "out.eps").read_bytes()
 
 
-PROGRAMS = [by_ghostscript, by_pdftops, by_cairo, by_fig2dev, by_matplotlib]
+def by_inkscape(folder):
+    (folder / "in.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="4in" height="3in" viewBox="0 0 400 300"><g fill="none" '
+        'stroke="black"><rect x="40" y="30" width="300" height="200"/><path d="M60 60H120L90 110z"/>'
+        '<path transform="translate(200 100) scale(2)" d="M0 0C10 0 30 10 30 30"/></g></svg>'
+    )
+    return made_by_command(folder, "out.eps", "inkscape", "in.svg", "-o", "out.eps")
+
+
+PROGRAMS = [by_ghostscript, by_pdftops, by_cairo, by_fig2dev, by_matplotlib, by_inkscape]
 
 
 @pytest.mark.parametrize("make", PROGRAMS)

@@ -22,7 +22,7 @@ ACROSS = '<rect id="across" x="45" y="45" width="50" height="5"/>'
 
 def read(body):
     drawing = read_svg(f"{HEAD}{CLIPS}{body}</svg>".encode())
-    counted = [p for p in drawing.problems if p.code == "clip-not-applied"]
+    counted = [p for p in drawing.problems if p.code in ("clip-not-applied", "mask-not-applied")]
     named = [(p.code, p.name) for p in drawing.problems if p.code in ("outside-clip", "outside-picture")]
     number = (
         0 if not counted else int(counted[0].message.partition(" times")[0]) if "times" in counted[0].message else 1

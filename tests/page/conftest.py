@@ -14,6 +14,7 @@ ARGUMENTS = [
     "--disable-component-update",
     "--disable-sync",
 ]
+PATIENCE = 240_000  # milliseconds: a slow machine with other work may have to compile first
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 
@@ -32,7 +33,7 @@ def browser():
 def until(page, condition):
     """Wait until a condition in the page holds (its own policy forbids the eval that wait_for_function needs)."""
     assert page.evaluate(
-        f"""new Promise((done) => {{ const end = performance.now() + 60000;
+        f"""new Promise((done) => {{ const end = performance.now() + {PATIENCE};
         const look = () => ({condition}) ? done(true) : performance.now() > end ? done(false) : setTimeout(look, 10);
         look(); }})"""
     ), f"waited in vain for {condition}"
@@ -74,6 +75,7 @@ def opened(browser):
         options = {"viewport": {"width": 1200, "height": 780}, "reduced_motion": "reduce"} | options
         context = browser.new_context(**options)
         page = context.new_page()
+        page.set_default_timeout(PATIENCE)
         contexts.append((context, Watch(page, expected)))
         page.goto(url)
         until(page, "globalThis.Wallkit && (Wallkit.replay || Wallkit.page)")

@@ -2,6 +2,7 @@
 
 import json
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from wallkit import Balls, Scene, Walls, simulate
 from wallkit.cli.play import reader
 from wallkit.scene.opening import open_scene
+from wallkit.view.page.bounds import HEAVY
 from wallkit.view.page.server import PageServer
 from wallkit.view.page.workers import Workers
 from wallkit.walls.walls_json import to_json
@@ -21,6 +23,7 @@ ROOM = """<svg xmlns="http://www.w3.org/2000/svg" width="400" height="300">
 <path id="screen" d="M60 240L120 240" fill="none" stroke="black"/>
 <g id="balls" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" inkscape:groupmode="layer"
  inkscape:label="balls"><circle cx="80" cy="120" r="6"/><path d="M80 120L130 150"/></g></svg>"""
+PATIENCE = 240.0  # seconds for one answer, on a machine with other work
 NAME = (
     "&lt;img src=x onerror=&quot;document.title='owned'&quot;&gt;&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;"
 )
@@ -28,7 +31,7 @@ NAME = (
 
 @pytest.fixture(scope="module")
 def server():
-    with PageServer(Workers(reader())) as running:
+    with PageServer(Workers(reader(), replace(HEAVY, seconds=PATIENCE))) as running:  # bounds have tests of their own
         threading.Thread(target=running.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True).start()
         yield running
         running.shutdown()

@@ -99,4 +99,5 @@ def test_the_page_shows_what_is_saved_and_keeps_view_aim_and_settings(opened, un
         assert before[2]["restitution"] == 0.5
         saved(file, ROOM.format(width=600))
         until(page, "Wallkit.page.document.version === 2")
+        page.close()  # and with it what it still asks
         server.shutdown()

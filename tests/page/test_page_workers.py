@@ -19,6 +19,7 @@ from wallkit.view.page.bounds import HEAVY, LIGHT, LIGHT_CONTACTS
 from wallkit.view.page.questions import Opening
 from wallkit.view.page.server import PageServer
 from wallkit.view.page.workers import GoneError, LostError, Workers, is_light
+from wallkit.view.page.worlds import CompilingError
 
 ROOM = b'<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100"><path id="room" d="M0 0H200V100H0Z"/></svg>'
 BALL = {"x": 30, "y": 30, "vx": 40, "vy": 25, "radius": 4}
@@ -27,6 +28,14 @@ FOREVER, GREEDY, FATAL = 11_111, 22_222, 33_333  # bounces that stand for what a
 
 class Held(Answers):
     """Answers of which some runs never end, take all memory, or take the process with them."""
+
+    compiling = 2  # times that a file is asked for in vain
+
+    def save(self, body, document):
+        if self.compiling:
+            self.compiling -= 1
+            raise CompilingError
+        return super().save(body, document)
 
     def simulate(self, body, document):
         if body.get("bounces") == FOREVER:
@@ -140,6 +149,16 @@ def test_an_answer_that_takes_too_much_memory_is_refused_and_the_process_goes_on
     assert "2 GiB" in told.value.message
     assert flown(workers.ask("simulate", run(room, LIGHT_CONTACTS + 1))) == ["bounce limit"]
     assert workers.heavy.ended == before
+
+
+def test_what_waits_for_a_compiler_is_asked_again_and_others_have_their_turn(workers, room):
+    replies = []
+    saving = threading.Thread(target=lambda: replies.append(workers.ask("save", run(room, 5) | {"what": "replay"})))
+    saving.start()
+    assert flown(workers.ask("simulate", run(room, LIGHT_CONTACTS + 1))) == ["bounce limit"]
+    saving.join()
+    assert replies[0].download == "room.html"
+    assert "<canvas" in replies[0].content
 
 
 def test_an_answer_that_takes_too_long_is_refused_with_the_figure():

@@ -117,7 +117,7 @@ def test_nothing_is_listed_in_a_clearing(drawn, radius):
 @settings(max_examples=20)
 @given(spots, st.booleans())
 def test_a_clearing_ahead_is_empty_and_cannot_grow_both_ways(drawn, fine):
-    """For points; for discs see ``test_index_ways``, theirs may hold what they cannot meet."""
+    """For points; for discs see ``test_index_octants``, theirs may hold what they cannot meet."""
     model = modelled(clustered(drawn), machine_code=True, fine=fine).model
     columns, rows = model.grid.columns, model.grid.rows
     cells = model.cells[: columns * rows]

@@ -9,7 +9,9 @@ from PIL import Image
 
 import wallkit
 from wallkit.view import film as films
-from wallkit.view.theme import ramp
+from wallkit.view.theme import RAMP_STEPS, ramp
+
+LOOK = films.Look(width=640, fps=25, pace=None, colour="ball", theme="light")
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +25,7 @@ def test_each_frame_of_a_gif_shows_the_ball_where_the_run_says(run):
     image = Image.open(io.BytesIO(films.film(run, "gif", seconds=1.0)))
     assert image.n_frames == 26
     assert image.info["duration"] == 40
-    frames = films._Frames(run, 25, 1.0, "light", None)
+    frames = films._Frames(run, LOOK, 1.0, None)
     hue = np.array(list(bytes.fromhex(ramp(16, "light")[1:])))
     for number in (0, 10, 25):
         image.seek(number)
@@ -38,7 +40,7 @@ def test_each_frame_of_a_gif_shows_the_ball_where_the_run_says(run):
 def test_a_film_shows_the_sensors_where_they_are(run):
     sensors = wallkit.Walls.from_polylines([[(60.0, 10.0), (60.0, 60.0)]], False)
     seeing = replace(run, scene=replace(run.scene, sensors=sensors))
-    frames, blind = (films._Frames(each, 25, 1.0, "light", None) for each in (seeing, run))
+    frames, blind = (films._Frames(each, LOOK, 1.0, None) for each in (seeing, run))
     shown, plain = (
         np.asarray(each.background.copied().reduced().convert("RGB")).astype(int) for each in (frames, blind)
     )
@@ -50,9 +52,39 @@ def test_a_film_shows_the_sensors_where_they_are(run):
 
 
 def test_the_caption_says_how_fast_and_how_much(run):
-    frames = films._Frames(run, 25, 0.5, "light", None)
+    frames = films._Frames(run, LOOK, 0.5, None)
     assert frames.speedup == 1.0
     assert frames.caption(0.25) == "0.25 s, first 0.48 of 4 s"
+
+
+def test_size_rate_and_pace_are_those_asked_for(run):
+    image = Image.open(io.BytesIO(films.film(run, "gif", seconds=9.0, width=320, fps=10, pace=0.5)))
+    assert (image.size[0], image.info["duration"], image.n_frames) == (320, 100, 4 / 0.5 * 10 + 1)
+    frames = films._Frames(run, films.Look(320, 10, 0.5, "ball", "light"), 9.0, None)
+    assert frames.caption(1.5) == "1.50 s (at 0.5 times its speed)"
+
+
+@pytest.mark.parametrize(("colour", "parts"), [("ball", (0.0, 1.0)), ("speed", (0.5, 1.0)), ("time", (0.25, 0.25))])
+def test_the_colour_of_a_ball_tells_which_it_is_its_speed_or_the_time(colour, parts):
+    walls = wallkit.Walls.from_polylines([[(0, 0), (100, 0), (100, 70), (0, 70)]])
+    scene = wallkit.Scene(walls, wallkit.Balls([[30, 20], [30, 50]], [[10, 0], [20, 0]], 5))
+    run = wallkit.simulate(scene, until=4.0)
+    look = films.Look(640, 25, 1.0, colour, "light")
+    frame = np.asarray(list(films._Frames(run, look, 1.0, None))[25].convert("RGB"))
+    balls = films._Frames(run, look, 1.0, None).frame.points(run.position(1.0))
+    for (x, y), part in zip(balls, parts, strict=True):
+        step = min(int(part * RAMP_STEPS), RAMP_STEPS - 1)
+        assert frame[int(y), int(x)].tolist() == list(bytes.fromhex(ramp(step, "light")[1:]))
+
+
+@pytest.mark.parametrize(
+    ("wishes", "words"),
+    [({"fps": 30}, "hundredths"), ({"fps": 0}, "fps is 0"), ({"width": 321}, "even"), ({"pace": 0.0}, "pace is 0")],
+)
+def test_what_no_film_can_be_is_refused(run, wishes, words):
+    with pytest.raises(films.FilmError) as refused:
+        films.film(run, "gif", **wishes)
+    assert words in f"{refused.value} {refused.value.fix}"
 
 
 def test_progress_ends_at_one(run):
@@ -86,4 +118,4 @@ def test_a_film_of_a_ball_that_comes_to_rest_is_paced_by_its_flight():
     run = wallkit.simulate(scene, until=20.0)
     # It falls 58 units in 1.08 s and bounces lower and lower: some 50 units a second on the way, so that 100 units in
     # 1.8 s ask for about 1.1 (the median over all bounces, most of them tiny, would ask for far more).
-    assert films._Frames(run, 25, 5.0, "light", None).speedup == 1.0
+    assert films._Frames(run, LOOK, 5.0, None).speedup == 1.0

@@ -8,7 +8,6 @@ from importers.drawing import Drawing, DrawnPath, Subpath
 from importers.problems import Problem
 from wallkit import Material, Walls
 from wallkit.geometry.bulge_arcs import arc_points
-from wallkit.geometry.polygons import contains
 from wallkit.view.frame import fit, walls_box
 from wallkit.view.outline import solid_areas, tick_places
 from wallkit.view.picture import drawing_svg, walls_svg
@@ -104,14 +103,6 @@ def test_each_material_fills_its_own_walls_and_cuts_its_holes(nested):
     areas = {m.restitution: (members, framed) for m, members, framed in solid_areas(nested, np.empty((0, 2)))}
     assert areas == {1.0: ([0, 1], False), 0.25: ([2], False)}
     assert "restitution 0.25, tangential 1" in texts(walls_svg(nested))
-
-
-def test_contains_agrees_with_shapely():
-    shapely = pytest.importorskip("shapely")
-    rng = np.random.default_rng(7)
-    star = np.stack([np.cos(t := np.linspace(0, 2 * np.pi, 40)[:-1]), np.sin(t)], 1) * rng.uniform(0.3, 1, (39, 1))
-    points = rng.uniform(-1, 1, (500, 2))
-    assert (contains(star, points) == shapely.contains_xy(shapely.Polygon(star), points[:, 0], points[:, 1])).all()
 
 
 def test_problems_are_numbered_marks_with_a_legend_and_the_rest_is_counted(nested):

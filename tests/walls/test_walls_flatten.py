@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from drawn import four_cubics
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from importers.drawing import Subpath
@@ -35,6 +35,7 @@ point = st.tuples(coordinate, coordinate)
 
 @settings(max_examples=60)
 @given(st.tuples(point, point, point, point), st.sampled_from([1.0, 0.1, 0.01]))
+@example(((17.5, 12.0), (19.0, 69.0), (18.0, 53.0), (18.5, 18.312)), 1.0)  # a hook that peaks beyond the chord's end
 def test_every_point_of_the_curve_is_within_tolerance(points, tolerance):
     strokes = cubic(points)
     pieces = flatten(strokes, tolerance)

@@ -6,16 +6,18 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+import shapely
 from drawn import codes, drawing, path, polygon, square
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely.geometry import Polygon
 
 from wallkit.geometry.orientation import side
-from wallkit.walls.crossings import find_contacts
+from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.importing.pipeline import import_walls
 from wallkit.walls.nesting import depths
+from wallkit.walls.solid import walls_around
 
 
 def edges_of(*rings, closed=True):
@@ -41,14 +43,14 @@ def test_two_rings_cross_exactly_when_neither_holds_the_other(p, q):
         return
     shared = one.intersection(two).area
     partly = shared > 1e-9 and shared < min(one.area, two.area) - 1e-9  # areas of whole numbers are halves
-    crossing = find_contacts(edges_of(p, q)).crossing_walls
+    crossing = find_touches(edges_of(p, q)).crossing_walls
     assert (crossing[:, 0] != crossing[:, 1]).any() == partly
 
 
 @settings(max_examples=100)
 @given(ring)
 def test_a_ring_without_any_contact_is_valid_and_no_valid_ring_crosses_itself(p):
-    found = find_contacts(edges_of(p))
+    found = find_touches(edges_of(p))
     clean = not (len(found.crossing_walls) or len(found.overlap_edges) or len(found.touch_walls))
     if Polygon(p).area > 0:
         assert clean == Polygon(p).is_valid
@@ -66,7 +68,7 @@ def test_a_ring_without_any_contact_is_valid_and_no_valid_ring_crosses_itself(p)
     ],
 )
 def test_crossing_or_only_touching(walls, crossing):
-    assert bool(len(find_contacts(edges_of(*walls)).crossing_walls)) == crossing
+    assert bool(len(find_touches(edges_of(*walls)).crossing_walls)) == crossing
 
 
 @settings(max_examples=100)
@@ -104,7 +106,7 @@ def test_depth_counts_the_rings_around_touching_or_not_copies_once(choice):
 
 def test_rings_that_cross_are_not_around_one_another_but_around_what_both_hold():
     e = edges_of(rectangle(0, 0, 6, 6), rectangle(3, 3, 6, 6), rectangle(4, 4, 1, 1), rectangle(7, 7, 1, 1))
-    depth, _ = depths(e, find_contacts(e).crossing_walls)
+    depth, _ = depths(e, find_touches(e).crossing_walls)
     assert depth.tolist() == [0, 0, 2, 1]
 
 
@@ -182,3 +184,17 @@ def test_a_thousand_places_are_listed_and_the_rest_is_counted():
     crossings = [p for p in import_walls(drawing(*across, *down)).problems if p.code == "crossing"]
     assert len(crossings) == 1001
     assert crossings[-1].message.startswith("560 more")  # 39 * 40 - 1000
+
+
+def test_which_walls_are_around_a_point_is_what_shapely_says():
+    """Stars in stars, whose rays cross edges at all angles; points of the whole plane around them."""
+    rng = np.random.default_rng(7)
+    turn = np.linspace(0, 2 * np.pi, 40)[:-1]
+    stars = [
+        size * np.stack([np.cos(turn), np.sin(turn)], 1) * rng.uniform(0.3, 1, (39, 1)) for size in (1.0, 0.6, 2.0)
+    ]
+    points = rng.uniform(-2, 2, (500, 2))
+    found = np.zeros((500, 3), dtype=bool)
+    found[walls_around(edges_of(*stars), points)] = True
+    expected = [shapely.contains_xy(shapely.Polygon(star), points[:, 0], points[:, 1]) for star in stars]
+    assert found.T.tolist() == [one.tolist() for one in expected]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import json
+import re
+import tomllib
 from dataclasses import replace
 from importlib.resources import files
 
@@ -31,7 +33,11 @@ def svg(body):
 
 def room(body, around=""):
     """A room of 400 by 300 and what is in it."""
-    return svg(f'<g id="Level{around}"><rect id="room" width="400" height="300" fill="none" stroke="#000"/>{body}</g>')
+    return svg(in_room(body, around))
+
+
+def in_room(body, around=""):
+    return f'<g id="Level{around}"><rect id="room" width="400" height="300" fill="none" stroke="#000"/>{body}</g>'
 
 
 @pytest.mark.parametrize(
@@ -202,6 +208,66 @@ def test_sensors_targets_and_spawns_are_no_walls_and_act_through_every_door(tmp_
         again = wallkit.open_scene(tmp_path / file).scene
         assert again.sensors.names == ("gate", "exit"), file
         assert again.balls.position.tolist() == [[50, 150]], file
+
+
+def test_a_scene_file_says_roles_as_a_layer_around_all_and_words_in_the_drawing_go_before_it(tmp_path):
+    body = (
+        '<g inkscape:groupmode="layer" inkscape:label="doors">'
+        '<rect id="gate" x="100" y="1" width="4" height="298" fill="#00f"/>'
+        '<rect inkscape:label="shut #wall" x="150" y="1" width="4" height="98" fill="#00f"/></g>'
+        '<circle id="hero" cx="50" cy="150" r="5" fill="#00f"/>'
+        '<rect id="exit" x="300" y="9" width="9" height="9" fill="#0f0"/>'
+    )
+    (tmp_path / "level.svg").write_text(f"<svg xmlns='http://www.w3.org/2000/svg' {INKSCAPE}>{in_room(body)}</svg>")
+    rules = """
+    [colours]
+    "#0f0" = { role = "target:out" }
+    [[materials]]
+    layer = "doors"
+    role = "sensor"
+    [[materials]]
+    wall = "hero"
+    role = "spawn"
+    """
+    (tmp_path / "level.toml").write_text(f'drawing = "level.svg"\n{rules}')
+    schema = json.loads(files("wallkit.schemas").joinpath("scene.schema.json").read_text())
+    jsonschema.validate(tomllib.loads((tmp_path / "level.toml").read_text()), schema)
+    scene = wallkit.open_scene(tmp_path / "level.toml").scene
+    assert scene.walls.names == ("room", "shut")
+    assert scene.sensors.names == ("gate", "out")
+    assert [(m.kind, m.name) for m in scene.walls.markers] == [("spawn", "hero"), ("target", "out")]
+    assert scene.balls.position.tolist() == [[50, 150]]
+
+
+@pytest.mark.parametrize(
+    ("drawing", "rule", "told"),
+    [
+        (True, 'wall = "room"\nrole = "door"', "materials[0].role: 'door' is not"),
+        (True, 'wall = "nobody"\nrole = "sensor"', "no wall has the name 'nobody'"),
+        (False, 'wall = "*"\nrole = "sensor"', "materials[0].role: only goes with a drawing"),
+    ],
+)
+def test_a_role_that_is_none_or_has_nobody_is_told(tmp_path, drawing, rule, told):
+    (tmp_path / "level.svg").write_text(f"<svg xmlns='http://www.w3.org/2000/svg'>{in_room('')}</svg>")
+    own = "[[walls]]\nvertices = [[0, 0], [9, 0], [9, 9]]"
+    head = 'drawing = "level.svg"' if drawing else own
+    (tmp_path / "level.toml").write_text(f"{head}\n[[materials]]\n{rule}\n")
+    with pytest.raises(wallkit.WallkitError, match=re.escape(told)):
+        wallkit.open_scene(tmp_path / "level.toml")
+
+
+def test_many_balls_start_at_the_spawns_in_turn_and_smaller_ones_anywhere_in_their_circles():
+    two = THINGS + '<circle inkscape:label="#spawn" cx="350" cy="250" r="20" fill="#0f0"/>'
+    exact = wallkit.open_scene(room(two), wallkit.Wishes(balls=5)).scene.balls
+    assert exact.position.tolist() == [[50, 150], [350, 250], [50, 150], [350, 250], [50, 150]]
+    assert exact.radius == pytest.approx([5, 20, 5, 20, 5])
+    assert np.hypot(*exact.velocity.T) == pytest.approx(np.full(5, 50.0))
+    small = wallkit.open_scene(room(two), wallkit.Wishes(balls=4000, radius=4.0)).scene.balls
+    away = np.hypot(*(small.position - [[50, 150], [350, 250]] * 2000).T)
+    assert away[0::2].max() <= 1 + 1e-9
+    assert away[1::2].max() <= 16 + 1e-9
+    # Evenly over a disc of radius R the mean distance is 2 R / 3, its standard error R / sqrt(18 n): six of them
+    assert away[1::2].mean() == pytest.approx(32 / 3, abs=6 * 16 / np.sqrt(18 * 2000))
 
 
 def test_a_ball_that_flies_through_a_gate_and_a_target_is_reported_and_not_bounced():

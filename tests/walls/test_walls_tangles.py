@@ -23,7 +23,7 @@ resource.setrlimit(resource.RLIMIT_DATA, (512 << 20, 512 << 20))
 resource.setrlimit(resource.RLIMIT_CPU, (25, 25))
 import numpy as np
 from wallkit.walls import Walls
-from wallkit.walls.crossings import find_contacts
+from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.checking.free_space import free_space
 from wallkit.walls.nesting import depths
@@ -32,7 +32,7 @@ rng = np.random.default_rng(4)
 walls = {}
 found = validate(walls)
 edges = Edges(walls.vertices, walls.offsets, walls.closed)
-depths(edges, find_contacts(edges).crossing_walls)
+depths(edges, find_touches(edges).crossing_walls)
 space = free_space(walls)
 print(space.complete, "tangled" in [problem.code for problem in found])
 """
@@ -80,7 +80,7 @@ def looked_at(monkeypatch, walls):
         return inner(edges, first, second)
 
     monkeypatch.setattr(crossings, "_classify", counted)
-    crossings.find_contacts(Edges(walls.vertices, walls.offsets, walls.closed))
+    crossings.find_touches(Edges(walls.vertices, walls.offsets, walls.closed))
     monkeypatch.setattr(crossings, "_classify", inner)
     return count
 

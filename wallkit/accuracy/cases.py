@@ -1,7 +1,7 @@
 """The cases with known answers: what is expected, what came out, and by how much it may differ, with the reason.
 
 The same functions are shown by ``wallkit report --hard`` and asserted by the tests. Each is a plain function
-that returns an :class:`Outcome`; the decorator :func:`case` lists it. They live in the modules ``known_*``.
+that returns an :class:`Verdict`; the decorator :func:`case` lists it. They live in the modules ``known_*``.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _MODULES = ("known_lines", "known_corners", "known_scale", "known_arcs", "known_
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class Verdict:
     """What a case gave.
 
     Attributes:
@@ -63,9 +63,9 @@ class Case:
     group: str
     story: str
     slow: bool
-    check: Callable[[], Outcome]
+    check: Callable[[], Verdict]
 
-    def timed(self) -> tuple[Outcome, float]:
+    def timed(self) -> tuple[Verdict, float]:
         """Run it; give the outcome and the seconds it took."""
         begin = time.perf_counter()
         outcome = self.check()
@@ -75,17 +75,17 @@ class Case:
 _cases: list[Case] = []
 
 
-def case(name: str, story: str, *, slow: bool = False) -> Callable[[Callable[..., Outcome]], Callable[..., Outcome]]:
+def case(name: str, story: str, *, slow: bool = False) -> Callable[[Callable[..., Verdict]], Callable[..., Verdict]]:
     """List a function of no arguments as a case."""
 
-    def listed(check: Callable[..., Outcome]) -> Callable[..., Outcome]:
+    def listed(check: Callable[..., Verdict]) -> Callable[..., Verdict]:
         add(name, check.__module__.rsplit("known_", 1)[-1], story, check, slow=slow)
         return check
 
     return listed
 
 
-def add(name: str, group: str, story: str, check: Callable[[], Outcome], *, slow: bool = False) -> None:
+def add(name: str, group: str, story: str, check: Callable[[], Verdict], *, slow: bool = False) -> None:
     """List a case that is made rather than written, such as one of a row of angles."""
     _cases.append(Case(name, group, story, slow, check))
 
@@ -97,7 +97,7 @@ def all_cases() -> list[Case]:
     return list(_cases)
 
 
-def run_cases(slow: bool = True) -> Iterator[tuple[Case, Outcome, float]]:
+def run_cases(slow: bool = True) -> Iterator[tuple[Case, Verdict, float]]:
     """Run the cases one after the other; yields each with its outcome and seconds."""
     for found in all_cases():
         if slow or not found.slow:
@@ -124,16 +124,16 @@ def count(walls: Walls, position: ArrayLike, velocity: ArrayLike, radius: float 
     return int(survey(scene, until=until, bounces=10**9).bounces[0])
 
 
-def counted(expected: int, got: int, why: str, slack: int = 0) -> Outcome:
+def counted(expected: int, got: int, why: str, slack: int = 0) -> Verdict:
     """Compare two counts."""
-    return Outcome(f"{expected:,}", f"{got:,}", float(abs(expected - got)), float(slack), why)
+    return Verdict(f"{expected:,}", f"{got:,}", float(abs(expected - got)), float(slack), why)
 
 
-def measured(expected: float, got: float, tolerance: float, why: str) -> Outcome:
+def measured(expected: float, got: float, tolerance: float, why: str) -> Verdict:
     """Compare two numbers."""
-    return Outcome(repr(float(expected)), repr(float(got)), abs(float(got) - float(expected)), tolerance, why)
+    return Verdict(repr(float(expected)), repr(float(got)), abs(float(got) - float(expected)), tolerance, why)
 
 
-def nothing(what: str, error: float, tolerance: float, why: str) -> Outcome:
+def nothing(what: str, error: float, tolerance: float, why: str) -> Verdict:
     """Compare with zero: the largest deviation of a run from a law."""
-    return Outcome(what, f"off by {float(error):.2g}", float(error), tolerance, why)
+    return Verdict(what, f"off by {float(error):.2g}", float(error), tolerance, why)

@@ -14,11 +14,12 @@ from wallkit.accuracy import engines
 from wallkit.accuracy.reference import Event, PrecisionError, Reference, sure_events
 from wallkit.accuracy.scenes import BuiltIn
 from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.bulge_arcs import edge_points
 from wallkit.scene.scene import Scene
 
 BOUNCES = 3  # the error is taken after so many: few enough that chaos has not yet mixed everything up
 WRONG = 0.01  # a ball is somewhere else when it is off by this part of the scene's size
-WAYS = ("exact", "stop", "full-step", "reflect-in-place")
+METHODS = ("exact", "stop", "full-step", "reflect-in-place")
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +154,7 @@ def contestants(subject: Subject, effort: Effort, size: float) -> Iterator[engin
             yield engines.exact(subject.arcs(part * size), "exact, arcs", f"within {part * size:.2g}", part * size)
         if not subject.swept:
             yield engines.exact(best, "exact, arcs", "as drawn", 0.0)
-    for way in WAYS:
+    for way in METHODS:
         yield from (engines.stepped(best, way, dt) for dt in effort.steps)
     yield from engines.others(fine, best, list(effort.steps))
 
@@ -167,7 +168,7 @@ def contest(subject: Subject, effort: Effort, progress: Callable[[str], None] | 
         progress: is told who flies next.
 
     Raises:
-        PrecisionError: mpmath is not installed, or the digits asked for cannot give the reference.
+        PrecisionError: the digits asked for cannot give the reference.
     """
     low_x, low_y, high_x, high_y = subject.lines(1.0).walls.box()
     size = max(high_x - low_x, high_y - low_y) or 1.0
@@ -259,12 +260,9 @@ def _room(scene: Scene) -> Any:
 
 
 def along(a: FloatArray, b: FloatArray, bulge: float, pieces: int = 128) -> FloatArray:
-    """Give points of an edge from a to just before b: of an arc with bulge k, turned by parts of 4 atan(k)."""
+    """Give points of an edge from a to just before b, an arc in equal parts."""
     if bulge == 0.0:
         return a[None]
-    d = b - a
-    centre = (a + b) / 2 + (1 - bulge**2) / (4 * bulge) * np.array([-d[1], d[0]])
-    turns = 4 * math.atan(bulge) * np.arange(pieces) / pieces
-    c, s = np.cos(turns), np.sin(turns)
-    x, y = a - centre
-    return np.stack([centre[0] + c * x - s * y, centre[1] + s * x + c * y], axis=1)
+    part = np.arange(1, pieces) / pieces
+    inner = edge_points(np.tile(a, (pieces - 1, 1)), np.tile(b, (pieces - 1, 1)), np.full(pieces - 1, bulge), part)
+    return np.concatenate([a[None], inner])

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from wallkit.accuracy import scenes
-from wallkit.accuracy.cases import Outcome, add, case, fly, nothing
+from wallkit.accuracy.cases import Verdict, add, case, fly, nothing
 from wallkit.geometry.arrays import FloatArray
 from wallkit.walls import Walls
 
@@ -16,7 +16,7 @@ SPEED = 50.0
 EPS = 2.0**-53
 
 
-def _circle(radius: float, spread: float) -> Outcome:
+def _circle(radius: float, spread: float) -> Verdict:
     """Every chord of a circle makes the same angle with it; the angular momentum stays."""
     x, y = 10.0 * (1 - radius / 100.0), 20.0 * (1 - radius / 100.0)  # within what the disc leaves free
     run = fly(scenes.circle(100.0), (x, y), (SPEED * math.cos(spread), SPEED * math.sin(spread)), radius, bounces=5000)
@@ -62,7 +62,7 @@ def _ellipse_invariant(pieces: int) -> tuple[float, float, FloatArray]:
 
 
 @case("ellipse as arcs", "the product of the angular momenta about the foci, over 200 bounces")
-def ellipse_invariant() -> Outcome:
+def ellipse_invariant() -> Verdict:
     """The invariant is as good as the arcs fit: an arc through three points of a curve errs by the third order."""
     pieces = 400
     _, error, _ = _ellipse_invariant(pieces)
@@ -80,14 +80,14 @@ def ellipse_invariant() -> Outcome:
 
 
 @case("ellipse, finer arcs", "ten times the arcs: the invariant a hundred times better")
-def ellipse_converges() -> Outcome:
+def ellipse_converges() -> Verdict:
     """The normal error falls with the square of the arc's length."""
     coarse, fine = _ellipse_invariant(100)[1], _ellipse_invariant(1000)[1]
-    return Outcome("1/100", f"1/{coarse / fine:.3g}", fine / coarse, 1 / 30, "second order, within a factor 3")
+    return Verdict("1/100", f"1/{coarse / fine:.3g}", fine / coarse, 1 / 30, "second order, within a factor 3")
 
 
 @case("stadium stays in", "5,000 bounces of a disc in a stadium: never nearer to the wall than its radius")
-def stadium_keeps() -> Outcome:
+def stadium_keeps() -> Verdict:
     """The disc's centre stays in the stadium of radius R - r."""
     contacts = fly(
         scenes.stadium(), (3.0, -7.0), (SPEED * math.cos(0.5), SPEED * math.sin(0.5)), 5.0, bounces=5000
@@ -98,7 +98,7 @@ def stadium_keeps() -> Outcome:
 
 
 @case("half circle, aimed along its tangent", "a point that runs along a straight into a tangential joint")
-def tangential_joint() -> Outcome:
+def tangential_joint() -> Verdict:
     """Seams between tangential edges give no ghost hits: the chords hug the wall at an angle that stays."""
     slow = 1e-3
     velocity = (SPEED * math.cos(slow), -SPEED * math.sin(slow))

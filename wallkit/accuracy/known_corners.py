@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from wallkit.accuracy import scenes
-from wallkit.accuracy.cases import Outcome, add, case, count, counted, fly
+from wallkit.accuracy.cases import Verdict, add, case, count, counted, fly
 from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Walls
@@ -38,7 +38,7 @@ def wedge_bounces(tangent: float) -> int:
     return count(open_wedge(tangent, power, -power / 2), start, (-SPEED, 0.0))
 
 
-def _wedge(degrees: float, expected: int, slack: int) -> Outcome:
+def _wedge(degrees: float, expected: int, slack: int) -> Verdict:
     got = wedge_bounces(math.tan(math.radians(degrees)))
     why = "pi / angle is whole: ambiguous by one" if slack else "ceil(pi / angle) - 1"
     return counted(expected, got, why, slack)
@@ -53,7 +53,7 @@ for _degrees, _expected, _slack in ((2.0, 90, 1), (7.0, 25, 0), (0.1, 1799, 1), 
     )
 
 
-def _galperin(digits: int) -> Outcome:
+def _galperin(digits: int) -> Verdict:
     expected = int("31415926"[: digits + 1])
     return counted(expected, wedge_bounces(10.0**-digits), "the digits of pi: floor(pi / atan(10^-d))")
 
@@ -77,7 +77,7 @@ def shots_at_corners(walls: Walls, radius: float, shots: int, seed: int) -> Scen
 
 
 @case("corner shots", "2,000 discs and 2,000 points aimed at the corners of a star, 200 bounces each")
-def corner_shots() -> Outcome:
+def corner_shots() -> Verdict:
     """None may be outside afterwards; a point may end in a corner that has no answer, and says so."""
     from shapely import contains_xy
 
@@ -99,7 +99,7 @@ def _room(walls: Walls, margin: float) -> object:
 
 
 @case("seams", "20,000 point rays aimed at the shared corners of 1,000 short walls")
-def seams() -> Outcome:
+def seams() -> Verdict:
     """Each hits one of the two neighbours, once: none slips between, none is hit by both."""
     from wallkit.simulation.survey import survey
 
@@ -114,7 +114,7 @@ def seams() -> Outcome:
     return counted(0, int(np.count_nonzero(missed | (totals.bounces != 1))), "rays that slipped through, or hit twice")
 
 
-def _exact_corner(sides: int, straight_back: bool) -> Outcome:
+def _exact_corner(sides: int, straight_back: bool) -> Verdict:
     angle = math.pi / sides
     walls = open_wedge(math.tan(angle), 1024.0) if sides > 2 else _right_angle()
     aim = -np.array([math.cos(0.4 * angle), math.sin(0.4 * angle)])
@@ -123,7 +123,7 @@ def _exact_corner(sides: int, straight_back: bool) -> Outcome:
     # A corner of pi / n turns by 2 pi in n bounces: n even, straight back; n odd, mirrored in the bisector.
     expected = -aim if straight_back else _mirrored(-aim, angle)
     error = float(np.hypot(*(final - expected)))
-    return Outcome("a limit", f"off by {error:.2g}", error, 1e-9, "the angle as drawn is off by a rounding a bounce")
+    return Verdict("a limit", f"off by {error:.2g}", error, 1e-9, "the angle as drawn is off by a rounding a bounce")
 
 
 def _mirrored(aim: FloatArray, angle: float) -> FloatArray:
@@ -146,18 +146,18 @@ for _sides in (2, 3, 4, 5, 6):
 
 
 @case("exact corner hit, 50 degrees", "a point aimed into a corner of 50 degrees has no answer: it must say so")
-def ambiguous_corner() -> Outcome:
+def ambiguous_corner() -> Verdict:
     """Two neighbours left and right of it leave in different directions."""
     angle = math.radians(50)
     aim = -np.array([math.cos(0.4 * angle), math.sin(0.4 * angle)])
     walls = open_wedge(math.tan(angle), 1024.0)
     ending = fly(walls, -100.0 * aim, SPEED * aim, bounces=50).ending[0]
     label = getattr(ending, "label", str(ending))
-    return Outcome("ambiguous corner", label, float(label != "ambiguous corner"), 0.0, "discontinuous: reported")
+    return Verdict("ambiguous corner", label, float(label != "ambiguous corner"), 0.0, "discontinuous: reported")
 
 
 @case("thousands at one point", "2,000 walls meet in one place; 400 discs and points aimed at it")
-def thousands_at_one_point() -> Outcome:
+def thousands_at_one_point() -> Verdict:
     """A sun of spokes inside a ring: nothing may pass a spoke or leave the ring, or hang."""
     from wallkit.simulation.survey import survey
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 
 from wallkit.accuracy import scenes
-from wallkit.accuracy.cases import Outcome, case, counted, fly, measured, nothing
+from wallkit.accuracy.cases import Verdict, case, counted, fly, measured, nothing
 from wallkit.geometry.arrays import FloatArray
 from wallkit.walls import Walls
 
@@ -17,13 +17,13 @@ EPS = 2.0**-53
 
 
 @case("30 degrees", "a ball of 50 units/s meets a wall at 30 degrees from its normal")
-def thirty_degrees() -> Outcome:
+def thirty_degrees() -> Verdict:
     """25 along the wall stays, 43.301... across turns round."""
     vx, vy = SPEED * math.sin(math.radians(30)), -SPEED * math.cos(math.radians(30))
     floor = Walls.from_polylines([[(-1000.0, 0.0), (1000.0, 0.0)]], closed=False)
     contact = fly(floor, (0.0, 100.0), (vx, vy), 5.0, bounces=1).contacts[0]
     error = max(abs(contact["vx"] - 25.0), abs(contact["vy"] - 43.30127018922193))
-    return Outcome(
+    return Verdict(
         "25 and 43.30127018922193",
         f"{float(contact['vx'])!r} and {float(contact['vy'])!r}",
         float(error),
@@ -40,7 +40,7 @@ def _unfold(start: float, speed: float, time: float, low: float, high: float) ->
 
 
 @case("box unfolding", "10,000 bounces of a disc in a box, against mirrors unfolded in rational numbers")
-def box_unfolding() -> Outcome:
+def box_unfolding() -> Verdict:
     """A rectangle unfolds: x(t) = fold(x + v t), with period 2 (W - 2 r)."""
     vx, vy = SPEED * math.cos(math.radians(30)), SPEED * math.sin(math.radians(30))
     contacts = fly(scenes.box(), (123.0, 87.0), (vx, vy), 5.0, bounces=10_000).contacts
@@ -60,7 +60,7 @@ def box_unfolding() -> Outcome:
 
 
 @case("six directions", "an equilateral triangle knows six directions, ever; 10,000 bounces")
-def six_directions() -> Outcome:
+def six_directions() -> Verdict:
     """The reflections of the triangle are a group of six elements."""
     contacts = fly(
         scenes.regular(3), (10.0, 7.0), (SPEED * math.cos(0.3), SPEED * math.sin(0.3)), bounces=10_000
@@ -76,7 +76,7 @@ def six_directions() -> Outcome:
 
 
 @case("orthic orbit", "the periodic orbit through the feet of the altitudes of an acute triangle")
-def orthic_orbit() -> Outcome:
+def orthic_orbit() -> Verdict:
     """The perimeter of Fagnano's orbit is 8 K^2 / (a b c), K the triangle's area."""
     corners = np.array([(0.0, 0.0), (130.0, 210.0), (260.0, 0.0)]) + np.array([(0.0, 0.0), (17.0, 0.0), (0.0, 0.0)])
     feet = _feet(corners)
@@ -101,7 +101,7 @@ def _feet(corners: FloatArray) -> FloatArray:
 
 
 @case("time reversal", "1,000 bounces of a star there, and back to the start")
-def time_reversal() -> Outcome:
+def time_reversal() -> Verdict:
     """A polygon turns nothing but angles: reversed, a point comes home."""
     start, velocity = np.array([3.0, -7.0]), np.array([SPEED * math.cos(0.5), SPEED * math.sin(0.5)])
     walls = scenes.star()
@@ -116,18 +116,18 @@ def time_reversal() -> Outcome:
 
 
 @case("zero-length wall", "an edge from a place to itself: an obstacle for a disc, nothing for a point")
-def zero_length_wall() -> Outcome:
+def zero_length_wall() -> Verdict:
     """A disc of radius 5 aimed at it turns back at 5; a point flies through."""
     box = [(0.0, 0.0), (0.0, 100.0), (200.0, 100.0), (200.0, 0.0)]
     walls = Walls.from_polylines([box, [(100.0, 50.0), (100.0, 50.0)]], closed=[True, False])
     disc = float(fly(walls, (20.0, 50.0), (10.0, 0.0), 5.0, bounces=1).contacts["x"][0])
     point = float(fly(walls, (20.0, 50.0), (10.0, 0.0), 0.0, bounces=1).contacts["x"][0])
     error = abs(disc - 95.0) + abs(point - 200.0)
-    return Outcome("95 and 200", f"{disc:g} and {point:g}", error, 2 * math.ulp(200.0), "one rounding of each place")
+    return Verdict("95 and 200", f"{disc:g} and {point:g}", error, 2 * math.ulp(200.0), "one rounding of each place")
 
 
 @case("duplicate wall", "every wall drawn twice: the same contacts, to the last bit")
-def duplicate_wall() -> Outcome:
+def duplicate_wall() -> Verdict:
     """The second copy is met at the same time as the first, and then left alone."""
     corners = scenes.star().vertices
     velocity = (SPEED * math.cos(0.5), SPEED * math.sin(0.5))

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from wallkit.accuracy import scenes
-from wallkit.accuracy.cases import Outcome, add, case, counted, fly, measured, nothing
+from wallkit.accuracy.cases import Verdict, add, case, counted, fly, measured, nothing
 from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Walls
 
@@ -21,7 +21,7 @@ def dyadic_star(bits: int = 16) -> Walls:
     return Walls.from_polylines([np.round(scenes.star().vertices * 2**bits) / 2**bits])
 
 
-def _shifted(radius: float) -> Outcome:
+def _shifted(radius: float) -> Verdict:
     walls, start = dyadic_star(), np.array([3.0, -7.0])
     shift = np.array([2.0**30, -(2.0**30)])
     far = Walls.from_polylines([walls.vertices + shift])
@@ -36,7 +36,7 @@ def _shifted(radius: float) -> Outcome:
     return counted(0, different, "numbers that differ: the origin is moved by a power of two, which is exact")
 
 
-def _scaled(power: int) -> Outcome:
+def _scaled(power: int) -> Verdict:
     walls, factor = scenes.star(), 2.0**power
     different = 0
     for radius in (0.0, 5.0):
@@ -55,7 +55,7 @@ for _power in (-40, -20, 20, 40):
     add(f"scale by 2^{_power}", "scale", "star, ball and speed scaled: the same bits, scaled", partial(_scaled, _power))
 
 
-def _box_at(corner: float, size: float) -> Outcome:
+def _box_at(corner: float, size: float) -> Verdict:
     """Crossing times of a box far from the origin, or tiny, or huge, against size / speed."""
     points = np.array([(0, 0), (0, size), (size, size), (size, 0)], dtype=float) + corner
     start = np.array([corner + size / 4, corner + size / 2])
@@ -76,7 +76,7 @@ for _corner, _size in ((1e9, 1.0), (0.0, 1e-6), (0.0, 1e9), (-1e6, 1e-3)):
 
 
 @case("near-parallel walls", "two walls 1e-9 rad from parallel: drift that a million bounces would hide")
-def near_parallel() -> Outcome:
+def near_parallel() -> Verdict:
     """Unfolded, the n-th crossing turns by n angles: the direction after n bounces is known."""
     angle = 1e-9
     walls = Walls.from_polylines(
@@ -92,7 +92,7 @@ def near_parallel() -> Outcome:
 
 
 @case("nearly closed gap", "a disc before a gap of 2 r (1 - 1e-12) must not pass, before 2 r (1 + 1e-12) it must")
-def nearly_closed_gap() -> Outcome:
+def nearly_closed_gap() -> Verdict:
     """The gap between two corners is the width between two circles of radius r."""
     passed = []
     for excess in (-1e-12, 1e-12):
@@ -101,18 +101,18 @@ def nearly_closed_gap() -> Outcome:
         run = fly(walls, (-50.0, 0.0), (SPEED, 0.0), 5.0, until=3.0)
         passed.append(bool(run.final["x"][0] > 0.0))
     words = " and ".join("passes" if p else "stops" for p in passed)
-    return Outcome("stops and passes", words, float(passed != [False, True]), 0.0, "1e-12 r is far above a rounding")
+    return Verdict("stops and passes", words, float(passed != [False, True]), 0.0, "1e-12 r is far above a rounding")
 
 
 @case("grazing a corner", "discs that pass a corner by 1e-9 r, on either side")
-def grazing_corner() -> Outcome:
+def grazing_corner() -> Verdict:
     """Inside by a depth h the normal turns the disc by 2 asin-sized angles, outside nothing happens."""
     stick = Walls.from_polylines([[(0.0, 0.0), (0.0, -50.0)]], closed=False)
     r, depth = 5.0, 5e-9
     missed = fly(stick, (-40.0, r + depth), (SPEED, 0.0), r, bounces=1).contacts
     hit = fly(stick, (-40.0, r - depth), (SPEED, 0.0), r, bounces=1).contacts
     if len(missed) or not len(hit):
-        return Outcome("one hit", f"{len(hit)} and {len(missed)} hits", 1.0, 0.0, "counts")
+        return Verdict("one hit", f"{len(hit)} and {len(missed)} hits", 1.0, 0.0, "counts")
     # |v.n| / v = sqrt(1 - (1 - h / r)^2) =: c, and the direction turns by 2 asin(c); h is a difference of doubles
     given = r - (r - depth)
     c = math.sqrt((2 - given / r) * given / r)
@@ -122,7 +122,7 @@ def grazing_corner() -> Outcome:
 
 
 @case("fast ball", "a million times the size a second: walls are met all the same")
-def fast_ball() -> Outcome:
+def fast_ball() -> Verdict:
     """Nothing is stepped, so nothing tunnels: exactly as many crossings as the width allows."""
     contacts = fly(scenes.box(1.0, 1.0), (0.5, 0.5), (1e6, 0.0), bounces=10_000).contacts
     expected = (0.5 + 9_999) / 1e6
@@ -131,7 +131,7 @@ def fast_ball() -> Outcome:
 
 
 @case("corridor escape", "1,000 points in a maze for 100 s: none may be outside")
-def maze_keeps() -> Outcome:
+def maze_keeps() -> Verdict:
     """No point passes the outer wall."""
     from wallkit.simulation.survey import survey
 

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from wallkit.accuracy import scenes
-from wallkit.accuracy.cases import Outcome, add, case, fly
+from wallkit.accuracy.cases import Verdict, add, case, fly
 from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation import horizon
@@ -23,14 +23,14 @@ def _batch_error(values: FloatArray, weights: FloatArray, batches: int = 40) -> 
     return float(np.sum(pieces) / np.sum(spans)), float(means.std(ddof=1) / math.sqrt(batches))
 
 
-def _outcome(expected: float, got: float, error: float, known: float = 0.0) -> Outcome:
+def _outcome(expected: float, got: float, error: float, known: float = 0.0) -> Verdict:
     # 4.5 standard errors: one case in 100,000 fails by chance, and with fixed seeds none does twice
-    return Outcome(
+    return Verdict(
         f"{expected:.5g}", f"{got:.5g} +- {error:.2g}", abs(got - expected), 4.5 * error + known, "4.5 standard errors"
     )
 
 
-def _mean_free_path(walls: Walls, area: float, perimeter: float, radius: float, bounces: int) -> Outcome:
+def _mean_free_path(walls: Walls, area: float, perimeter: float, radius: float, bounces: int) -> Verdict:
     """Pi A / P of what the ball's centre can reach (Santalo)."""
     contacts = fly(walls, (0.31, 0.17), (math.cos(1.0), math.sin(1.0)), radius, bounces=bounces).contacts
     flights = np.diff(contacts["time"])
@@ -59,7 +59,7 @@ add(
 )
 
 
-def _lyapunov(walls: Walls, expected: float, known: float, start: tuple[float, float], bounces: int) -> Outcome:
+def _lyapunov(walls: Walls, expected: float, known: float, start: tuple[float, float], bounces: int) -> Verdict:
     """Mean growth of a small error per time, at speed 1."""
     run = fly(walls, start, (math.cos(0.6), math.sin(0.6)), bounces=bounces)
     logs = horizon.growth(run.scene, run.contacts)[100:]
@@ -91,7 +91,7 @@ add(
 
 
 @case("uniform contacts", "an ergodic table is hit uniformly in arc length and sine of the angle")
-def uniform_contacts() -> Outcome:
+def uniform_contacts() -> Verdict:
     """Kolmogorov's distance from uniform of sin(angle), over every 20th contact of a stadium (straight 1)."""
     run = fly(scenes.stadium(1.0, 1.0), (0.31, 0.17), (math.cos(0.6), math.sin(0.6)), bounces=60_000)
     contacts = run.contacts[::20]
@@ -100,7 +100,7 @@ def uniform_contacts() -> Outcome:
     steps = np.arange(len(order)) / len(order)
     distance = float(max((order - steps).max(), (steps + 1 / len(order) - order).max()))
     # Kolmogorov: P(sqrt(n) D > 2.2) = 2 exp(-2 * 2.2^2) = 1.2e-4 if the contacts were independent
-    return Outcome("uniform", f"D = {distance:.4f}", distance, 2.2 / math.sqrt(len(order)), "Kolmogorov, one in 8,000")
+    return Verdict("uniform", f"D = {distance:.4f}", distance, 2.2 / math.sqrt(len(order)), "Kolmogorov, one in 8,000")
 
 
 def scattered(walls: Walls, count: int, seed: int, radius: float = 0.0) -> Scene:

@@ -92,19 +92,9 @@ class _Hit(NamedTuple):
 
 
 def context(digits: int) -> Any:
-    """Give an mpmath context of its own with that many decimal digits.
+    """Give an mpmath context of its own with that many decimal digits."""
+    import mpmath  # late: only a reference needs it
 
-    Raises:
-        PrecisionError: mpmath is not installed.
-    """
-    try:
-        import mpmath
-    except ImportError:
-        raise PrecisionError(
-            "a reference with more digits needs mpmath, which is not installed",
-            code="no-mpmath",
-            fix="pip install 'wallkit[precision]'",
-        ) from None
     own = mpmath.MPContext()
     own.dps = digits
     return own
@@ -121,7 +111,7 @@ class Reference:
         digits: decimal digits, at least 16.
 
     Raises:
-        PrecisionError: the scene is none or has what is not known here, digits are too few, or mpmath is missing.
+        PrecisionError: the scene is none or has what is not known here, or digits are too few.
     """
 
     def __init__(self, scene: Scene, digits: int = 40) -> None:

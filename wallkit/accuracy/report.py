@@ -63,7 +63,7 @@ def measure(subjects: Sequence[Subject], effort: Effort, *, tables: bool, told: 
         told: is told what is being done.
 
     Raises:
-        PrecisionError: the reference cannot be had; mpmath is not installed, for one.
+        PrecisionError: the reference cannot be had.
     """
     report = Report(machine())
     for number, subject in enumerate(subjects, 1):

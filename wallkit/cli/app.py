@@ -14,7 +14,6 @@ app = typer.Typer(
     name="wallkit",
     help="Turn a drawing into walls, and shoot balls at them with the exact answer.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -40,15 +39,18 @@ def _root(
 
 def _register_commands() -> None:
     """Attach one module a command. The modules import what is heavy only when their command runs."""
-    from wallkit.cli import check, export, import_, inspect, play, report, simulate
+    from wallkit.cli import aim, check, export, import_, inkscape, inspect, play, report, simulate, warm
 
     inspect.register(app)
     import_.register(app)
     check.register(app)
     simulate.register(app)
+    aim.register(app)
     export.register(app)
     play.register(app)
     report.register(app)
+    inkscape.register(app)
+    warm.register(app)
 
 
 def main() -> None:

@@ -17,8 +17,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from importers.drawing import Drawing
     from importers.problems import Problem
+    from wallkit.scene.opening import OpenedScene
     from wallkit.walls import Walls
+    from wallkit.walls.checking.audit import Audit
     from wallkit.walls.checking.free_space import FreeSpace
     from wallkit.walls.checking.leaks import Reach
     from wallkit.walls.import_options import ImportOptions
@@ -28,7 +31,7 @@ FORMAT, VERSION = "wallkit-check", 1
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("check")(check)
+    app.command("check", rich_help_panel="Drawings and walls")(check)
 
 
 @options.with_import_options()
@@ -41,15 +44,57 @@ def check(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Write the findings as JSON to standard output.")] = False,
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls, findings and leaks (.svg).")] = "",
+    audit: Annotated[
+        int,
+        typer.Option(
+            metavar="N",
+            min=0,
+            max=1_000_000,
+            help="Hold N points of the walls against the curves as svgpathtools has them.",
+        ),
+    ] = 0,
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Find problems and leaks, with places and fixes; exit with 1 when there are findings."""
+    from wallkit.cli.scene_input import opened
+    from wallkit.scene.opening import Wishes
+
+    _check_radius(radius)
+    given = given_of(opened(file, Wishes(importing=options.options_of(importing or {}), may_be_empty=True)))
+    audited = _audited(given, audit, file) if audit else None
+    given.problems += [] if audited is None else audited.problems()
+    look = look_over(given, radius)
+    walls, problems, space, reach = look.walls, look.problems, look.space, look.reach
+    findings = [problem for problem in problems if problem.severity != "info"]
+    if preview:
+        _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
+    if as_json:
+        report = _report(walls, problems, space, reach, len(findings))
+        report |= {} if audited is None else {"audit": audited.to_json()}
+        print(json.dumps(report, ensure_ascii=False))
+    else:
+        _tell(walls, problems, space, reach, given.assumed)
+        if audited is not None:
+            print(audited.sentence())
+    raise typer.Exit(1 if findings else 0)
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What was found about what FILE holds: problems with the severe first, free space, and where balls get to."""
+
+    walls: Walls
+    problems: list[Problem]
+    space: FreeSpace
+    reach: Reach
+
+
+def look_over(given: Given, radius: float | None) -> Look:
+    """Look for leaks of a ball of a radius (None: the smallest given, else any), and whatever else is doubtful."""
     from wallkit.walls.checking.ball_places import ball_problems, goal_problems
     from wallkit.walls.checking.free_space import free_space
     from wallkit.walls.checking.leaks import leak_problems, reach_of
 
-    _check_radius(radius)
-    given = _given(file, options.options_of(importing or {}))
     walls = given.walls
     if radius is None and len(given.radii):
         radius = float(given.radii.min())
@@ -59,15 +104,7 @@ def check(
     found = ball_problems(space, walls, given.places, given.radii)
     found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)
     found += [*leak_problems(space, reach), *given.problems, *_without_walls(walls)]
-    problems = sorted(_once(found), key=_rank)
-    findings = [problem for problem in problems if problem.severity != "info"]
-    if preview:
-        _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
-    if as_json:
-        print(json.dumps(_report(walls, problems, space, reach, len(findings)), ensure_ascii=False))
-    else:
-        _tell(walls, problems, space, reach, given.assumed)
-    raise typer.Exit(1 if findings else 0)
+    return Look(walls, sorted(_once(found), key=_rank), space, reach)
 
 
 def _without_walls(walls: Walls) -> list[Problem]:
@@ -101,7 +138,7 @@ def _check_radius(radius: float | None) -> None:
 
 
 @dataclass(slots=True)
-class _Given:
+class Given:
     """What FILE holds: walls, places and radii of its balls, all that was found in it, and what was assumed."""
 
     walls: Walls
@@ -110,22 +147,35 @@ class _Given:
     problems: list[Problem] = field(default_factory=list)
     assumed: list[str] = field(default_factory=list)
     sensors: Walls | None = None
+    drawing: Drawing | None = None
+    importing: ImportOptions | None = None
 
 
-def _given(file: str, importing: ImportOptions) -> _Given:
-    """Open FILE, whatever it is, as `simulate` does; a ball that would only be put somewhere does not count."""
+def given_of(found: OpenedScene) -> Given:
+    """Take what FILE holds, opened as `simulate` does; a ball that would only be put somewhere does not count."""
     import numpy as np
 
-    from wallkit.cli.scene_input import opened
-    from wallkit.scene.opening import Wishes
-
-    found = opened(file, Wishes(importing=importing, may_be_empty=True))
     walls, balls = found.scene.walls, found.scene.balls
     assumed = [] if walls.solid is None or walls.solid.how == "asked" else [walls.solid.sentence()]
-    if found.found_place:
-        return _Given(walls, np.empty((0, 2)), np.empty(0), found.problems, assumed, found.scene.sensors)
     places, radii = np.asarray(balls.position), np.asarray(balls.radius)
-    return _Given(walls, places, radii, found.problems, assumed, found.scene.sensors)
+    if found.found_place:
+        places, radii = np.empty((0, 2)), np.empty(0)
+    sensors, drawing = found.scene.sensors, found.drawing
+    return Given(walls, places, radii, found.problems, assumed, sensors, drawing, found.importing)
+
+
+def _audited(given: Given, count: int, file: str) -> Audit:
+    """Ask svgpathtools whether the walls are where the curves are."""
+    from wallkit.scene.opening import UsageError
+    from wallkit.walls.checking.audit import audit
+    from wallkit.walls.importing.placing import placed
+
+    if given.drawing is None or given.importing is None:
+        fix = "give the drawing that they were made of"
+        raise UsageError("--audit holds walls against a drawing, and this has none", code="usage", fix=fix, file=file)
+    if given.importing.outline_strokes:
+        raise UsageError("--audit and --outline-strokes do not go together: outlines are not drawn", code="usage")
+    return audit(given.walls, placed(given.drawing, given.importing), count, given.importing)
 
 
 def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, findings: int) -> dict[str, Any]:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("export")(export_level)
+    app.command("export", rich_help_panel="Drawings and walls")(export_level)
 
 
 def _list_formats(wanted: bool) -> None:
@@ -33,13 +33,26 @@ def _list_formats(wanted: bool) -> None:
         raise typer.Exit
 
 
+def _complete_formats(begun: str) -> list[tuple[str, str]]:
+    """List the formats whose names begin so, each with what it is, for the shell."""
+    from wallkit.export.formats import formats
+
+    return [(each.name, each.title) for each in formats().values() if each.name.startswith(begun)]
+
+
 @options.with_import_options("arcs")
 @watchable
 def export_level(
     file: Annotated[str, typer.Argument(metavar="FILE", help="Drawing, walls or scene; - is standard input.")],
     out: Annotated[str, typer.Option("-o", "--out", metavar="OUT", help="Where to write; - is standard output.")] = "-",
     format: Annotated[
-        str | None, typer.Option("--format", metavar="NAME", help="Of the level; without it the ending of OUT decides.")
+        str | None,
+        typer.Option(
+            "--format",
+            metavar="NAME",
+            help="Of the level; without it the ending of OUT decides.",
+            autocompletion=_complete_formats,
+        ),
     ] = None,
     list_formats: Annotated[
         bool, typer.Option("--list", callback=_list_formats, is_eager=True, help="List the formats and end.")

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("import")(import_drawing)
+    app.command("import", rich_help_panel="Drawings and walls")(import_drawing)
 
 
 @options.with_import_options("lines")
@@ -43,7 +43,7 @@ def import_drawing(
     _check_ending(out)
     asked = options.options_of(importing or {})
     if asked.page == "all" and out != "-":
-        pages = _pages(file)
+        pages = _pages(file, asked.via)
         if pages > 1:
             for page in range(1, pages + 1):
                 at = _numbered(preview, page) if preview else ""
@@ -59,7 +59,7 @@ def _import(file: str, asked: ImportOptions, out: str, preview: str) -> None:
     from wallkit.export.formats import known_ending
     from wallkit.walls.importing.pipeline import import_walls
 
-    drawing = read_drawing(source(file), page=asked.page)
+    drawing = read_drawing(source(file), page=asked.page, via=asked.via)
     walls = import_walls(drawing, asked)
     if preview:
         draw(walls, preview)
@@ -74,11 +74,11 @@ def _import(file: str, asked: ImportOptions, out: str, preview: str) -> None:
         print(f"assumed: {walls.solid.sentence()}", file=sys.stderr)
 
 
-def _pages(file: str) -> int:
+def _pages(file: str, via: str) -> int:
     """Count the pages or artboards of a drawing."""
     from importers.read import read_drawing
 
-    return len(read_drawing(source(file), page="all").artboards)
+    return len(read_drawing(source(file), page="all", via=via).artboards)
 
 
 def _numbered(name: str, page: int) -> str:

@@ -40,6 +40,7 @@ _Units = Annotated[
 ]
 _Origin = Annotated[str, _option("What becomes 0,0: page, box (their corner), or X,Y.", metavar="WHAT")]
 _Grid = Annotated[float, _option("Move vertices to multiples of G.", metavar="G")]
+_Via = Annotated[str, _option("ghostscript: let it run a PostScript program.", metavar="PROGRAM")]
 _Snap = Annotated[float, _option("Move open ends up to D apart together, and join them.", metavar="D")]
 _MinWidth = Annotated[float, _option("Remove closed walls that no disc of diameter D fits into.", metavar="D")]
 _Simplify = Annotated[float, _option("Drop vertices where walls move by at most D.", metavar="D")]
@@ -56,6 +57,7 @@ _OPTIONS: dict[str, tuple[Any, Any]] = {
     "hidden": (_flag("--hidden", "Take hidden paths too."), False),
     "unpainted": (_flag("--unpainted", "Take paths without fill and stroke although others are painted."), False),
     "outline_strokes": (_flag("--outline-strokes", "A stroke with a width becomes the solid that it paints."), False),
+    "apply_clips": (_flag("--apply-clips", "Paths end where their clips end."), False),
     "arena": (_flag("--arena", "The outermost walls are rooms: free inside."), False),
     "solid": (_flag("--solid", "The outermost walls are solid."), False),
     "room": (_Room, ""),
@@ -73,6 +75,7 @@ _OPTIONS: dict[str, tuple[Any, Any]] = {
     "units": (_Units, None),
     "origin": (_Origin, ""),
     "grid": (_Grid, 0.0),
+    "via": (_Via, ""),
 }
 
 

@@ -20,7 +20,7 @@ _MOST_LAYERS = 16  # shown; a screen has about forty lines
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("inspect")(inspect)
+    app.command("inspect", rich_help_panel="Drawings and walls")(inspect)
 
 
 def inspect(

@@ -16,7 +16,9 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Sequence
-from typing import Literal, TextIO
+from typing import Any, Literal, TextIO
+
+import typer
 
 from importers.errors import WallkitError
 from importers.problems import Problem
@@ -26,7 +28,14 @@ ONE_BY_ONE = 8
 FIRST_PLACES = 3
 
 _ORDER = {"error": 0, "warning": 1, "info": 2}
-_STYLES = {"error": "1;31", "warning": "1;33", "info": "1;36", "bold": "1", "dim": "2", "help": "36"}
+_STYLES: dict[str, dict[str, Any]] = {
+    "error": {"fg": "red", "bold": True},
+    "warning": {"fg": "yellow", "bold": True},
+    "info": {"fg": "cyan", "bold": True},
+    "bold": {"bold": True},
+    "dim": {"dim": True},
+    "help": {"fg": "cyan"},
+}
 Style = Literal["error", "warning", "info", "bold", "dim", "help"]
 
 
@@ -44,7 +53,7 @@ def use_colour(stream: TextIO) -> bool:
 
 def paint(text: str, style: Style, colour: bool) -> str:
     """Give the text in a style of the terminal, or as it is without colour."""
-    return f"\x1b[{_STYLES[style]}m{text}\x1b[0m" if colour else text
+    return typer.style(text, **_STYLES[style]) if colour else text
 
 
 def plain(text: str) -> str:

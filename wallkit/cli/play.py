@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("play")(play)
+    app.command("play", rich_help_panel="Balls")(play)
 
 
 @options.with_import_options()

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -25,7 +23,7 @@ ENDINGS = (".svg", ".html", ".json")
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("report")(report)
+    app.command("report", rich_help_panel="Balls")(report)
 
 
 @options.with_import_options()
@@ -38,7 +36,9 @@ def report(
         typer.Option("-o", "--out", metavar="OUT", help=f"Picture, page or data: {' '.join(ENDINGS)}. Repeatable."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Write the figures as JSON on standard output.")] = False,
-    quick: Annotated[bool, typer.Option("--quick", help="Fewer scenes and settings: under 20 s.")] = False,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Fewer scenes and settings: some 15 s, on first use a minute more.")
+    ] = False,
     hard: Annotated[bool, typer.Option("--hard", help="Run the cases with known answers instead.")] = False,
     scene: Annotated[
         list[str] | None, typer.Option("--scene", metavar="NAME", help="Only this built-in scene. Repeatable.")
@@ -60,10 +60,11 @@ def report(
         _hard(as_json, quick)
         return
     from wallkit.accuracy.report import measure
+    from wallkit.cli.progress import progress_words
 
     effort = _effort(quick, precision)
     subjects = [_of_file(file, options.options_of(importing or {}))] if file else _built_in(scene, quick)
-    with progress() as told:
+    with progress_words() as told:
         measured = measure(subjects, effort, tables=file is None and not scene, told=told)
     for target in out or []:
         _write(target, measured)
@@ -146,24 +147,6 @@ def _of_file(file: str, importing: ImportOptions) -> Subject:
     curved = walls("arcs", 1e-3).walls.has_arcs
     arcs = (lambda tolerance: walls("arcs", tolerance)) if curved else None
     return Subject(name, "a drawing", lambda tolerance: walls("lines", tolerance), arcs, curved)
-
-
-@contextmanager
-def progress() -> Iterator[Callable[[str], None] | None]:
-    """Say on standard error, on a terminal, what is being done, in one line that is wiped at the end."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-
-    def told(words: str) -> None:
-        sys.stderr.write(f"\r\x1b[K{words[:100]}")
-        sys.stderr.flush()
-
-    try:
-        yield told
-    finally:
-        sys.stderr.write("\r\x1b[K")
-        sys.stderr.flush()
 
 
 def _write(target: str, measured: Report) -> None:

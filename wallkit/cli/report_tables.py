@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from wallkit.accuracy import tables
 
 if TYPE_CHECKING:
-    from wallkit.accuracy.cases import Case, Outcome
+    from wallkit.accuracy.cases import Case, Verdict
     from wallkit.accuracy.contest import Contest
     from wallkit.accuracy.report import Report
 
@@ -50,14 +50,14 @@ def _contest_lines(contest: Contest) -> list[str]:
     return [tables.title(contest), *table(tables.POINT_HEAD, rows, right=(2, 3, 5))]
 
 
-def case_line(case: Case, outcome: Outcome, seconds: float) -> str:
+def case_line(case: Case, outcome: Verdict, seconds: float) -> str:
     """Write one known answer: expected, got, error, time."""
     verdict = "ok  " if outcome.holds else "FAIL"
     error = "exact" if outcome.error == 0 else f"error {outcome.error:.2g} of {outcome.tolerance:.2g}"
     return f"{verdict} {case.name:<38} expected {outcome.expected}; got {outcome.got}; {error}; {seconds:.2f} s"
 
 
-def case_row(case: Case, outcome: Outcome, seconds: float) -> dict[str, Any]:
+def case_row(case: Case, outcome: Verdict, seconds: float) -> dict[str, Any]:
     """Give one known answer as plain data."""
     return {
         "name": case.name,

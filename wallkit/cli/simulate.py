@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
+import functools
 import sys
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -24,52 +22,72 @@ FORMATS: tuple[Format, ...] = ("csv", "json", "npz", "svg", "png", "gif", "mp4",
 File = Annotated[
     str, typer.Argument(metavar="FILE", help="Drawing, walls or scene (told by its content); - is standard input.")
 ]
-Ball = Annotated[list[str] | None, typer.Option("--ball", metavar="X,Y", help="A ball's centre; may be repeated.")]
-Velocity = Annotated[str | None, typer.Option(metavar="VX,VY", help="Velocity of every ball, units per second.")]
-Speed = Annotated[float | None, typer.Option(metavar="S", help="Speed of every ball (default: 50).")]
-Angle = Annotated[
-    float | None, typer.Option(metavar="DEG", help="Direction, from the x towards the y axis (default: 30).")
+
+
+def _option(panel: str) -> Any:
+    """Make options that the help shows in one panel."""
+    return functools.partial(typer.Option, rich_help_panel=panel)
+
+
+_ball, _acts, _ends, _output = (_option(panel) for panel in ("Balls", "What acts", "When it ends", "What is written"))
+Ball = Annotated[list[str] | None, _ball("--ball", metavar="X,Y", help="A ball's centre; may be repeated.")]
+Velocity = Annotated[str | None, _ball(metavar="VX,VY", help="Velocity of every ball, units per second.")]
+Speed = Annotated[float | None, _ball(metavar="S", help="Speed of every ball (default: 50).")]
+Angle = Annotated[float | None, _ball(metavar="DEG", help="Direction, from the x towards the y axis (default: 30).")]
+Radius = Annotated[float | None, _ball(metavar="R", help="Radius of every ball; 0 is a point.")]
+Count = Annotated[int | None, _ball("--balls", metavar="N", help="N balls at random places and directions.")]
+Seed = Annotated[int, _ball(metavar="K", help="Seed of --balls.")]
+Settle = Annotated[
+    bool, _ball("--settle", help="Move discs that overlap a wall at the start to the nearest free spot.")
 ]
-Radius = Annotated[float | None, typer.Option(metavar="R", help="Radius of every ball; 0 is a point.")]
-Count = Annotated[int | None, typer.Option("--balls", metavar="N", help="N balls at random places and directions.")]
-Seed = Annotated[int, typer.Option(metavar="K", help="Seed of --balls.")]
-Until = Annotated[float | None, typer.Option(metavar="T", help="End after T seconds.", min=0)]
-Bounces = Annotated[
-    int | None, typer.Option(metavar="N", help="End after N bounces a ball (default, without --until: 100).", min=0)
-]
-Gravity = Annotated[str | None, typer.Option(metavar="GX,GY", help="Units per second squared, in the drawing's axes.")]
+Gravity = Annotated[str | None, _acts(metavar="GX,GY", help="Units per second squared, in the drawing's axes.")]
 Restitution = Annotated[
-    float | None, typer.Option(metavar="E", help="Part of the normal speed that a bounce leaves.", min=0, max=10)
+    float | None, _acts(metavar="E", help="Part of the normal speed that a bounce leaves.", min=0, max=10)
 ]
 Tangential = Annotated[
-    float | None,
-    typer.Option("--tangential-restitution", metavar="E", help="The same along the wall.", min=0, max=1),
+    float | None, _acts("--tangential-restitution", metavar="E", help="The same along the wall.", min=0, max=1)
 ]
 Friction = Annotated[
-    float | None,
-    typer.Option(metavar="A", help="Rolling friction: speed that a ball loses per second.", min=0),
+    float | None, _acts(metavar="A", help="Rolling friction: speed that a ball loses per second.", min=0)
 ]
-Drag = Annotated[
-    float | None,
-    typer.Option(metavar="K", help="Drag: rate of dv/dt = -K v, per second.", min=0),
+Drag = Annotated[float | None, _acts(metavar="K", help="Drag: rate of dv/dt = -K v, per second.", min=0)]
+Until = Annotated[float | None, _ends(metavar="T", help="End after T seconds.", min=0)]
+Bounces = Annotated[
+    int | None, _ends(metavar="N", help="End after N bounces a ball (default, without --until: 100).", min=0)
 ]
 Meeting = Annotated[
     bool | None,
-    typer.Option("--meeting/--no-meeting", help="Discs meet one another; points never do.", show_default=False),
+    _acts("--meeting/--no-meeting", help="Discs meet one another; points never do.", show_default=False),
 ]
 BallRestitution = Annotated[
     float | None,
-    typer.Option(metavar="E", help="Part of their normal speed that a contact of two discs leaves.", min=0, max=1),
+    _acts(metavar="E", help="Part of their normal speed that a contact of two discs leaves.", min=0, max=1),
 ]
 Out = Annotated[
     list[str] | None,
-    typer.Option("-o", "--out", metavar="OUT", help=f"Where to; the ending decides: {' '.join(FORMATS)}. Repeatable."),
+    _output("-o", "--out", metavar="OUT", help=f"Where to; the ending decides: {' '.join(FORMATS)}. Repeatable."),
+]
+Form = Annotated[Format | None, _output("--format", help="Format, whatever the ending says.")]
+Colour = Annotated[
+    Literal["ball", "time", "speed"] | None,
+    _output(help="What colours tell [default: time in pictures, ball in films].", show_default=False),
+]
+Heat = Annotated[bool, _output("--heat", help="Pictures show where balls spend their time.")]
+Theme = Annotated[Literal["light", "dark"], _output(help="Of PNG, GIF and MP4; SVG and HTML follow the reader.")]
+Size = Annotated[
+    int | None,
+    _output(metavar="W", help="Width of pictures and films in pixels (a PNG is twice as fine).", min=160, max=3840),
+]
+Seconds = Annotated[float, _output(metavar="T", help="Length of a film at most.", min=0.1, max=600)]
+Fps = Annotated[int | None, _output(metavar="N", help="Frames a second of a film.", min=1, max=60)]
+Pace = Annotated[
+    float | None, _output(metavar="P", help="Seconds of the run in a second of film; 1 is real time.", min=1e-6)
 ]
 
 
 def register(app: typer.Typer) -> None:
     """Attach the command."""
-    app.command("simulate")(simulate_file)
+    app.command("simulate", rich_help_panel="Balls")(simulate_file)
 
 
 @drawing_options.with_import_options()
@@ -77,7 +95,7 @@ def register(app: typer.Typer) -> None:
 def simulate_file(
     file: File,
     out: Out = None,
-    form: Annotated[Format | None, typer.Option("--format", help="Format, whatever the ending says.")] = None,
+    form: Form = None,
     ball: Ball = None,
     velocity: Velocity = None,
     speed: Speed = None,
@@ -85,9 +103,7 @@ def simulate_file(
     radius: Radius = None,
     balls: Count = None,
     seed: Seed = 0,
-    settle: Annotated[
-        bool, typer.Option("--settle", help="Move balls that overlap a wall at the start to the nearest free spot.")
-    ] = False,
+    settle: Settle = False,
     until: Until = None,
     bounces: Bounces = None,
     gravity: Gravity = None,
@@ -97,12 +113,13 @@ def simulate_file(
     drag: Drag = None,
     meeting: Meeting = None,
     ball_restitution: BallRestitution = None,
-    colour: Annotated[Literal["time", "speed"], typer.Option(help="What the path's colour tells.")] = "time",
-    heat: Annotated[bool, typer.Option("--heat", help="Pictures show where balls spend their time.")] = False,
-    theme: Annotated[
-        Literal["light", "dark"], typer.Option(help="Of PNG, GIF and MP4; SVG and HTML follow the reader.")
-    ] = "light",
-    seconds: Annotated[float, typer.Option(metavar="T", help="Length of a film at most.", min=0.1, max=600)] = 12.0,
+    colour: Colour = None,
+    heat: Heat = False,
+    theme: Theme = "light",
+    size: Size = None,
+    seconds: Seconds = 12.0,
+    fps: Fps = None,
+    pace: Pace = None,
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
@@ -117,7 +134,8 @@ def simulate_file(
     targets = _targets(out or [], form)
     scene = opened(file, wishes)
     run = _flown(scene, settle)
-    look = {"colour": colour, "heat": heat, "theme": theme, "seconds": seconds}
+    look: dict[str, Any] = {"colour": colour, "heat": heat, "theme": theme, "size": size}
+    look |= {"seconds": seconds, "fps": fps, "pace": pace}
     trust = _trust(run)
     for target, kind in targets:
         _write(target, kind, run, scene, trust, {**look, "title": "" if file == "-" else Path(file).name})
@@ -146,37 +164,11 @@ def _targets(out: list[str], form: Format | None) -> list[tuple[str, Format]]:
 
 
 def _flown(scene: OpenedScene, settle: bool) -> Run:
+    from wallkit.cli.progress import progress_bar
     from wallkit.simulation.simulate import simulate
 
     with progress_bar("simulating") as report:
         return simulate(scene.scene, scene.until, scene.bounces, settle=settle, progress=report)
-
-
-@contextmanager
-def progress_bar(label: str, after: float = 0.5) -> Iterator[Callable[[float], None] | None]:
-    """Show how much is done on standard error, where that is a terminal and the work takes longer than a moment."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    begun = last = time.monotonic()
-    shown = False
-
-    def report(part: float) -> None:
-        nonlocal last, shown
-        now = time.monotonic()
-        if now - begun < after or now - last < 0.1:
-            return
-        last, shown = now, True
-        filled = int(30 * min(max(part, 0.0), 1.0))
-        sys.stderr.write(f"\r{label} [{'#' * filled}{'.' * (30 - filled)}] {100 * part:3.0f} %")
-        sys.stderr.flush()
-
-    try:
-        yield report
-    finally:
-        if shown:
-            sys.stderr.write("\r\x1b[K")
-            sys.stderr.flush()
 
 
 def _trust(run: Run) -> list[Any]:
@@ -207,15 +199,19 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
 
         page: str = replay_html(run, title=look["title"])
         return page
+    given = {name: look[name] for name in ("colour",) if look[name] is not None}
+    given |= {} if look["size"] is None else {"width": look["size"]}
     if kind in ("gif", "mp4"):
+        from wallkit.cli.progress import progress_bar
         from wallkit.view.film import film
 
+        chosen = {name: look[name] for name in ("seconds", "fps", "pace", "theme")}
         with progress_bar("filming") as report:
-            return film(run, kind, seconds=look["seconds"], theme=look["theme"], progress=report)
+            return film(run, kind, **chosen, **given, progress=report)
     from wallkit.view.run_picture import run_canvas
     from wallkit.view.write import picture_data
 
-    canvas = run_canvas(run, title=look["title"], colour=look["colour"], heat=look["heat"])
+    canvas = run_canvas(run, title=look["title"], heat=look["heat"], **given)
     return picture_data(f".{kind}", canvas, look["theme"])
 
 

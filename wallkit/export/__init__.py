@@ -9,6 +9,7 @@ import io
 from pathlib import Path
 from typing import Any
 
+from importers.collector import collector_paused
 from importers.errors import WallkitError
 from importers.problems import Problem
 from wallkit.export.formats import Format, find_format, formats
@@ -62,8 +63,9 @@ def export_text(walls: Walls, chosen: Format, options: ExportOptions) -> tuple[s
         stream = io.StringIO()
         problems = _asked(chosen, walls, stream, options)
         return stream.getvalue(), problems
-    level = build_level(walls, options, y_axis=chosen.y_axis, arcs=chosen.arcs, metres=chosen.metres)
-    text = chosen.write(level)
+    with collector_paused():
+        level = build_level(walls, options, y_axis=chosen.y_axis, arcs=chosen.arcs, metres=chosen.metres)
+        text = chosen.write(level)
     return text, level.findings.problems
 
 

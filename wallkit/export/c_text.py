@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from wallkit.export.box2d import for_four, is_loop
 from wallkit.export.level import Level
+from wallkit.export.number_text import rows
 
 TABLES = """
 // A chain for each closed wall, segments for each open one; in the order of the drawing, points in metres.
@@ -40,7 +41,7 @@ def tables(level: Level, chains_of_four: bool = False) -> str:
     for wall in level:
         loop = is_loop(wall)
         vertices = for_four(wall.vertices) if loop and chains_of_four else wall.vertices
-        points.append("\t" + " ".join(f"{{ {x!r}f, {y!r}f }}," for x, y in vertices.tolist()))
+        points.append("\t" + rows("{ %rf, %rf },", vertices, " "))
         marks = (
             quoted(wall.name),
             quoted(wall.layer),

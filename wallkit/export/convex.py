@@ -18,7 +18,8 @@ from wallkit.export.level import Level, LevelWall
 from wallkit.export.material_shapes import areas_of, is_ring
 from wallkit.geometry.arrays import FloatArray, IntArray
 
-MOST_AT_ONCE = 400  # vertices of a polygon that is triangulated as it is
+MOST_AT_ONCE = 200  # vertices of a polygon that is triangulated as it is
+BATCH = 20_000  # vertices whose triangles are in memory at the same time: GEOS takes some 400 bytes for each
 MITRE = 5.0  # how far a corner of a thickened wall may stick out, in half thicknesses
 # A corner counts as convex when the sine of its angle is above this, far above the rounding (1e-16) of that sine:
 # leaving two pieces apart is never wrong.
@@ -44,10 +45,11 @@ def solids_of(level: Level) -> list[Solid]:
     found = _material(level)
     thickness = level.options.thickness or 0.005 * level.side
     lines = [wall for wall in level if not is_ring(wall)]
-    for wall in lines:
-        line = np.concatenate([wall.vertices, wall.vertices[:1]]) if wall.closed else wall.vertices
-        thick = shapely.LineString(line).buffer(thickness / 2, cap_style="flat", join_style="mitre", mitre_limit=MITRE)
-        found += [(polygon, wall) for polygon in shapely.get_parts(thick)]
+    ways = [np.concatenate([wall.vertices, wall.vertices[:1]]) if wall.closed else wall.vertices for wall in lines]
+    drawn = np.array([shapely.LineString(way) for way in ways], dtype=object)
+    thick = shapely.buffer(drawn, thickness / 2, cap_style="flat", join_style="mitre", mitre_limit=MITRE)
+    parts, whose = shapely.get_parts(thick, return_index=True)
+    found += [(part, lines[number]) for part, number in zip(parts, whose.tolist(), strict=True)]
     level.findings.note(
         "export-thickened",
         lines,
@@ -82,7 +84,16 @@ def convex_pieces(polygons: list[Any], most: int, smallest: float = 0.0) -> list
     Returns:
         For each polygon its pieces (n, 2), strictly convex, counter-clockwise.
     """
+    result: list[list[FloatArray]] = [[] for _ in polygons]
     parts, owner = _small_parts(polygons)
+    batch = np.cumsum(shapely.get_num_coordinates(parts)) // BATCH
+    for number in range(int(batch[-1]) + 1 if len(batch) else 0):
+        _add_pieces(result, parts[batch == number], owner[batch == number], most, smallest)
+    return result
+
+
+def _add_pieces(result: list[list[FloatArray]], parts: Any, owner: IntArray, most: int, smallest: float) -> None:
+    """Triangulate some parts and merge what may be merged; ``result`` has a list for each owner."""
     found, of_part = shapely.get_parts(shapely.constrained_delaunay_triangles(parts), return_index=True)
     corners = shapely.get_coordinates(found).reshape(-1, 4, 2)[:, :3]
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
@@ -94,12 +105,10 @@ def convex_pieces(polygons: list[Any], most: int, smallest: float = 0.0) -> list
     places = np.stack([points.real, points.imag], axis=1)
     of, loops = _merged(places, which.reshape(-1, 3), owner[of_part[large]], most)
     corners = places[np.array([corner for loop in loops for corner in loop], dtype=np.int64)]
-    result: list[list[FloatArray]] = [[] for _ in polygons]
     end = 0
     for polygon, loop in zip(of, loops, strict=True):
         start, end = end, end + len(loop)
         result[polygon].append(corners[start:end])
-    return result
 
 
 def _small_parts(polygons: list[Any]) -> tuple[Any, IntArray]:

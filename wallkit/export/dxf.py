@@ -13,7 +13,7 @@ from wallkit.export.level import Level, LevelWall
 from wallkit.export.names import unique, without
 from wallkit.export.options import ExportError
 from wallkit.geometry.arrays import FloatArray
-from wallkit.walls.as_shapely import points_on
+from wallkit.geometry.bulge_arcs import edge_points
 
 APP = "WALLKIT"
 _FORBIDDEN = '<>/\\":;?*|=`,'
@@ -88,7 +88,7 @@ def halved(wall: LevelWall) -> FloatArray:
     if not len(large):
         return corners
     following = np.roll(wall.vertices, -1, axis=0)
-    middle = points_on(wall.vertices[large], following[large], wall.bulges[large], np.full(len(large), 0.5))
+    middle = edge_points(wall.vertices[large], following[large], wall.bulges[large], np.full(len(large), 0.5))
     corners[large, 2] = np.tan(np.arctan(corners[large, 2]) / 2)
     added = np.column_stack([middle, corners[large, 2]])
     result: FloatArray = np.insert(corners, large + 1, added, axis=0)

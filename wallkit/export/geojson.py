@@ -9,8 +9,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import shapely
 
-from wallkit.export.json_text import spread
+from wallkit.export.json_text import numbers, spread
 from wallkit.export.level import Level, LevelWall, signed_areas_of
 from wallkit.export.material_shapes import areas_of, is_ring
 
@@ -24,7 +25,7 @@ def write(level: Level) -> str:
         _feature({"type": "Polygon", "coordinates": _rings(area.polygon)}, {"kind": kind}) for area in areas_of(level)
     ]
     features = areas + [_wall(wall, area) for wall, area in zip(level, signed_areas_of(level.walls), strict=True)]
-    return spread({"type": "FeatureCollection", "features": features}, 2) + "\n"
+    return spread({"type": "FeatureCollection", "features": features}, 2)
 
 
 def _wall(wall: LevelWall, area: float) -> dict[str, Any]:
@@ -40,11 +41,11 @@ def _wall(wall: LevelWall, area: float) -> dict[str, Any]:
         "tangential_restitution": float(wall.material.tangential_restitution),
     }
     if not ring:
-        return _feature({"type": "LineString", "coordinates": wall.vertices.tolist()}, properties)
+        return _feature({"type": "LineString", "coordinates": numbers(wall.vertices)}, properties)
     vertices = wall.vertices if area >= 0 else wall.vertices[::-1]  # exteriors are counter-clockwise
-    closed = np.concatenate([vertices, vertices[:1]]).tolist()
+    closed = numbers(np.concatenate([vertices, vertices[:1]]))
     if wall.curve is not None:
-        properties["arcs"] = wall.curve.tolist()
+        properties["arcs"] = numbers(wall.curve)
     return _feature({"type": "Polygon", "coordinates": [closed]}, properties)
 
 
@@ -53,4 +54,4 @@ def _feature(geometry: dict[str, Any], properties: dict[str, Any]) -> dict[str, 
 
 
 def _rings(polygon: Any) -> list[Any]:
-    return [np.asarray(ring.coords).tolist() for ring in (polygon.exterior, *polygon.interiors)]
+    return [numbers(shapely.get_coordinates(ring)) for ring in (polygon.exterior, *polygon.interiors)]

@@ -17,6 +17,7 @@ import numpy as np
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.losses import say_friction, say_single_precision
 from wallkit.export.names import say_renamed, unique
+from wallkit.export.number_text import rows
 from wallkit.geometry.arrays import FloatArray
 
 _FORBIDDEN = '.:@/"%'  # in the name of a node
@@ -47,7 +48,7 @@ class Dialect:
 
     def points(self, points: FloatArray) -> str:
         """Write points as one flat list."""
-        return f"{self.vectors}({', '.join(map(repr, points.ravel().tolist()))})"
+        return f"{self.vectors}({rows('%r, %r', points)})"
 
     def notes(self, notes: dict[str, str | float]) -> list[str]:
         """Write metadata, under names that begin with ``wallkit_``."""

@@ -9,8 +9,9 @@ from __future__ import annotations
 from typing import Any
 
 from wallkit.export.convex import solids_of
-from wallkit.export.json_text import points, spread
+from wallkit.export.json_text import Written, point_lists, points, spread
 from wallkit.export.level import Level, LevelWall
+from wallkit.export.number_text import rows
 
 FORMAT, VERSION = "wallkit-level", 1
 
@@ -28,11 +29,11 @@ def level_text(level: Level, solids: bool = False) -> str:
         whole["solids"] = [
             {
                 **_marks(solid.wall),
-                "pieces": [{"points": points(piece)} for piece in solid.pieces],
+                "pieces": point_lists(solid.pieces, '{"points": ', "}"),
             }
             for solid in solids_of(level)
         ]
-    return spread(whole, 2) + "\n"
+    return spread(whole, 2)
 
 
 def _wall(wall: LevelWall) -> dict[str, Any]:
@@ -44,7 +45,8 @@ def _wall(wall: LevelWall) -> dict[str, Any]:
         "points": points(wall.vertices),
     }
     if wall.curve is not None:
-        result["arcs"] = [{"x": x, "y": y, "bulge": bulge} for x, y, bulge in wall.curve.tolist()]
+        template = '{"x": %r, "y": %r, "bulge": %r}'
+        result["arcs"] = Written(f"[{rows(template, wall.curve)}]")
     return result
 
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from wallkit.export.convex import Solid, solids_of
-from wallkit.export.json_text import points, spread
+from wallkit.export.json_text import point_lists, spread
 from wallkit.export.level import Level
 from wallkit.export.losses import say_friction, say_one_way
 from wallkit.geometry.arrays import FloatArray
@@ -41,7 +41,7 @@ def write(level: Level) -> str:
             "fixtures": [_fixture(solid) for solid in solids],
         },
     }
-    return spread(whole, 3) + "\n"
+    return spread(whole, 3)
 
 
 def _fixture(solid: Solid) -> dict[str, Any]:
@@ -50,7 +50,7 @@ def _fixture(solid: Solid) -> dict[str, Any]:
         "isSensor": False,
         "restitution": float(solid.wall.material.restitution),
         "friction": 0.0,
-        "vertices": [points(piece[::-1]) for piece in solid.pieces],
+        "vertices": point_lists([piece[::-1] for piece in solid.pieces]),
     }
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from wallkit.export.box2d import is_loop, say_box2d
-from wallkit.export.json_text import points, spread
+from wallkit.export.json_text import point, points, spread
 from wallkit.export.level import Level, LevelWall
 
 
@@ -32,7 +32,7 @@ def write(level: Level) -> str:
     parts: list[dict[str, Any]] = [world, body]
     for wall in level:
         parts += [_fixture(wall, 3 + 2 * ((len(parts) - 2) // 2)), _chain(wall)]
-    return spread(parts, 1) + "\n"
+    return spread(parts, 1)
 
 
 def _fixture(wall: LevelWall, shape: int) -> dict[str, Any]:
@@ -63,6 +63,6 @@ def _chain(wall: LevelWall) -> dict[str, Any]:
         "isLoop": loop,
         "hasPrevVertex": loop,
         "hasNextVertex": loop,
-        "prevVertex": vertices[-1] if loop else None,
-        "nextVertex": vertices[1] if loop else None,
+        "prevVertex": point(*wall.vertices[-1]) if loop else None,
+        "nextVertex": point(*wall.vertices[1]) if loop else None,
     }

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.losses import say_friction
+from wallkit.export.number_text import rows
 
 _HEAD = '''"""Walls for pymunk 7, written by wallkit export.
 
@@ -71,7 +72,7 @@ def write(level: Level) -> str:
 
 
 def _wall(wall: LevelWall) -> str:
-    return repr(
+    marks = repr(
         {
             "name": wall.name,
             "layer": wall.layer,
@@ -79,6 +80,6 @@ def _wall(wall: LevelWall) -> str:
             "one_way": wall.one_way,
             "restitution": float(wall.material.restitution),
             "tangential_restitution": float(wall.material.tangential_restitution),
-            "points": [tuple(point) for point in wall.vertices.tolist()],
         }
     )
+    return f"{marks[:-1]}, 'points': [{rows('(%r, %r)', wall.vertices)}]}}"

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from wallkit.export.box2d import is_loop, say_box2d
-from wallkit.export.json_text import spread
+from wallkit.export.json_text import numbers, point, spread
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.losses import say_single_precision, say_two_sided
 
@@ -45,17 +45,16 @@ def write(level: Level) -> str:
             }
         ],
     }
-    return spread(whole, 5) + "\n"
+    return spread(whole, 5)
 
 
 def _fixture(wall: LevelWall) -> dict[str, Any]:
     loop = is_loop(wall)
     vertices = np.concatenate([wall.vertices, wall.vertices[:1]]) if loop else wall.vertices
-    chain: dict[str, Any] = {"vertices": {"x": vertices[:, 0].tolist(), "y": vertices[:, 1].tolist()}}
+    chain: dict[str, Any] = {"vertices": {"x": numbers(vertices[:, 0]), "y": numbers(vertices[:, 1])}}
     if loop:
-        (px, py), (nx, ny) = wall.vertices[-1].tolist(), wall.vertices[1].tolist()
-        chain |= {"hasPrevVertex": True, "prevVertex": {"x": px, "y": py}}
-        chain |= {"hasNextVertex": True, "nextVertex": {"x": nx, "y": ny}}
+        chain |= {"hasPrevVertex": True, "prevVertex": point(*wall.vertices[-1])}
+        chain |= {"hasNextVertex": True, "nextVertex": point(*wall.vertices[1])}
     return {
         "name": wall.name,
         "density": 0.0,

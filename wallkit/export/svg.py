@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
+from importers.drawing import DrawnPath, Subpath
+from importers.svg.svgpathtools_paths import svgpathtools_paths
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.names import say_renamed
 from wallkit.export.xml_text import clean, quoted
+from wallkit.walls.as_paths import subpath_of
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 
@@ -49,17 +50,7 @@ def _path(wall: LevelWall) -> str:
 
 
 def path_data(wall: LevelWall) -> str:
-    """Give a wall as path data. An arc of bulge b = tan(angle / 4) over the chord c has r = c (1 + b^2) / (4 |b|)."""
-    points, bulges = wall.vertices.tolist(), wall.bulges.tolist()
-    parts = [f"M{points[0][0]!r} {points[0][1]!r}"]
-    ends = [*points[1:], points[0]] if wall.closed else points[1:]
-    last = len(points) - 1
-    for index, (x, y) in enumerate(ends):
-        bulge = bulges[index]
-        if bulge:
-            px, py = points[index]
-            radius = math.hypot(x - px, y - py) * (1 + bulge * bulge) / (4 * abs(bulge))
-            parts.append(f"A{radius!r} {radius!r} 0 {int(abs(bulge) > 1)} {int(bulge > 0)} {x!r} {y!r}")
-        elif index < last:
-            parts.append(f"L{x!r} {y!r}")
-    return " ".join(parts) + (" Z" if wall.closed else "")
+    """Give a wall as path data, as svgpathtools writes it: an M, L for lines, A for arcs; Z closes it."""
+    subpath = subpath_of(wall.vertices, wall.bulges, wall.closed)
+    (path,) = svgpathtools_paths([DrawnPath([Subpath(subpath.segments, closed=False)])])
+    return f"{path.d()} Z" if wall.closed else str(path.d())

@@ -42,7 +42,7 @@ def write(level: Level) -> str:
         "tilesets": [],
         "layers": layers,
     }
-    return spread(whole, 4) + "\n"
+    return spread(whole, 4)
 
 
 def _object(one: TiledObject) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from wallkit.export.level import Level
 from wallkit.export.names import say_renamed
+from wallkit.export.number_text import rows
 from wallkit.export.tiled import TILE, VERSION, TiledObject, Value, tiled_map, type_of
 from wallkit.export.xml_text import clean, quoted
 
@@ -27,7 +28,7 @@ def write(level: Level) -> str:
 
 
 def _object(one: TiledObject) -> list[str]:
-    points = " ".join(f"{x!r},{y!r}" for x, y in one.points.tolist())
+    points = rows("%r,%r", one.points, " ")
     return [
         f'  <object id="{one.number}" name={quoted(one.name)} type="wall" x="{one.x!r}" y="{one.y!r}">',
         "   <properties>",

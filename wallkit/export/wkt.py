@@ -5,10 +5,14 @@ Written here and not by shapely, whose writers give 16 digits at most: some numb
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+import shapely
 
 from wallkit.export.level import Level
 from wallkit.export.material_shapes import areas_of, is_ring
+from wallkit.export.number_text import rows
 from wallkit.geometry.arrays import FloatArray
 
 
@@ -17,10 +21,7 @@ def write(level: Level) -> str:
     level.findings.note(
         "export-names", level.walls, "well-known text has shapes only: names, layers and materials are left out"
     )
-    polygons = [
-        f"({', '.join(_points(np.asarray(ring.coords)) for ring in (area.polygon.exterior, *area.polygon.interiors))})"
-        for area in areas_of(level)
-    ]
+    polygons = [f"({', '.join(map(_points, _rings(area.polygon)))})" for area in areas_of(level)]
     lines = [
         _points(np.concatenate([wall.vertices, wall.vertices[:1]]) if wall.closed else wall.vertices)
         for wall in level
@@ -29,8 +30,12 @@ def write(level: Level) -> str:
     return f"GEOMETRYCOLLECTION ({_many('MULTIPOLYGON', polygons)}, {_many('MULTILINESTRING', lines)})\n"
 
 
+def _rings(polygon: Any) -> list[FloatArray]:
+    return [shapely.get_coordinates(ring) for ring in (polygon.exterior, *polygon.interiors)]
+
+
 def _points(points: FloatArray) -> str:
-    return f"({', '.join(f'{x!r} {y!r}' for x, y in points.tolist())})"
+    return f"({rows('%r %r', points)})"
 
 
 def _many(word: str, parts: list[str]) -> str:

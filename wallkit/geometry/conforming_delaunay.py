@@ -93,7 +93,7 @@ def _triangulated(work: _Cut) -> Triangulation | None:
         everything = np.concatenate([work.points, frame])
         looked_at += len(everything)
         count = len(everything)
-        corners = _with_diagonals(_delaunay(everything), everything, _keys(work.segments, count))
+        corners = _with_diagonals(delaunay(everything), everything, _keys(work.segments, count))
         sides = np.stack([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]], axis=1)
         keys, edge = np.unique(_keys(sides.reshape(-1, 2), count), return_inverse=True)
         walls = _keys(work.segments, count)
@@ -118,7 +118,7 @@ def _triangulated(work: _Cut) -> Triangulation | None:
     return Triangulation(everything, corners, neighbours, edge, ends, np.isin(keys, walls), outer, given, work)
 
 
-def _delaunay(points: FloatArray) -> IntArray:
+def delaunay(points: FloatArray) -> IntArray:
     """The corners of the Delaunay triangles of points that are all different: (T, 3).
 
     By GEOS: its exact predicates take many points on one circle or line as they come.

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.ellipse_arcs import centre_form
 
 _CURVE = 24  # chords a Bezier curve, half as many as an arc of a drawing
 
@@ -27,25 +26,12 @@ def chords(start: FloatArray, kind: str, numbers: tuple[float, ...]) -> FloatArr
 
 
 def _arc(start: FloatArray, numbers: tuple[float, ...]) -> FloatArray:
-    """Sample an elliptic arc in end-point form by its centre (SVG specification, appendix B.2.4), end included."""
-    rx, ry, rotation, large, sweep, *rest = numbers
-    end = np.array(rest, dtype=np.float64)
-    phi = math.radians(rotation)
-    turn = np.array([[math.cos(phi), math.sin(phi)], [-math.sin(phi), math.cos(phi)]])
+    """Sample an elliptic arc in end-point form, end included; a line where it has no radius."""
+    rx, ry, rotation, large, sweep, x, y = numbers
     if not rx or not ry:
-        return end[None, :]
-    half = turn @ ((start - end) / 2) / (rx, ry)
-    square = float(half @ half)
-    arm = math.sqrt(max(0.0, 1.0 - square) / square) if square else 0.0
-    centre = (arm if large != sweep else -arm) * np.array([half[1], -half[0]])
-    first, last = (math.atan2(point[1], point[0]) for point in (half - centre, -half - centre))
-    span = last - first
-    if sweep and span <= 0:
-        span += math.tau
-    elif not sweep and span >= 0:
-        span -= math.tau
-    angles = first + span * np.linspace(0.0, 1.0, 2 * _CURVE + 1)[1:]
-    points: FloatArray = ((np.stack([np.cos(angles), np.sin(angles)], axis=1) + centre) * (rx, ry)) @ turn
-    points = points + (start + end) / 2
-    points[-1] = end
+        return np.array([[x, y]])
+    arc = centre_form(np.array([[*start.tolist(), rx, ry, rotation, large, sweep, x, y]]))
+    part = np.linspace(0.0, 1.0, 2 * _CURVE + 1)[1:]
+    points = arc.take(np.zeros(len(part), dtype=np.int64)).points(arc.start + arc.turn * part)
+    points[-1] = x, y
     return points

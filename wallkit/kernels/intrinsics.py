@@ -12,7 +12,7 @@ from typing import Any
 AT_ONCE = 8
 """Numbers looked up, or paired up, together."""
 FIRST, SECOND = 3, 2
-"""The caches nearest to the processor, as LLVM numbers them."""
+"""The caches L1 and L2, as LLVM numbers them."""
 
 
 def claim(counter: Any, count: int) -> int:
@@ -23,22 +23,22 @@ def claim(counter: Any, count: int) -> int:
 
 
 def prefetch(_records: Any, _place: int) -> None:
-    """Ask memory for an item of an array that is read soon, so that machine code need not wait for it then.
+    """Prefetch an item of an array that is read soon into the L1 cache.
 
     It changes no result, and the place may be anywhere, also beyond the array.
     """
 
 
 def prefetch_far(_records: Any, _place: int) -> None:
-    """Ask for an item as ``prefetch`` does where there are so many that memory itself must give them.
+    """Prefetch an item into the L2 cache, where there are so many that they come from memory.
 
-    It comes into the second cache, not the first: that one waits for few lines at a time, and when as many are on
-    their way it stands still. Random lines of memory come up to twice as fast so.
+    L1 has few miss buffers, and stalls when all are in use: random cache lines come up to twice as fast through L2.
     """
 
 
 def lowest(bits: int) -> int:
     """Give the place of the lowest bit that is set in an integer; there must be one."""
+    # bits & -bits keeps the lowest bit, as two's complement has it.
     return (bits & -bits).bit_length() - 1
 
 
@@ -126,12 +126,13 @@ def _emit_claim(context: Any, builder: Any, signature: Any, values: Any) -> Any:
     """Count without a gap between reading and writing: no two threads take the same number."""
     from llvmlite import ir
 
+    # Monotonic: each number once, and no order with other memory, which threads do not share while they fly.
     place = _place_in(context, builder, signature.args[0], values[0], ir.IntType(64)(0))
     return builder.atomic_rmw("add", place, values[1], "monotonic")
 
 
 def _prefetch_to(cache: int) -> Any:
-    """Give what emits the request for an item, into the FIRST cache or the SECOND."""
+    """Return what emits a prefetch into the FIRST cache or the SECOND."""
 
     def emit(context: Any, builder: Any, signature: Any, values: Any) -> Any:
         from llvmlite import ir
@@ -141,6 +142,7 @@ def _prefetch_to(cache: int) -> Any:
         kind = ir.FunctionType(ir.VoidType(), [byte, word, word, word])
         function = cgutils.get_or_insert_function(builder.module, kind, "llvm.prefetch")
         place = _place_in(context, builder, signature.args[0], *values)
+        # llvm.prefetch(address, 0 to read, locality, 1 for data).
         builder.call(function, [builder.bitcast(place, byte), word(0), word(cache), word(1)])  # to read
         return context.get_dummy_value()
 
@@ -150,6 +152,7 @@ def _prefetch_to(cache: int) -> Any:
 def _emit_lowest(_context: Any, builder: Any, _signature: Any, values: Any) -> Any:
     from llvmlite import ir
 
+    # Count of trailing zeros; the flag says that nobody asks for those of 0.
     return builder.cttz(values[0], ir.IntType(1)(1))
 
 
@@ -160,6 +163,7 @@ def _emit_look_up(context: Any, builder: Any, signature: Any, values: Any) -> An
     word = ir.IntType(32)
     (table, places, _first, found, _to), (numbers, which, first, written, to) = signature.args, values
     together = ir.VectorType(word, AT_ONCE)(ir.Undefined)
+    # Eight loads that wait for one another's caches together, where a loop would wait eight times.
     for j in range(AT_ONCE):
         at = builder.load(_place_in(context, builder, places, which, builder.add(first, first.type(j))))
         number = builder.load(_place_in(context, builder, table, numbers, at))
@@ -175,6 +179,7 @@ def _emit_pair_up(context: Any, builder: Any, signature: Any, values: Any) -> An
 
     together = ir.VectorType(ir.IntType(32), AT_ONCE)
     (table, _at, _who, pairs, _to, _to_who), (ids, at, who, written, to, to_who) = signature.args, values
+    # Ids lie side by side: one vector load, of as many as may be there; what is too much is not counted.
     place = _place_in(context, builder, table, ids, at)
     found = builder.load(builder.bitcast(place, together.as_pointer()), align=4)
     ball = builder.insert_element(together(ir.Undefined), builder.trunc(who, together.element), together.element(0))
@@ -194,6 +199,7 @@ def _emit_fetch(context: Any, builder: Any, signature: Any, values: Any) -> Any:
     size = kinds[0].dtype.size // 8
     floats = ir.VectorType(ir.DoubleType(), size)
     found, rows = ir.VectorType(word, size)(ir.Undefined), []
+    # A record is one cache line: whole rows are loaded, and turned into columns in registers.
     for j in range(size):
         number = builder.load(_place_in(context, builder, kinds[1], names, builder.add(first, first.type(j))))
         found = builder.insert_element(found, number, word(j))
@@ -211,6 +217,7 @@ def _transposed(builder: Any, rows: list[Any]) -> list[Any]:
 
     size, block = len(rows), 1
     while block < size:
+        # Index `block` of row and of column change places: after log2 n rounds all of them have.
         low = [k if k & block == 0 else size + k - block for k in range(size)]
         high = [k + block if k & block == 0 else size + k for k in range(size)]
         masks = [ir.Constant(ir.VectorType(ir.IntType(32), size), order) for order in (low, high)]

@@ -7,10 +7,13 @@ point; kernels that it calls are compiled with it. No fastmath: both forms give 
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
+import shutil
 import sys
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
@@ -18,6 +21,9 @@ from typing import Any, TypeVar
 from wallkit.kernels import intrinsics
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+KEPT = 4
+"""Folders of machine code that stay: this version's, and those last used, for other environments have versions too."""
 
 _marked: list[Callable[..., Any]] = []
 _rare: list[Callable[..., Any]] = []
@@ -51,13 +57,55 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     intrinsics.register()
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False}
     theirs = getattr(config, "CACHE_DIR", "")
-    setattr(config, "CACHE_DIR", str(_cache_folder()))  # noqa: B010 - numba makes its settings at run time
+    setattr(config, "CACHE_DIR", str(cache_folder()))  # noqa: B010 - numba makes its settings at run time
     try:
         return numba.njit(cache=True, **options)(entry)  # type: ignore[no-any-return]
     except RuntimeError:  # numba's word for "no folder can be written"
         return numba.njit(**options)(entry)  # type: ignore[no-any-return]
     finally:
         setattr(config, "CACHE_DIR", theirs)  # noqa: B010
+
+
+def compile_for(entry: Callable[..., Any], *types: Any) -> None:
+    """Compile a kernel for Numba's types of its arguments, or take it from the disk."""
+    machine_code: Any = compiled(entry)
+    machine_code.compile(types)
+
+
+def types_of(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Give Numba's types of a kernel's arguments."""
+    from numba import typeof
+
+    return tuple(typeof(argument) for argument in arguments)
+
+
+class NotCompiledError(Exception):
+    """Machine code is neither in this process nor on the disk."""
+
+
+@contextlib.contextmanager
+def never_compiling() -> Iterator[None]:
+    """Let kernels come from the disk alone, in this thread.
+
+    Raises:
+        NotCompiledError: one would have to be compiled.
+    """
+    from numba.core import event
+
+    here = threading.get_ident()
+
+    class Refusal(event.Listener):
+        """Numba looks on the disk first, and says that it compiles just before it does."""
+
+        def on_start(self, event: Any) -> None:
+            if threading.get_ident() == here:
+                raise NotCompiledError
+
+        def on_end(self, event: Any) -> None:
+            """Nothing of ours ever ends."""
+
+    with event.install_listener("numba:compile", Refusal()):
+        yield
 
 
 def _register_all(register: Callable[..., Any]) -> None:
@@ -68,12 +116,28 @@ def _register_all(register: Callable[..., Any]) -> None:
         register(_nrt=False)(_rare.pop())
 
 
-def _cache_folder() -> Path:
+def cache_folder() -> Path:
+    """Give the folder of the machine code of these very kernels."""
     digest = hashlib.sha256()
     folder = Path(__file__).parent
     for path in sorted(folder.rglob("*.py")):  # kernels live in subfolders too
         digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes())
-    return _cache_home() / f"kernels-{digest.hexdigest()[:16]}"
+    own = _cache_home() / f"kernels-{digest.hexdigest()[:16]}"
+    _clear_older(own)
+    return own
+
+
+@cache
+def _clear_older(own: Path) -> None:
+    """Note that a folder of machine code is in use, and remove those of older versions but the ones used last."""
+    try:
+        own.mkdir(parents=True, exist_ok=True)
+        os.utime(own)
+        others = sorted((path.stat().st_mtime, path) for path in own.parent.glob("kernels-*") if path != own)
+    except OSError:  # nothing can be written there, or another process clears as well
+        return
+    for _used, folder in others[: max(0, len(others) - (KEPT - 1))]:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _cache_home() -> Path:

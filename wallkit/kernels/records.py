@@ -12,12 +12,73 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-STATE_SIZE = 12
-"""x, y, vx, vy, time, what the time lost to rounding, speed squared (under gravity
-less 2 g.p, which a flight keeps); for points where the last flight began (x, y)
-and its velocity, and the tolerance: how far positions may be off by rounding."""
-LOG_STRIDE = 11
-"""time, x, y, vx, vy, px, py, nx, ny, feature, kind."""
+
+class State(NamedTuple):
+    """The columns of the state of a ball, floats: ``state[STATE.x]``."""
+
+    x: Any
+    y: Any
+    vx: Any
+    vy: Any
+    time: Any
+    lost: Any
+    """What the time lost to rounding."""
+    energy: Any
+    """Speed squared; under gravity less 2 g.p, which a flight keeps."""
+    from_x: Any
+    from_y: Any
+    """Where the last flight of a point began."""
+    from_vx: Any
+    from_vy: Any
+    """Its velocity there."""
+    tolerance: Any
+    """How far positions may be off by rounding."""
+
+
+class Counts(NamedTuple):
+    """The columns of the integer state of a ball: ``counts[COUNT.last]``; and such a state.
+
+    Last feature; bounces; ending or RUNNING; contacts in a row without time; feature that holds it, or NO_HIT; how it
+    does, see FREE and the following; on which side of it the ball is, 1 the outward one of its wall, -1 the other; how
+    often, in a row, it turned there; changes from feature to feature since the last bounce; what it met before that.
+    """
+
+    last: int
+    bounces: int
+    ending: int
+    still: int
+    held: int
+    hold: int
+    side: int
+    turns: int
+    changes: int
+    before: int
+
+
+class LogRow(NamedTuple):
+    """The columns of a contact in the log, which is flat: ``log[row * LOG_STRIDE + LOG.time]``."""
+
+    time: Any
+    x: Any
+    y: Any
+    """The centre."""
+    vx: Any
+    vy: Any
+    """After the contact."""
+    px: Any
+    py: Any
+    """The contact point."""
+    nx: Any
+    ny: Any
+    """Unit normal towards the ball."""
+    feature: Any
+    kind: Any
+    """EDGE, VERTEX, SLIDE or LEAVE."""
+
+
+STATE, STATE_SIZE = State(*range(12)), 12
+COUNT = Counts(*range(10))
+LOG, LOG_STRIDE = LogRow(*range(11)), 11
 
 NO_HIT = -1
 """No feature. Edge e is the feature e, corner j is the feature -2 - j."""
@@ -99,8 +160,8 @@ class Joint(NamedTuple):
 class Cell(NamedTuple):
     """A cell of the index, and what is listed in it: ids from ``first`` to before ``end``.
 
-    Lines come first, then arcs (from ``arcs`` on), then corners (from ``corners`` on). Where nothing is listed all
-    four are one number: so many king's moves away, at least 1, is the nearest cell that may list something. Where
+    Lines come first, then arcs (from ``arcs`` on), then corners (from ``corners`` on). An empty
+    cell stores its Chebyshev distance (cells, at least 1) to the nearest cell with entries, in all four fields. Where
     ``end`` is before ``first`` the cell is divided into 2^arcs by 2^arcs smaller ones, row by row from the cell
     ``first`` on, and lists nothing itself.
     """
@@ -149,18 +210,20 @@ class Block(NamedTuple):
     """Entries it may come to; with more it is given up."""
 
 
+# The same fields as records of arrays: eight floats, a cache line, for a line or an arc.
 LINE = np.dtype([(name, np.float64) for name in Line._fields])
 ARC = np.dtype([(name, np.float64) for name in Arc._fields])
 CORNER = np.dtype([(name, np.float64) for name in Corner._fields])
-WAYS = 8
-"""Eighths of a full turn, in one of which a flight goes, see ``grid.way_of``."""
+OCTANTS = 8
+"""A flight goes in one of them, see ``grid.octant_of``."""
 FIRST_CLEARING, PACKED = 8, 4
 """Where packed clearings begin after their cell, and bits of the room that both take, in numbers of 16 bits."""
-QUARTERS = 4
-"""For points, which meet a line from both its sides, they are no better than quarters."""
+QUADRANTS = 4
+"""For points, which meet a line from both its sides, octants are no better than these."""
 HALF, WIDEST = 7, 127
 """Bits of a clearing's width and of its height, in cells, and what they hold."""
 JOINT = np.dtype([(name, np.float64 if place < 2 else np.int64) for place, name in enumerate(Joint._fields)])
+# Unsigned 32 bits hold four thousand million entries, and four of them are a quarter of a cache line.
 CELL = np.dtype([(name, np.uint32) for name in Cell._fields])
 FAN = np.dtype([(name, np.float64) for name in Fan._fields])
 BLOCK = np.dtype([(name, np.float64 if place < 5 else np.int64) for place, name in enumerate(Block._fields)])
@@ -196,13 +259,13 @@ class Grid(NamedTuple):
     columns: int
     rows: int
     """Of cells that are not part of another one."""
-    ways: int
-    """For which such a cell has clearings: WAYS or QUARTERS."""
+    octants: int
+    """Directions of flight for which such a cell has clearings: OCTANTS or QUADRANTS."""
     departs: int
     """1 if there are departures, else 0."""
     packed: int
-    """1 if a record with the clearings of a cell comes after its own, so that memory is asked once for both; 0 if
-    clearings lie by way, so that more of them stay in the cache."""
+    """1 if a record with the clearings of a cell comes after its own, so that one fetch serves both; 0 if
+    clearings lie octant by octant, so that more of them stay in the cache."""
 
 
 class Model(NamedTuple):
@@ -215,8 +278,8 @@ class Model(NamedTuple):
     grid: Any
     """``Grid``, or None."""
     clearings: Any
-    """At ``grid.clearing_at``: by way of flight and by cell that is not part of another, a large rectangle of cells
-    that begins with it, goes that way, and lists nothing that a flight of that way may meet. It is width +
+    """At ``grid.clearing_at``: by octant of flight and by cell that is not part of another, a large rectangle of cells
+    that begins with it, extends in that octant, and lists nothing that a flight in it may meet. It is width +
     2^HALF * height, in cells; 0 where the cell lists something to be met. At ``grid.departures_of`` the like for points
     that leave a wall: what they leave may be listed too. Packed clearings are in the memory of ``cells``."""
     lines: Any
@@ -245,23 +308,3 @@ class Model(NamedTuple):
     """``Joint`` by end of an edge; None without gravity."""
     spokes: Any
     """By vertex: the lowest end of an edge at its place, or NO_HIT; None without gravity."""
-
-
-class Counts(NamedTuple):
-    """The integer state of a ball.
-
-    Last feature; bounces; ending or RUNNING; contacts in a row without time; feature that holds it, or NO_HIT; how it
-    does, see FREE and the following; on which side of it the ball is, 1 the outward one of its wall, -1 the other; how
-    often, in a row, it turned there; changes from feature to feature since the last bounce; what it met before that.
-    """
-
-    last: int
-    bounces: int
-    ending: int
-    still: int
-    held: int
-    hold: int
-    side: int
-    turns: int
-    changes: int
-    before: int

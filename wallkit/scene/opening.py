@@ -163,6 +163,7 @@ class OpenedScene:
         assumed: what nobody said, a sentence each.
         drawing: the drawing, where the file was one.
         found_place: no ball was given: the one in the scene was put where there is most room.
+        importing: how the drawing became walls.
     """
 
     scene: Scene
@@ -173,6 +174,7 @@ class OpenedScene:
     assumed: list[str] = field(default_factory=list)
     drawing: Drawing | None = None
     found_place: bool = False
+    importing: ImportOptions | None = None
 
 
 def open_scene(
@@ -211,7 +213,7 @@ def open_scene(
 
         stream = io.BytesIO(source)
         stream.name = name
-        return _of_drawing(read_drawing(stream, page=wishes.importing.page), wishes)
+        return _of_drawing(read_drawing(stream, page=wishes.importing.page, via=wishes.importing.via), wishes)
     if kind == "walls":
         from wallkit.walls.walls_json import loads
 
@@ -245,7 +247,7 @@ def _of_drawing(drawing: Drawing, wishes: Wishes) -> OpenedScene:
     drawn = drawn_scene(drawing, wishes.importing, _given(wishes))
     scene = Scene(drawn.walls, drawn.balls, sensors=drawn.sensors)
     opened = OpenedScene(scene, None, None, drawing.kind or "drawing", drawn.problems)
-    opened.drawing = drawing
+    opened.drawing, opened.importing = drawing, wishes.importing
     return _completed(opened, drawn, wishes)
 
 
@@ -259,7 +261,9 @@ def _of_scene_file(read: SceneFile, wishes: Wishes) -> OpenedScene:
     if read.drawn is None:
         scene = replace(scene, walls=_repaired(scene.walls, wishes.importing, "a scene without a drawing"))
     problems = [] if read.drawn is None else read.drawn.problems
-    opened = OpenedScene(scene, read.until, read.bounces, "scene", problems, drawing=read.drawing)
+    opened = OpenedScene(
+        scene, read.until, read.bounces, "scene", problems, drawing=read.drawing, importing=read.importing
+    )
     return _completed(opened, read.drawn, wishes)
 
 
@@ -340,9 +344,11 @@ def _walls_and_balls(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -
         return walls, Balls(np.array(wishes.ball), np.tile(velocity, (len(wishes.ball), 1)), wishes.radius or 0.0)
     if wishes.balls is None and len(balls):
         return walls, _changed(balls, drawn, wishes, assumed)
-    spawn = next((marker for marker in walls.markers if marker.kind == "spawn"), None)
-    if spawn is not None and wishes.balls is None:
-        return walls, _at_the_spawn(spawn, wishes, assumed)
+    spawns = [marker for marker in walls.markers if marker.kind == "spawn"]
+    if spawns and wishes.balls is None:
+        return walls, _at_the_spawn(spawns[0], wishes, assumed)
+    if spawns and wishes.balls is not None:
+        return walls, _at_spawns(spawns, wishes.balls, wishes, assumed)
     return _at_the_roomiest_spot(opened, wishes)
 
 
@@ -364,6 +370,34 @@ def _at_the_spawn(spawn: Marker, wishes: Wishes, assumed: list[str]) -> Balls:
     called = f"the spawn {spawn.name!r}" if spawn.name else "the spawn"
     assumed.append(f"one ball of radius {radius:g} at {called}, ({spawn.x:.6g}, {spawn.y:.6g}) (--ball, --radius)")
     return Balls([[spawn.x, spawn.y]], [_velocity(wishes, assumed)], radius)
+
+
+def _at_spawns(spawns: list[Marker], count: int, wishes: Wishes, assumed: list[str]) -> Balls:
+    """Give balls in random directions, at the spawns in turn.
+
+    A ball is as large as the circle of its spawn; one that is asked to be smaller starts anywhere in that circle:
+    evenly over the disc of radius R = (circle - ball), at R sqrt(u) for an even u.
+    """
+    random = np.random.default_rng(wishes.seed)
+    turn = np.arange(count) % len(spawns)
+    circle = np.array([spawn.radius for spawn in spawns])[turn]
+    radius = circle if wishes.radius is None else np.full(count, wishes.radius)
+    reach = np.maximum(circle - radius, 0.0) * np.sqrt(random.uniform(size=count))
+    around = random.uniform(0.0, math.tau, count)
+    middle = np.array([(spawn.x, spawn.y) for spawn in spawns])[turn]
+    places = middle + reach[:, None] * np.stack([np.cos(around), np.sin(around)], axis=1)
+    where = "the spawn" if len(spawns) == 1 else f"{len(spawns)} spawns in turn"
+    assumed.append(f"{count} balls at {where} (seed {wishes.seed})")
+    return Balls(places, _random_velocities(count, wishes, random, assumed), radius)
+
+
+def _random_velocities(count: int, wishes: Wishes, random: np.random.Generator, assumed: list[str]) -> np.ndarray:
+    """Give (count, 2) velocities in random directions, or all the one that is asked for."""
+    if wishes.velocity is not None or wishes.angle is not None:
+        return np.tile(_velocity(wishes, assumed), (count, 1))
+    angle = random.uniform(0.0, math.tau, count)
+    speed = SPEED if wishes.speed is None else wishes.speed
+    return speed * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
 def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, Balls]:
@@ -399,11 +433,7 @@ def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, B
     random = np.random.default_rng(wishes.seed)
     places = scattered(walls, spot, count, radius, random, apart=meeting and radius > 0.0)
     assumed.append(f"{count} balls of radius {radius:g} at random places (seed {wishes.seed}) around the roomiest spot")
-    if wishes.velocity is not None or wishes.angle is not None:
-        return walls, Balls(places, np.tile(_velocity(wishes, assumed), (count, 1)), radius)
-    angle = random.uniform(0.0, math.tau, count)
-    speed = SPEED if wishes.speed is None else wishes.speed
-    return walls, Balls(places, speed * np.stack([np.cos(angle), np.sin(angle)], axis=1), radius)
+    return walls, Balls(places, _random_velocities(count, wishes, random, assumed), radius)
 
 
 def _sensible_radius(room: float) -> float:

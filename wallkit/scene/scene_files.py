@@ -9,7 +9,7 @@ import json
 import math
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -21,11 +21,12 @@ from importers.limits import check_input_size
 from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.drawn_scene import apart, drawn_scene, together
 from wallkit.scene.scene import Balls, Scene, SceneError, area_of
-from wallkit.scene.scene_rules import RULE_KEYS, Rule, Ruled, named, painted
+from wallkit.scene.scene_rules import FIT_KEYS, RULE_KEYS, Fit, Rule, Ruled, say_roles
 from wallkit.walls import Material, Walls
 from wallkit.walls.fields import MOST_RESTITUTION
 from wallkit.walls.import_options import ImportOptions, option_names
 from wallkit.walls.origins import ORIGIN_KEYS, Origin
+from wallkit.walls.tags import ROLES
 from wallkit.walls.walls import WallsError
 from wallkit.walls.walls_json import from_json, load, to_json
 
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from wallkit.scene.drawn_scene import Drawn
 
 
-Kind = Literal["drawing", "walls", "scene"]
+FileKind = Literal["drawing", "walls", "scene"]
 
 BALL_RESTITUTIONS = ("ball_restitution", "ball_tangential_restitution")
 _TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
@@ -62,7 +63,7 @@ class SceneFile:
     importing: ImportOptions | None = None
 
 
-def kind_of(data: bytes) -> Kind:
+def kind_of(data: bytes) -> FileKind:
     """Tell by its content whether a file holds walls, a scene or (whatever else it is) a drawing.
 
     JSON that names its format is believed; TOML is a text whose first line that is no comment sets a key or opens
@@ -281,8 +282,9 @@ class _Reader:
     def drawn(self, table: dict[str, Any], balls: FloatArray) -> Drawn | None:
         path = self.path(table["drawing"], "drawing")
         options = self.table(table.get("import", {}), "import")
-        self.known_keys(options, set(option_names()), "import.")
-        known = {key: value for key, value in options.items() if key in option_names()}
+        names = set(option_names()) - {"via"}  # who opens a file says what program may run, not the file
+        self.known_keys(options, names, "import.")
+        known = {key: value for key, value in options.items() if key in names}
         try:
             self.options = ImportOptions(**{"curves": "arcs", **known, **self.importing})
         except WallsError as error:
@@ -292,7 +294,8 @@ class _Reader:
             return None
         from importers.read import read_drawing
 
-        self.drawing = read_drawing(path, page=self.options.page)
+        self.drawing = read_drawing(path, page=self.options.page, via=self.options.via)
+        say_roles(self.drawing, self.roles(table))
         return drawn_scene(self.drawing, self.options, balls if self.places is None else self.places)
 
     def path(self, value: Any, key: str) -> Path | None:
@@ -349,29 +352,40 @@ class _Reader:
     def materials(self, walls: Walls, table: dict[str, Any]) -> None:
         """Give walls their materials and sides by their colours, then by globs; see scene_rules.py."""
         ruled = Ruled(walls)
-        colours = self.table(table.get("colours", {}), "colours")
-        for colour, row in colours.items():
-            key = f"colours.{colour}"
-            rule = self.rule(row, key, RULE_KEYS)
-            fits = painted(walls, colour)
-            ruled.apply(rule, fits)
-            if not fits and len(walls):
-                self.wrong.append(f"{key}: no wall is painted so")
+        for colour, row in self.table(table.get("colours", {}), "colours").items():
+            self.apply(ruled, walls, Fit(colour=colour), row, f"colours.{colour}", "no wall is painted so")
         for key, row in self.rows(table.get("materials", []), "materials"):
-            rule = self.rule(row, key, ("layer", "group", "wall", *RULE_KEYS))
-            layer, group, name = (self.text(row.get(word, "*"), f"{key}.{word}") for word in ("layer", "group", "wall"))
-            fits = named(walls, layer, group, name)
-            ruled.apply(rule, fits)
-            if not fits and len(walls):
-                among = "" if group == "*" else f" in a group {group!r}"
-                self.wrong.append(f"{key}: no wall has the name {name!r}{among} on a layer {layer!r}")
+            fit = Fit(**{word: self.text(row.get(word, "*"), f"{key}.{word}") for word in FIT_KEYS})
+            among = "" if fit.group == "*" else f" in a group {fit.group!r}"
+            otherwise = f"no wall has the name {fit.wall!r}{among} on a layer {fit.layer!r}"
+            self.apply(ruled, walls, fit, row, key, otherwise)
         ruled.finish()
 
-    def rule(self, value: Any, key: str, keys: tuple[str, ...]) -> Rule:
+    def apply(self, ruled: Ruled, walls: Walls, fit: Fit, value: Any, key: str, otherwise: str) -> None:
+        """Read one table of a rule and let it hold; say so where nothing fits."""
         row = self.table(value, key)
-        self.known_keys(row, set(keys), f"{key}.")
+        self.known_keys(row, {*RULE_KEYS, *(FIT_KEYS if fit.colour is None else ())}, f"{key}.")
         sides = self.one_of(row["sides"], f"{key}.sides", ("both", "outward")) if "sides" in row else None
-        return Rule(**self.restitutions(row, key), sides=sides)
+        fits = fit.walls(walls)
+        ruled.apply(Rule(**self.restitutions(row, key), sides=sides), fits)
+        if "role" in row:
+            self.one_of(self.text(row["role"], f"{key}.role").partition(":")[0], f"{key}.role", ROLES)
+            if self.drawing is None:
+                self.wrong.append(f"{key}.role: only goes with a drawing; walls of the scene's own have tags")
+        some = fits or ("role" in row and self.drawing is not None and fit.paths(self.drawing))
+        if not some and len(walls):
+            self.wrong.append(f"{key}: {otherwise}")
+
+    def roles(self, table: dict[str, Any]) -> Iterator[tuple[Fit, str]]:
+        """Give what tables make of the paths that fit; what is wrong with a table is said where it is applied."""
+        colours, rows = table.get("colours"), table.get("materials")
+        named = [(Fit(colour=key), row) for key, row in colours.items()] if isinstance(colours, dict) else []
+        tables = [row for row in rows if isinstance(row, dict)] if isinstance(rows, list) else []
+        named += [(Fit(**{word: str(row.get(word, "*")) for word in FIT_KEYS}), row) for row in tables]
+        for fit, row in named:
+            role = row.get("role") if isinstance(row, dict) else None
+            if isinstance(role, str) and role.partition(":")[0] in ROLES:
+                yield fit, role
 
     def balls(self, value: Any) -> Balls:
         rows = self.rows(value, "balls")

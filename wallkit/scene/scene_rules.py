@@ -11,12 +11,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
+from importers.drawing import Drawing, DrawnPath, Level
 from wallkit.walls import Walls
 from wallkit.walls.fields import Sides
-from wallkit.walls.roles import material_keys_of, sides_of
+from wallkit.walls.roles import levels_of, material_keys_of, plain_name, sides_of
 from wallkit.walls.tags import MATERIAL_KEYS
 
-RULE_KEYS = (*MATERIAL_KEYS, "sides")
+RULE_KEYS = (*MATERIAL_KEYS, "sides", "role")
+FIT_KEYS = ("layer", "group", "wall")
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,20 +55,61 @@ class Ruled:
         self._walls.materials, self._walls.sides = tuple(self._materials), tuple(self._sides)
 
 
-def named(walls: Walls, layer: str, group: str, name: str) -> list[int]:
-    """Find walls by globs on their layer, on any group around them, and on their name."""
-    return [
-        index
-        for index, origin in enumerate(walls.origins)
-        if fnmatchcase(walls.layers[index], layer)
-        and fnmatchcase(walls.names[index], name)
-        and (group == "*" or any(fnmatchcase(one, group) for one in origin.groups))
-    ]
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """What a table speaks of: globs on layer, any group around, and name; or a colour.
+
+    The colour is that of the fill, or of the stroke where there is no fill; ``#f00`` is ``#ff0000``.
+    """
+
+    layer: str = "*"
+    group: str = "*"
+    wall: str = "*"
+    colour: str | None = None
+
+    def walls(self, walls: Walls) -> list[int]:
+        """Find the walls that fit."""
+        rows = zip(walls.layers, walls.origins, walls.names, strict=True)
+        return [
+            index
+            for index, (layer, origin, name) in enumerate(rows)
+            if self._takes(layer, origin.groups, name, origin.colour)
+        ]
+
+    def paths(self, drawing: Drawing) -> list[int]:
+        """Find the paths of a drawing that fit, by their names without words."""
+        return [index for index, path in enumerate(drawing.paths) if self._takes_path(path)]
+
+    def _takes_path(self, path: DrawnPath) -> bool:
+        colour = path.fill if path.fill is not None else path.stroke
+        return self._takes(plain_name(path.layer), tuple(map(plain_name, path.groups)), plain_name(path.name), colour)
+
+    def _takes(self, layer: str, groups: tuple[str, ...], name: str, colour: str | None) -> bool:
+        if self.colour is not None:
+            return colour == _six_digits(self.colour)
+        return (
+            fnmatchcase(layer, self.layer)
+            and fnmatchcase(name, self.wall)
+            and (self.group == "*" or any(fnmatchcase(one, self.group) for one in groups))
+        )
 
 
-def painted(walls: Walls, colour: str) -> list[int]:
-    """Find walls by the colour of their fill, or of their stroke where they are not filled; ``#f00`` is ``#ff0000``."""
+def _six_digits(colour: str) -> str:
     wanted = colour.lower()
     if len(wanted) == 4 and wanted.startswith("#"):
         wanted = "#" + "".join(2 * digit for digit in wanted[1:])
-    return [index for index, origin in enumerate(walls.origins) if origin.colour == wanted]
+    return wanted
+
+
+def say_roles(drawing: Drawing, roles: Iterable[tuple[Fit, str]]) -> None:
+    """Let paths of a drawing be what a scene file says (``sensor``, ``target:left`` ...), the last that fits winning.
+
+    It is said of them as of a layer around all others, so that every word in the drawing goes before it.
+    """
+    said: dict[int, str] = {}
+    for fit, role in roles:
+        said |= dict.fromkeys(fit.paths(drawing), role)
+    for index, role in said.items():
+        path = drawing.paths[index]
+        word, _, name = role.partition(":")
+        path.levels = (Level("layer", "", {word: name}), *levels_of(path))

@@ -8,13 +8,14 @@ from dataclasses import replace
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.exact_edges import ExactEdges, as_complex
 from wallkit.geometry.ragged import spread
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.walls import Walls
 
 TOUCHING = 2.0**-44
 """An overlap of this part of the scene's size is contact, as rounded."""
-WAYS = 48
+DIRECTIONS = 48
 RINGS = 60
 
 
@@ -96,7 +97,7 @@ def _close_pairs(position: FloatArray, radius: float) -> tuple[IntArray, IntArra
 def settled(scene: Scene) -> Scene:
     """Give the scene with each overlapping disc moved to the nearest free spot.
 
-    The spots looked at lie on rings about the start, ever wider, in ``WAYS`` directions; the nearest free one is
+    The spots looked at lie on rings about the start, ever wider, in ``DIRECTIONS`` directions; the nearest free one is
     then drawn in by bisection until the disc touches.
 
     Raises:
@@ -158,43 +159,20 @@ def _near_pairs(walls: Walls, edges: IntArray, position: FloatArray, reach: floa
 
 def _distances(walls: Walls, edge: IntArray, place: FloatArray) -> FloatArray:
     """Distance of each place from the edge beside it."""
-    start = walls.edge_starts[edge]
-    a, b, bulge = walls.vertices[start], walls.vertices[walls.edge_ends[edge]], walls.bulges[start]
-    d, w = b - a, place - a
-    square = np.einsum("ij,ij->i", d, d)
-    along = np.divide(np.einsum("ij,ij->i", d, w), square, out=np.zeros(len(d)), where=square > 0.0)
-    foot = a + np.clip(along, 0.0, 1.0)[:, None] * d
-    distance: FloatArray = np.hypot(*(place - foot).T)
-    arcs = np.flatnonzero((bulge != 0.0) & (square > 0.0))
-    if len(arcs):
-        distance[arcs] = _arc_distances(a[arcs], b[arcs], bulge[arcs], place[arcs])
-    return distance
-
-
-def _arc_distances(a: FloatArray, b: FloatArray, bulge: FloatArray, place: FloatArray) -> FloatArray:
-    d = b - a
-    left = np.stack([-d[:, 1], d[:, 0]], axis=1)
-    centre = (a + b) / 2 + left * ((1 - bulge**2) / (4 * bulge))[:, None]
-    radius = np.hypot(*(a - centre).T)
-    e = place - centre
-    turn = np.sign(bulge)
-    start = np.arctan2(*(a - centre).T[::-1])
-    angle = np.remainder(turn * (np.arctan2(e[:, 1], e[:, 0]) - start), 2 * np.pi)
-    ends = np.minimum(np.hypot(*(place - a).T), np.hypot(*(place - b).T))
-    distance: FloatArray = np.where(angle <= 4 * np.arctan(np.abs(bulge)), np.abs(np.hypot(*e.T) - radius), ends)
-    return distance
+    start, end = walls.edge_starts[edge], walls.edge_ends[edge]
+    return ExactEdges.of(walls.vertices[start], walls.vertices[end], walls.bulges[start]).distance(as_complex(place))
 
 
 def _nearest_free(walls: Walls, place: FloatArray, radius: float) -> FloatArray:
     size = _size(walls) + radius
-    angle = 2 * np.pi * np.arange(WAYS) / WAYS
+    angle = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
     ways = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     for ring in range(RINGS):
         step = radius / 8 * 1.15**ring
         if step > 2 * size:
             break
         tries = place + step * ways
-        gap, _edge = clearances(walls, tries, np.full(WAYS, radius))
+        gap, _edge = clearances(walls, tries, np.full(DIRECTIONS, radius))
         free = ways[gap >= radius]
         if len(free):
             high = _drawn_in(walls, place, free, step, radius)

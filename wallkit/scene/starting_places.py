@@ -10,6 +10,7 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.walls import Walls
+from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.self_check import straight_edges
 from wallkit.walls.sample import flattened
 from wallkit.walls.solid import walls_around
@@ -50,14 +51,15 @@ def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
         return None
     lines = [np.vstack([ring, ring[:1]]) if c else ring for ring, c in zip(rings, walls.closed, strict=True)]
     noded = shapely.node(shapely.multilinestrings([shapely.linestrings(line) for line in lines]))
+    tree = shapely.STRtree(shapely.get_parts(noded))
     best: Spot | None = None
     for face in _faces(walls, noded, anywhere):
         # A circle in a face of area A has at most the radius sqrt(A / pi): smaller faces cannot win any more.
         if best and math.sqrt(face.area / math.pi) <= best.room:
             continue
-        spot = _spot(face, noded)
+        spot = _spot(face, tree)
         better = spot and (best is None or spot.room > best.room)
-        if spot and better and (anywhere or not _in_material(walls, rings, spot)):
+        if spot and better and (anywhere or not _in_material(walls, spot)):
             best = spot
     return best
 
@@ -67,7 +69,7 @@ def _faces(walls: Walls, noded: Any, anywhere: bool) -> list[Any]:
     import shapely
 
     bounded = shapely.get_parts(shapely.polygonize([*shapely.get_parts(noded)]))
-    faces = [*bounded] if anywhere else [*bounded[~_solid_faces(walls, bounded)]]
+    faces = [*bounded] if anywhere else _largest_free(walls, bounded)
     if not walls.closed.all() and (anywhere or walls.solid is None or not walls.solid.room):
         around = shapely.get_parts(shapely.difference(shapely.envelope(noded), shapely.union_all(bounded)))
         around = [part for part in around if part.geom_type == "Polygon" and not part.is_empty]
@@ -79,22 +81,32 @@ def _faces(walls: Walls, noded: Any, anywhere: bool) -> list[Any]:
     return faces[:_FACES]
 
 
-def _solid_faces(walls: Walls, faces: Any) -> Any:
-    """Mark faces that are material by what the import has decided; none where nobody has."""
+def _largest_free(walls: Walls, faces: Any) -> list[Any]:
+    """Give the largest faces that are no material by what the import has decided; all where nobody has.
+
+    Some at a time: to ask every face of a nest of n walls takes n^2 steps.
+    """
     import shapely
 
-    if walls.solid is None or not len(faces):
-        return np.zeros(len(faces), dtype=np.bool_)
-    inner = shapely.get_coordinates(shapely.point_on_surface(faces))
-    around, _ = walls_around(straight_edges(walls), inner)
-    return (np.bincount(around, minlength=len(faces)) + walls.solid.room) % 2 == 1
+    if walls.solid is None:
+        return [*faces]
+    order = np.argsort(-shapely.area(faces), kind="stable")
+    edges, chosen = straight_edges(walls), []
+    for start in range(0, len(order), 4 * _FACES):
+        some = faces[order[start : start + 4 * _FACES]]
+        around, _ = walls_around(edges, shapely.get_coordinates(shapely.point_on_surface(some)))
+        solid = (np.bincount(around, minlength=len(some)) + walls.solid.room) % 2 == 1
+        chosen += [*some[~solid]]
+        if len(chosen) >= _FACES:
+            break
+    return chosen
 
 
 def _is_nearly_closed(face: Any, noded: Any) -> bool:
     """Tell whether most ways out of a face's roomiest spot end at a wall."""
     import shapely
 
-    spot = _spot(face, noded)
+    spot = _spot(face, shapely.STRtree(shapely.get_parts(noded)))
     if spot is None:
         return False
     x0, y0, x1, y1 = noded.bounds
@@ -104,29 +116,27 @@ def _is_nearly_closed(face: Any, noded: Any) -> bool:
     return int(np.count_nonzero(shapely.intersects(ways, noded))) >= 0.8 * _WAYS
 
 
-def _in_material(walls: Walls, rings: list[FloatArray], spot: Spot) -> bool:
+def _in_material(walls: Walls, spot: Spot) -> bool:
     """Tell whether a spot is in what only one-sided walls keep balls out of: the smallest ring around it is a solid.
 
     Two-sided walls keep a ball in as well as out; a room given as a plain ring of numbers has its room there.
     """
-    import shapely
-
     if walls.solid is not None or all(sides == "both" for sides in walls.sides):
         return False
-    around = [ring for ring, closed in zip(rings, walls.closed, strict=True)
-              if closed and len(ring) > 2 and shapely.contains_xy(shapely.polygons(ring), spot.x, spot.y)]  # fmt: skip
-    if not around:
-        return False
-    x, y = min(around, key=lambda ring: float(shapely.area(shapely.polygons(ring)))).T
-    return bool(x @ np.roll(y, -1) - y @ np.roll(x, -1) > 0)  # twice the signed area: positive is a solid
+    solids = Solids.of(walls, straight_edges(walls))
+    innermost = int(solids.innermost(np.array([[spot.x, spot.y]]))[0])
+    return innermost >= 0 and bool(solids.sign[innermost] > 0)
 
 
 def _spot(face: Any, walls: Any) -> Spot | None:
+    """The roomiest spot of a face, with a tree of all lines: some may lie in it."""
     import shapely
 
     size = math.sqrt(shapely.area(face))
     free = face
-    inner = shapely.intersection(walls, shapely.buffer(face, -1e-6 * size))
+    within = shapely.buffer(face, -1e-6 * size)
+    lines = walls.geometries[np.sort(walls.query(within, predicate="intersects"))]
+    inner = shapely.intersection(shapely.multilinestrings(lines), within)
     if not shapely.is_empty(inner):  # open walls inside: thickened by a hair, they become holes
         free = shapely.difference(face, shapely.buffer(inner, 1e-6 * size))
         free = max(shapely.get_parts(free), key=shapely.area, default=face)

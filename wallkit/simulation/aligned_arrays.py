@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-LINE = 64
+CACHE_LINE = 64
 """Bytes in a line of the cache, and in the longest vector."""
 
 
 def on_cache_lines(count: int, kind: Any) -> NDArray[Any]:
     """Make room for records, or numbers, whatever is in it: what is no longer than a line then lies in one."""
     size = count * np.dtype(kind).itemsize
-    room = np.empty(size + LINE, dtype=np.uint8)
-    first = -room.ctypes.data % LINE
+    room = np.empty(size + CACHE_LINE, dtype=np.uint8)
+    first = -room.ctypes.data % CACHE_LINE
     return room[first : first + size].view(kind)

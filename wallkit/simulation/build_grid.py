@@ -19,11 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.kernels.index.cell_entries import ALL_WAYS, Table, describe, enter, lay_out
-from wallkit.kernels.index.empty_rectangles import clear, clear_ahead, clear_departures, ways_along
+from wallkit.kernels.index.cell_entries import ALL_OCTANTS, Table, describe, enter, lay_out
+from wallkit.kernels.index.empty_rectangles import clear, clear_ahead, clear_departures, octants_along
 from wallkit.kernels.intrinsics import AT_ONCE
 from wallkit.kernels.jit import compiled
-from wallkit.kernels.records import BLOCK, CELL, QUARTERS, WAYS, Block, Grid, Model, in_lists
+from wallkit.kernels.records import BLOCK, CELL, OCTANTS, QUADRANTS, Block, Grid, Model, in_lists
 from wallkit.simulation.aligned_arrays import on_cache_lines
 from wallkit.simulation.grid_chains import chains_in_cells
 
@@ -40,11 +40,12 @@ something lists one or two. In units of sqrt(area / edges) it is at least 0.2 (2
 cache), and at most 0.6 (where edges are long and many meet)."""
 MOST_CELLS = 2.0**18
 """Beyond this many, which a cache may hold, there are at most two an edge: no slower to fly among, quicker to make."""
-WORTH_EIGHTHS = 0.25
-"""Part of the ways for which cells that list something must be clear, if eighths are to be told apart: half of them
+WORTH_OCTANTS = 0.25
+"""Part of the octants in which cells that list something must be clear, if octants are to be told apart: half of them
 where cells are small beside discs, few where they are not. Quarters need less memory."""
 SPARSE = 0.25
-"""Part of the cells that may list something for departures to be worth making, and clearings to lie by way for long."""
+"""Part of the cells that may list something for departures to be worth making, and clearings to lie octant by octant
+for long."""
 WORTH_PACKING, WORTH_PACKING_SPARSE = 2.0**17, 2.0**19
 """Cells from which on memory is asked less often where clearings lie with their cells: earlier if many of these list
 something, for then both are read."""
@@ -55,8 +56,6 @@ MOST_BITS = 7
 GROWTH, AT_LEAST = 64, 1 << 12
 """Entries there may be, in all, for each one to be entered, and at the least. Divided cells list long edges over and
 over, and cells around a vertex at which a thousand edges meet are crowded however small they are."""
-COMPILING_PAYS = 4000
-"""Edges and corners that interpreted kernels take as long to enter as compiled ones to be loaded."""
 
 
 @dataclass(eq=False)
@@ -67,9 +66,9 @@ class _Level:
     numbers: NDArray[np.int32]
     """(cells + 1, 4) see ``Cell``."""
     ids: NDArray[np.uint32]
-    ways: NDArray[np.uint8]
+    octants: NDArray[np.uint8]
     """By cell, see ``Table``; for the first level alone, and not for points or where cells list one thing on average:
-    then few of them are clear in any way."""
+    then few of them are clear in any octant."""
     divided: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     parts: NDArray[Any] = field(default_factory=lambda: np.empty(0, dtype=BLOCK))
 
@@ -101,13 +100,13 @@ def build_grid(
         box: (2, 2) lowest and highest corner of a box that no edge reaches beyond.
         radii: smallest and largest distance of a centre at a contact.
         extent: largest absolute coordinate of a centre.
-        machine_code: use compiled kernels for a small scene too; the same cells come of both.
+        machine_code: use compiled kernels; the same cells come of both.
         fine: make small cells, where many flights are to come: there are more to make, and fewer entries to look at.
 
     Returns:
         The grid, its cells (``CELL``), the ids that they list, and the clearings (see ``Model``).
     """
-    work = _Work(model, fans, radii, extent, machine_code or len(model.ids) > COMPILING_PAYS)
+    work = _Work(model, fans, radii, extent, machine_code)
     finest = SMALLEST * extent
     level: _Level | None = _first_level(work, model, box, fine)
     levels = []
@@ -119,11 +118,11 @@ def build_grid(
     shift = int(math.log2(top["side"] / unit))
     ids = np.concatenate([*(level.ids for level in levels), np.zeros(AT_ONCE, dtype=np.uint32)])
     size = int(top["columns"]), int(top["rows"])
-    ways, *kinds = work.ways(levels[0], fine)
+    octants, *kinds = work.octants(levels[0], fine)
     grid = Grid(float(top["x0"]), float(top["y0"]), unit, 1.0 / unit, shift, *size, *kinds)
     cells = _joined(work, levels, grid.packed)
     clearings = cells.view(np.int16) if grid.packed else work.clearings(grid)
-    work.clear(grid, ways, clearings)
+    work.clear(grid, octants, clearings)
     if grid.departs:
         work.depart(model, levels[0], grid, clearings)
     return grid, cells, ids, np.asarray(clearings, dtype=np.int16)
@@ -174,11 +173,11 @@ class _Work:
         """Write the entries that were counted."""
         entries, cells = self._run(lay_out, numbers), len(numbers) // 4 - 1
         ids = self._room(entries, np.uint32)
-        ways = self._room(cells if top and self.distance > 0.0 and entries < cells else 0, np.uint8)
-        self._enter(blocks, source, Table(numbers, ways, ids))
+        octants = self._room(cells if top and self.distance > 0.0 and entries < cells else 0, np.uint8)
+        self._enter(blocks, source, Table(numbers, octants, ids))
         self._run(clear, blocks if self.machine_code else in_lists(blocks), numbers, top)
         listed = np.asarray(numbers, dtype=np.int32).reshape(-1, 4)
-        return _Level(blocks, listed, np.asarray(ids, dtype=np.uint32), np.asarray(ways, dtype=np.uint8))
+        return _Level(blocks, listed, np.asarray(ids, dtype=np.uint32), np.asarray(octants, dtype=np.uint8))
 
     def cells(self, level: _Level, ids: int, farthest: int) -> NDArray[np.uint32]:
         """Give (n, 4) the cells of a level as ``Cell`` has them, where so many ids come before theirs."""
@@ -186,36 +185,36 @@ class _Work:
         self._run(describe, numbers if self.machine_code else numbers.tolist(), ids, farthest, cells)
         return np.asarray(cells, dtype=np.uint32).reshape(-1, 4)
 
-    def ways(self, top: _Level, fine: bool) -> tuple[NDArray[np.uint8], int, int, int]:
-        """Find in which ways flights may meet something in the cells of the first level: (their bits, ways, ...).
+    def octants(self, top: _Level, fine: bool) -> tuple[NDArray[np.uint8], int, int, int]:
+        """Find in which octants flights may meet something in the cells of the first level: (their bits, octants, ...).
 
         The others are what ``Grid`` says of them. Few cells list something where walls are far apart: there flights are
         long, and departures pay.
         """
-        ways, count, cells, listing = top.ways, WAYS, len(top.numbers) - 1, top.listing
-        if not len(ways):
-            ways, count = np.zeros(cells, dtype=np.uint8), QUARTERS
-            ways[listing] = ALL_WAYS
-        elif np.unpackbits(ways[listing, None], axis=1).mean() > 1.0 - WORTH_EIGHTHS:
-            ways, count = ways | (ways >> np.uint8(4)), QUARTERS
+        octants, count, cells, listing = top.octants, OCTANTS, len(top.numbers) - 1, top.listing
+        if not len(octants):
+            octants, count = np.zeros(cells, dtype=np.uint8), QUADRANTS
+            octants[listing] = ALL_OCTANTS
+        elif np.unpackbits(octants[listing, None], axis=1).mean() > 1.0 - WORTH_OCTANTS:
+            octants, count = octants | (octants >> np.uint8(4)), QUADRANTS
         sparse = len(listing) < SPARSE * cells
         packed = self.machine_code and cells > (WORTH_PACKING_SPARSE if sparse else WORTH_PACKING)
         departs = fine and sparse and not packed and self.distance == 0.0
-        return ways, count, int(departs), int(packed)
+        return octants, count, int(departs), int(packed)
 
     def clearings(self, grid: Grid) -> Any:
-        """Make room for clearings and departures by way."""
-        return self._room((grid.ways + WAYS * grid.departs) * grid.columns * grid.rows, np.int16)
+        """Make room for clearings and departures by octant."""
+        return self._room((grid.octants + OCTANTS * grid.departs) * grid.columns * grid.rows, np.int16)
 
-    def clear(self, grid: Grid, ways: NDArray[np.uint8], clearings: Any) -> None:
-        """Find the clearings ahead of each cell of the first level, each way."""
+    def clear(self, grid: Grid, octants: NDArray[np.uint8], clearings: Any) -> None:
+        """Find the clearings ahead of each cell of the first level, in each octant."""
         above = self._room(grid.columns, np.int16)
-        self._run(clear_ahead, ways if self.machine_code else in_lists(ways), grid, above, clearings)
+        self._run(clear_ahead, octants if self.machine_code else in_lists(octants), grid, above, clearings)
 
     def depart(self, model: Model, top: _Level, grid: Grid, clearings: Any) -> None:
         """Find the clearings of balls that leave a wall."""
         along = self._room(len(model.lines), np.uint8)
-        self._run(ways_along, *self._shared[:2], along)
+        self._run(octants_along, *self._shared[:2], along)
         chains = chains_in_cells(model, np.asarray(along, dtype=np.uint8), top.numbers, top.ids, top.listing)
         listing_and_chains = top.listing, chains
         if not self.machine_code:

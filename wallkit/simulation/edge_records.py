@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.bulge_arcs import offset_of, radius_of
 from wallkit.kernels.records import ARC, CORNER, FAN, LINE, Arc, Corner, Line
 from wallkit.simulation.aligned_arrays import on_cache_lines
 
@@ -51,15 +52,15 @@ def lines_of(vertices: FloatArray, starts: IntArray, ends: IntArray) -> NDArray[
 def arcs_of(lines: NDArray[Any], bulges: FloatArray) -> NDArray[Any] | None:
     """Make an ``ARC`` of each edge, of radius 0 where it is a line; None if all are.
 
-    With chord d, its left normal m and bulge b = tan(angle / 4) the centre lies at (a + b) / 2 + m d (1 - b^2) / (4 b)
-    and R = d (1 + b^2) / (4 |b|) (as in DXF). An arc that bows less than 2^-44 of its chord is the chord.
+    See ``wallkit.geometry.bulge_arcs`` for the circle of a bulge. An arc that bows less than 2^-44 of its chord is the
+    chord.
     """
     is_arc = (np.abs(bulges) > FLAT) & (lines["length"] > 0.0)
     if not is_arc.any():
         return None
     chord, b = lines[is_arc].view(np.float64).reshape(-1, len(Line._fields)), bulges[is_arc]
     start, end = chord[:, 0:2], chord[:, 2:4]
-    off = (chord[:, 6] * (1.0 - b * b) / (4.0 * b))[:, None]
+    off = offset_of(chord[:, 6], b)[:, None]
     to_centre = (end - start) / 2 - off * chord[:, 4:6]
     left = (b > 0.0)[:, None]
     arcs = on_cache_lines(len(lines), ARC)
@@ -68,7 +69,7 @@ def arcs_of(lines: NDArray[Any], bulges: FloatArray) -> NDArray[Any] | None:
         *np.where(left, start, end).T,
         *np.where(left, end, start).T,
         *np.where(left, -to_centre, (end - start) / 2 + off * chord[:, 4:6]).T,
-        chord[:, 6] * (1.0 + b * b) / (4.0 * np.abs(b)),
+        radius_of(chord[:, 6], b),
         4.0 * np.arctan(b),
     ]
     for name, column in zip(Arc._fields, columns, strict=True):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.bulge_arcs import offset_of, radius_of
 from wallkit.kernels.flight.pendulum import swing
 from wallkit.walls import Walls
 
@@ -38,10 +39,10 @@ def guides(walls: Walls, contacts: NDArray[Any]) -> FloatArray:
     round_ = np.flatnonzero((np.abs(bulge) > 2.0**-44) & (length > 0.0))
     if len(round_):
         b, d, n = bulge[round_], chord[round_], np.stack([own["nx"], own["ny"]], axis=1)[round_]
-        curve = length[round_] * (1.0 + b * b) / (4.0 * np.abs(b))
+        curve = radius_of(length[round_], b)
         # the outward normal at the foot: that of the chord, turned by what the arc has turned there
         foot = np.stack([own["px"], own["py"]], axis=1)[round_] - walls.vertices[start[round_]]
-        back = length[round_] * (1.0 - b * b) / (4.0 * b)
+        back = offset_of(length[round_], b)
         side = np.stack([d[:, 1], -d[:, 0]], axis=1) / length[round_][:, None]
         out = foot - 0.5 * d + back[:, None] * side
         outside = (out * n).sum(axis=1) > 0.0

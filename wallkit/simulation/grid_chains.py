@@ -1,4 +1,4 @@
-"""Monotone chains: joined edges that no straight flight, going a certain way or back, meets twice."""
+"""Monotone chains: joined edges that no straight flight in a certain octant, or the opposite one, meets twice."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from wallkit.kernels.records import Model
 def chains_in_cells(
     model: Model, along: NDArray[np.uint8], numbers: NDArray[Any], ids: NDArray[Any], listing: IntArray
 ) -> NDArray[np.int32]:
-    """Find of which chain all is that a cell lists, for each pair of opposite ways (see ``pair_of``) in turn.
+    """For each pair of opposite octants (see ``pair_of``) and cell, the one chain that all its edges belong to.
 
     Args:
         model: of points.
-        along: of each edge, see ``ways_along``.
+        along: of each edge, see ``octants_along``.
         numbers: (cells + 1, 4) of cells, see ``Table``.
         ids: that they list.
         listing: the cells that list something.
@@ -39,11 +39,11 @@ def chains_in_cells(
 
 
 def _chains(model: Model, along: NDArray[np.uint8]) -> Iterator[NDArray[np.int32]]:
-    """Number the chains of edges for each pair of opposite ways: by edge, MANY for none.
+    """Number the chains of edges for each pair of opposite octants: by edge, MANY for none.
 
-    The edges of one are joined, of one wall, and all their outward normals lie along all of a way, or all against it.
-    Seen along any flight that goes that way or back it is the graph of a function: a flight meets it once at most, so
-    one that leaves it never comes back to it.
+    The edges of one are joined, of one wall, and all their outward normals lie along all of an octant, or all against
+    it. Seen along any flight in that octant or the opposite one it is the graph of a function: a flight meets it once
+    at most, so one that leaves it never comes back to it.
     """
     lines, wall = model.lines, model.edge_wall
     ends = np.flatnonzero(np.diff(wall, append=-1))
@@ -51,8 +51,8 @@ def _chains(model: Model, along: NDArray[np.uint8]) -> Iterator[NDArray[np.int32
     after = np.arange(1, len(lines) + 1)
     after[ends] = starts
     joined = (lines["bx"] == lines["ax"][after]) & (lines["by"] == lines["ay"][after])
-    for way in (0, 1, 4, 5):
-        side = ((along >> way) & 1).astype(np.int8) - ((along >> (way ^ 3)) & 1).astype(np.int8)
+    for octant in (0, 1, 4, 5):
+        side = ((along >> octant) & 1).astype(np.int8) - ((along >> (octant ^ 3)) & 1).astype(np.int8)
         goes_on = joined & (side == side[after])
         begins = np.ones(len(lines), dtype=np.bool_)
         begins[1:] = ~goes_on[:-1]

@@ -36,9 +36,9 @@ from wallkit.kernels.flight.error_growth import carry, stretch
 from wallkit.kernels.jit import compiled
 from wallkit.scene.scene import Scene
 from wallkit.simulation.damping import damping_of, on_a_free_clock
-from wallkit.simulation.near_misses import CORNER, GRAZE, Flights, near_misses
+from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, FlightTable, near_misses
 
-Source = Literal["rounding", "drawing"]
+ErrorSource = Literal["rounding", "drawing"]
 Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
 RMS_ROUNDING = 0.6 * 2.0**-53
 VERTEX, ENTER = (
@@ -67,7 +67,7 @@ class Horizon:
     bounces: int
     time: float
     whole: bool
-    source: Source = "rounding"
+    source: ErrorSource = "rounding"
     reason: str = ""
 
     def sentence(self) -> str:
@@ -85,7 +85,7 @@ def trusted_until(
     contacts: Any,
     ball: int = 0,
     tolerance: float = 1e-6,
-    source: Source = "rounding",
+    source: ErrorSource = "rounding",
     end: float = math.nan,
 ) -> Horizon:
     """Say up to where a ball's contacts are good to ``tolerance``.
@@ -114,7 +114,7 @@ def trusted_until(
 
 
 def predicted_errors(
-    scene: Scene, own: Any, ball: int = 0, source: Source = "rounding"
+    scene: Scene, own: Any, ball: int = 0, source: ErrorSource = "rounding"
 ) -> tuple[FloatArray, FloatArray]:
     """Predict the error of the place of each contact of one ball: root mean square, and at worst.
 
@@ -262,21 +262,21 @@ def _first_doubt(scene: Scene, own: Any, ball: int, worst: FloatArray) -> tuple[
     radius = _radius(scene, ball)
     doubts = np.zeros(len(own), dtype=np.int8)
     grazing = _grazing_depth(scene, own, ball)
-    doubts[grazing <= worst] = GRAZE
+    doubts[grazing <= worst] = NEAR_GRAZE
     for index, clear, decides in near_misses(scene, _flights(scene, own, ball), radius, float(worst.max())):
         doubts[index[clear <= worst[index]]] = decides
     found = np.flatnonzero(doubts)
     if not len(found):
         return len(own), ""
-    return int(found[0]), "corner" if doubts[found[0]] == CORNER else "graze"
+    return int(found[0]), "corner" if doubts[found[0]] == NEAR_CORNER else "graze"
 
 
-def _flights(scene: Scene, own: Any, ball: int) -> Flights:
+def _flights(scene: Scene, own: Any, ball: int) -> FlightTable:
     first, path, _, _, pull = _course(scene, own, ball)
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
     ends = np.stack([own["x"], own["y"]], axis=1)
     slides = np.concatenate([[False], path[:-1, 5] == 1.0])  # a ball that slides misses nothing
-    return Flights(
+    return FlightTable(
         start=np.concatenate([begin[None], ends[:-1]]),
         end=ends,
         velocity=np.concatenate([first[None], path[:-1, 1:3]]),

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
-from wallkit.kernels.records import RUNNING
+from wallkit.kernels.meeting.records import ROW
+from wallkit.kernels.records import RUNNING, STATE
 from wallkit.scene.scene import Scene
 from wallkit.simulation.meeting import PER_DISC, Meeting
 from wallkit.simulation.run import FINAL, MEETING_CONTACT, Ending, Run, in_order
@@ -46,7 +47,7 @@ def simulate_meeting(
             progress(min(1.0, max(meeting.now / until if until > 0 else 1.0, most / max(limit, 1))))
     final, endings = ends(scene, meeting, until)
     alone, contacts = fly_points(scene, until, limit, mode, final, endings)
-    found = contacts_of_log(alone, np.concatenate(logs) if logs else np.empty((0, 17)))
+    found = contacts_of_log(alone, np.concatenate(logs) if logs else np.empty((0, ROW)))
     contacts = in_order(np.concatenate([found, contacts])) if len(contacts) else in_order(found)
     start = np.hstack([scene.balls.position, scene.balls.velocity])
     return Run(scene, contacts, final, tuple(Ending(code) for code in endings.tolist()), start)
@@ -61,7 +62,7 @@ def ends(scene: Scene, meeting: Meeting, until: float) -> tuple[NDArray[Any], ND
     place = states[:, 0:2] + meeting.modelled.origin
     for name, column in zip(("x", "y", "vx", "vy"), (*place.T, *states[:, 2:4].T), strict=True):
         final[name][discs] = column
-    final["time"][discs] = states[:, 4] + states[:, 5]
+    final["time"][discs] = states[:, STATE.time] + states[:, STATE.lost]
     moves = np.any(states[:, 2:4] != 0.0, axis=1)
     if math.isinf(end):  # nothing is due any more
         codes = np.where(codes == RUNNING, np.where(moves, Ending.LEFT_SCENE, Ending.AT_REST), codes)

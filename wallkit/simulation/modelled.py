@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.records import CELL, Model, in_lists
 from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.simulation.build_grid import build_grid
@@ -22,6 +23,9 @@ from wallkit.walls import Walls
 
 BRUTE_FORCE = 16
 """Up to this many edges looking at all of them beats any index."""
+LOADING_PAYS, WAITING_PAYS = 4_000, 40_000
+"""Edges and corners that interpreted kernels sort into an index as long as it takes to load compiled ones (a quarter of
+a second), and, discs among them, in some four seconds: beyond that it is better to wait for a compiler."""
 FAR = 2.0**20
 """Extents from which a ball may come if there is to be an index: the rounding of its place (2^-50 of the way) is then
 below a part in 2^30 of the scene. For one from farther away all edges are asked."""
@@ -54,7 +58,8 @@ class Modelled:
         Args:
             scene: walls, balls, and what acts.
             index: ``"grid"``, ``"none"``, or ``"auto"``: a grid where there are many edges.
-            machine_code: whether flights will be compiled anyway; then the index is made by compiled kernels too.
+            machine_code: whether flights will be compiled anyway; then the index of a small scene is made by compiled
+                kernels, too.
             fine: whether there will be many flights, see ``build_grid``.
             origin: (2,) of the local coordinates, where they are those of other walls; None for their own.
         """
@@ -110,6 +115,7 @@ class Modelled:
         if farthest > FAR * model.extent:
             return model
         box = np.array(self.box).reshape(2, 2) - self.origin
+        machine_code = machine_code or _machine_code_pays(len(ids), arcs is not None)
         grid, cells, ids, clearings = build_grid(
             model, corners.fans, box, (least, radius), farthest, machine_code=machine_code, fine=fine
         )
@@ -139,6 +145,22 @@ class Modelled:
         offsets = scene.walls.edge_offsets
         wall = np.repeat(np.arange(len(scene.walls)), np.diff(offsets))
         return wall, np.arange(len(wall)) - offsets[wall]
+
+
+def index_at_hand(arcs: bool) -> bool:
+    """Tell whether compiled kernels can make an index at once; where not, they are compiled aside from now on."""
+    return at_hand(make_small_index, arcs)
+
+
+def make_small_index(arcs: bool) -> None:
+    """Make an index of a triangle by compiled kernels: the task of their compiling."""
+    bulges = np.array([0.5 * arcs, 0.0, 0.0])
+    walls = Walls.from_polylines([[[0.0, 0.0], [9.0, 0.0], [0.0, 9.0]]], bulges=[bulges])
+    Modelled(Scene(walls, Balls([[2.0, 2.0]], [[1.0, 0.0]], radius=1.0)), index="grid", machine_code=True)
+
+
+def _machine_code_pays(entries: int, arcs: bool) -> bool:
+    return entries > WAITING_PAYS or (entries > LOADING_PAYS and index_at_hand(arcs))
 
 
 def _check_sizes(scene: Scene) -> float:

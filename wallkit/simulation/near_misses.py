@@ -19,13 +19,13 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import circles
 from wallkit.scene.scene import Scene
 
-CORNER, GRAZE = 1, 2
+NEAR_CORNER, NEAR_GRAZE = 1, 2
 Near = tuple[NDArray[np.int64], FloatArray, int]
 """Which flights, by how much they missed, and what: CORNER or GRAZE."""
 
 
 @dataclass(frozen=True, slots=True)
-class Flights:
+class FlightTable:
     """The flights of one ball from contact to contact.
 
     Attributes:
@@ -54,7 +54,7 @@ class Flights:
         return place
 
 
-def near_misses(scene: Scene, flights: Flights, radius: float, reach: float) -> Iterator[Near]:
+def near_misses(scene: Scene, flights: FlightTable, radius: float, reach: float) -> Iterator[Near]:
     """Find what the flights pass by no more than ``reach``.
 
     Args:
@@ -70,7 +70,7 @@ def near_misses(scene: Scene, flights: Flights, radius: float, reach: float) -> 
         yield _near_lines(scene, flights, radius, reach)
 
 
-def _near_corners(scene: Scene, flights: Flights, radius: float, reach: float) -> Near:
+def _near_corners(scene: Scene, flights: FlightTable, radius: float, reach: float) -> Near:
     """Flights that pass a corner by no more than ``reach``."""
     corners = _turning_corners(scene)
     found, corner = _pairs(flights, shapely.points(corners), radius + reach)
@@ -78,7 +78,7 @@ def _near_corners(scene: Scene, flights: Flights, radius: float, reach: float) -
     # A disc rolls from an edge on to its corner without a jump: only a corner passed in full flight decides.
     # For a point the hit itself counts; where it started is the last flight's end and was judged there.
     decides = (along > 0) & ((along < 1) | (radius == 0)) & (clear - radius <= reach)
-    return found[decides], np.maximum(0.0, clear[decides] - radius), CORNER
+    return found[decides], np.maximum(0.0, clear[decides] - radius), NEAR_CORNER
 
 
 def _turning_corners(scene: Scene) -> FloatArray:
@@ -96,7 +96,7 @@ def _turning_corners(scene: Scene) -> FloatArray:
     return np.asarray(walls.vertices[~straight], dtype=np.float64)
 
 
-def _near_arcs(scene: Scene, flights: Flights, radius: float, reach: float) -> Near:
+def _near_arcs(scene: Scene, flights: FlightTable, radius: float, reach: float) -> Near:
     """Flights that pass the convex side of an arc by no more than ``reach``."""
     walls = scene.walls
     edges = np.flatnonzero(walls.bulges[walls.edge_starts])
@@ -114,10 +114,10 @@ def _near_arcs(scene: Scene, flights: Flights, radius: float, reach: float) -> N
     beside = (outward * middle[arc]).sum(axis=1) >= cos_half[arc] * np.maximum(distance, 1e-300)
     clear = distance - curve[arc] - radius
     keep = beside & (along > 0) & (along < 1) & (clear >= 0) & (clear <= reach)
-    return found[keep], clear[keep], GRAZE
+    return found[keep], clear[keep], NEAR_GRAZE
 
 
-def _near_lines(scene: Scene, flights: Flights, radius: float, reach: float) -> Near:
+def _near_lines(scene: Scene, flights: FlightTable, radius: float, reach: float) -> Near:
     """Falling flights whose parabola turns round just before a line: +-d(t) - r has its least value at -vn / gn."""
     walls = scene.walls
     edges = np.flatnonzero(walls.bulges[walls.edge_starts] == 0)
@@ -136,10 +136,10 @@ def _near_lines(scene: Scene, flights: Flights, radius: float, reach: float) -> 
     foot = (offset * along).sum(axis=1)
     nearest = (turn > 0) & (turn < flights.time[found]) & (side * pull > 0)  # not the top of a hop off the floor
     keep = nearest & (foot >= 0) & (foot <= length * length) & (clear >= 0) & (clear <= reach)
-    return found[keep], clear[keep], GRAZE
+    return found[keep], clear[keep], NEAR_GRAZE
 
 
-def _pairs(flights: Flights, things: NDArray[Any], distance: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _pairs(flights: FlightTable, things: NDArray[Any], distance: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Which flights come how near to which things: by distance, or for parabolas by the box around them."""
     tree = shapely.STRtree(things)
     if flights.pull is None:
@@ -154,7 +154,7 @@ def _pairs(flights: Flights, things: NDArray[Any], distance: float) -> tuple[NDA
     return found, thing
 
 
-def _closest(flights: Flights, found: NDArray[np.int64], points: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _closest(flights: FlightTable, found: NDArray[np.int64], points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Where in its time (0 to 1) a flight is closest to a point, and how far it is from there."""
     time = np.maximum(flights.time[found], 1e-300)
     start, velocity = flights.start[found] - points, flights.velocity[found]

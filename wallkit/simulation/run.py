@@ -21,7 +21,7 @@ from wallkit.simulation.gliding import glide, guides
 
 if TYPE_CHECKING:
     from wallkit.scene.scene import Scene
-    from wallkit.simulation.horizon import Horizon, Source
+    from wallkit.simulation.horizon import ErrorSource, Horizon
 
 CONTACT = np.dtype(
     [
@@ -213,7 +213,7 @@ class Run(Pictured):
             raise arguments.refused("source", source, "a path or an open file", WallkitError, "bad-path")
         return load(source)
 
-    def trusted_until(self, tolerance: float = 1e-6, source: Source = "rounding") -> list[Horizon]:
+    def trusted_until(self, tolerance: float = 1e-6, source: ErrorSource = "rounding") -> list[Horizon]:
         """Say for each ball up to which bounce, and time, its contacts are good to ``tolerance``.
 
         The growth of a small error is carried along the contacts; see ``horizon`` for the equations.

@@ -12,11 +12,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.arguments import flag, number, of_type, refused, whole_number, word
-from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.flight.flight import FALLING_TOLERANCE, TOLERANCE, fly, fly_all
 from wallkit.kernels.flight.resting import side_of
-from wallkit.kernels.jit import compiled
-from wallkit.kernels.records import LOG_STRIDE, NO_HIT, PASSING, RUNNING, STARTING, STATE_SIZE, Counts
+from wallkit.kernels.jit import compile_for, compiled, types_of
+from wallkit.kernels.records import (
+    COUNT,
+    LOG,
+    LOG_STRIDE,
+    NO_HIT,
+    PASSING,
+    RUNNING,
+    STARTING,
+    STATE,
+    STATE_SIZE,
+    Counts,
+)
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.scene.start_overlaps import check_apart, check_starts, settled
 from wallkit.simulation.modelled import Modelled
@@ -27,7 +39,7 @@ Mode = Literal["auto", "interpreted", "compiled"]
 BOUNCE_GUARD = 1_000_000
 """Bounces a ball may make where no limit was given: a run always ends."""
 PATIENCE = 60_000
-"""Entries looked at by interpreted kernels, a few microseconds each, before a run waits for the compiler."""
+"""Entries looked at by interpreted kernels, a few microseconds each, before a run asks for machine code."""
 CHUNK = 8192
 _compiled_features: set[tuple[bool, ...]] = set()  # combinations whose kernels this process has compiled or loaded
 START = Counts(
@@ -59,8 +71,8 @@ def simulate(
         scene: walls, balls, and what acts.
         until: seconds; None for no end in time.
         bounces: bounces a ball; None for at most ``BOUNCE_GUARD``. At least one of the two must be given.
-        mode: ``"interpreted"`` or ``"compiled"`` kernels, which give the same bits; ``"auto"`` interprets until
-            compiling pays.
+        mode: ``"interpreted"`` or ``"compiled"`` kernels, which give the same bits. ``"auto"`` interprets; a longer
+            run has its kernels compiled by another process meanwhile, and goes on compiled as soon as they are.
         settle: move discs that overlap a wall where they start to the nearest free spot.
         progress: called now and then with the part done, 0 to 1.
 
@@ -81,17 +93,21 @@ def simulate(
         from wallkit.simulation.meeting_run import simulate_meeting
 
         return with_crossings(simulate_meeting(scene, limit_time, limit_bounces, mode=mode, progress=progress))
-    flights = Flights(scene, mode=mode)
+    return flown(Flights(scene, mode=mode), limit_time, limit_bounces, progress)
+
+
+def flown(flights: Flights, until: float, bounces: int, progress: Callable[[float], None] | None = None) -> Run:
+    """Fly every ball of checked flights to a time or a number of bounces, one ball after the other."""
     logs: list[FloatArray] = []
     owners: list[NDArray[np.int32]] = []
     for ball in range(len(flights)):
-        for log in flights.fly(ball, limit_time, limit_bounces):
+        for log in flights.fly(ball, until, bounces):
             logs.append(log)
             owners.append(np.full(len(log), ball, dtype=np.int32))
             if progress is not None:
-                progress(flights.part_done(ball, limit_time, limit_bounces))
+                progress(flights.part_done(ball, until, bounces))
     contacts = flights.contacts(logs, owners)
-    return with_crossings(Run(scene, contacts, flights.final(), flights.endings(), flights.start))
+    return with_crossings(Run(flights.scene, contacts, flights.final(), flights.endings(), flights.start))
 
 
 class Flights:
@@ -102,9 +118,19 @@ class Flights:
         hits: (W,) bounces by wall so far.
     """
 
-    def __init__(self, scene: Scene, *, mode: Mode = "auto", index: str = "auto") -> None:
+    def __init__(
+        self, scene: Scene, *, mode: Mode = "auto", index: str = "auto", modelled: Modelled | None = None
+    ) -> None:
+        """Begin.
+
+        Args:
+            scene: walls, balls, and what acts.
+            mode: see :func:`simulate`.
+            index: see :class:`Modelled`.
+            modelled: of this very scene, where it is known.
+        """
         self.scene = scene
-        self.modelled = Modelled(scene, index=index)
+        self.modelled = Modelled(scene, index=index) if modelled is None else modelled
         self.mode = mode
         position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
         self.start: FloatArray = np.hstack([position, velocity]).astype(np.float64)
@@ -120,32 +146,22 @@ class Flights:
     def fly(self, ball: int, until: float, limit: int) -> Any:
         """Fly a ball on; yield its contacts in pieces, (k, LOG_STRIDE) each, local coordinates."""
         counts = self._counts[ball]
-        if counts[2] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.SWINGING):
-            counts[2] = RUNNING
-        while counts[2] == RUNNING:
+        if counts[COUNT.ending] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.SWINGING):
+            counts[COUNT.ending] = RUNNING
+        while counts[COUNT.ending] == RUNNING:
             log = self._piece(ball, until, limit)
             if len(log):
                 yield log
 
     def _piece(self, ball: int, until: float, limit: int, room: int | None = None) -> FloatArray:
         state, counts, radius = self._states[ball], self._counts[ball], float(self.modelled.radii[ball])
-        room = room or max(1, min(CHUNK, limit - counts[1] + 1))
+        room = room or max(1, min(CHUNK, limit - counts[COUNT.bounces] + 1))
         if self._compile():
-            model, machine_log = self.modelled.model, np.empty(room * LOG_STRIDE)
+            machine_log = np.empty(room * LOG_STRIDE)
             _compiled_features.add(self._features)
             states, many_counts = np.array([state]), np.array([counts], dtype=np.int64)
-            noted = compiled(fly_all)(
-                model,
-                model.gravity,
-                np.array([radius]),
-                states,
-                many_counts,
-                until,
-                limit,
-                self.hits,
-                machine_log,
-                room,
-            )
+            arguments = self._arguments(radius, states, many_counts, until, limit, machine_log)
+            noted = compiled(fly_all)(*arguments)
             state[:], counts[:] = states[0].tolist(), many_counts[0].tolist()
             return machine_log.reshape(room, LOG_STRIDE)[:noted]
         room = min(room, 256)
@@ -154,13 +170,28 @@ class Flights:
         self._work += (noted + 1) * self._entries_a_bounce()
         return np.array(log).reshape(room, LOG_STRIDE)[:noted]
 
+    def _arguments(
+        self, radius: float, states: FloatArray, counts: IntArray, until: float, limit: int, log: FloatArray
+    ) -> tuple[Any, ...]:
+        """Give what the compiled kernel is called with for one ball."""
+        model, room = self.modelled.model, len(log) // LOG_STRIDE
+        return model, model.gravity, np.array([radius]), states, counts, until, limit, self.hits, log, room
+
+    def machine_code_at_hand(self) -> bool:
+        """Tell whether a compiled flight would begin at once; where not, it is being compiled from now on."""
+        if self._features in _compiled_features:
+            return True
+        state, counts, log = np.zeros((1, STATE_SIZE)), np.array([START], dtype=np.int64), np.empty(LOG_STRIDE)
+        arguments = self._arguments(0.0, state, counts, math.inf, 1, log)
+        return at_hand(compile_for, fly_all, *types_of(arguments))
+
     def next_contact(self, ball: int) -> FloatArray | None:
         """Fly a ball on to its next contact, (LOG_STRIDE,); None if it has none."""
         counts = self._counts[ball]
-        if counts[2] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE):
-            counts[2] = RUNNING
-        counts[8] = 0
-        if counts[2] != RUNNING:
+        if counts[COUNT.ending] in (Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE):
+            counts[COUNT.ending] = RUNNING
+        counts[COUNT.changes] = 0
+        if counts[COUNT.ending] != RUNNING:
             return None
         piece = self._piece(ball, math.inf, sys.maxsize, room=1)
         return piece[0] if len(piece) else None
@@ -170,12 +201,12 @@ class Flights:
 
         None too for a ball that friction or drag stops: its flight itself ends where it rests.
         """
-        ending = self._counts[ball][2]
+        ending = self._counts[ball][COUNT.ending]
         if ending in (RUNNING, Ending.TIME_REACHED, Ending.BOUNCE_LIMIT, Ending.LEFT_SCENE, Ending.SWINGING):
             return None
         if ending == Ending.AT_REST and self.modelled.model.damping is not None:
             return None
-        return float(self._states[ball][4] + self._states[ball][5])
+        return float(self._states[ball][STATE.time] + self._states[ball][STATE.lost])
 
     def place(
         self,
@@ -197,17 +228,17 @@ class Flights:
             normal: (2,) of that feature, towards the ball, where it keeps to it.
         """
         state = initial_states(self.modelled, position[None], velocity[None])[0].tolist()
-        state[4] = time
-        counts = START._replace(last=last, bounces=self._counts[ball][1])
+        state[STATE.time] = time
+        counts = START._replace(last=last, bounces=self._counts[ball][COUNT.bounces])
         if normal is not None:
-            model, (x, y), (nx, ny) = self.modelled.lists, state[0:2], normal.tolist()
+            model, x, y, (nx, ny) = self.modelled.lists, state[STATE.x], state[STATE.y], normal.tolist()
             side = side_of(model, model.arcs, last, x, y, nx, ny)
             counts = counts._replace(held=last, hold=PASSING, side=int(side))
         self._states[ball], self._counts[ball] = state, list(counts)
 
     def _compile(self) -> bool:
         if self.mode == "auto":
-            return self._features in _compiled_features or self._work > PATIENCE
+            return self._features in _compiled_features or (self._work > PATIENCE and self.machine_code_at_hand())
         return self.mode == "compiled"
 
     def _entries_a_bounce(self) -> int:
@@ -216,28 +247,32 @@ class Flights:
 
     def part_done(self, ball: int, until: float, limit: int) -> float:
         """Part of all the work that is done when this ball is where it is, 0 to 1."""
-        one: float = max(self._states[ball][4] / max(until, 1e-300), self._counts[ball][1] / max(limit, 1))
+        one: float = max(
+            self._states[ball][STATE.time] / max(until, 1e-300), self._counts[ball][COUNT.bounces] / max(limit, 1)
+        )
         return (ball + min(one, 1.0)) / len(self)
 
     def final(self) -> NDArray[Any]:
         """(n,) of ``FINAL``: where the balls are now."""
         final = np.zeros(len(self), dtype=FINAL)
         states = np.array(self._states).reshape(-1, STATE_SIZE)
-        final["x"], final["y"] = states[:, 0] + self.modelled.origin[0], states[:, 1] + self.modelled.origin[1]
-        final["vx"], final["vy"], final["time"] = states[:, 2], states[:, 3], states[:, 4] + states[:, 5]
+        ox, oy = self.modelled.origin
+        final["x"], final["y"] = states[:, STATE.x] + ox, states[:, STATE.y] + oy
+        final["vx"], final["vy"] = states[:, STATE.vx], states[:, STATE.vy]
+        final["time"] = states[:, STATE.time] + states[:, STATE.lost]
         return final
 
     @property
     def bounces(self) -> NDArray[np.int64]:
         """(n,) bounces of each ball so far."""
-        return np.array([counts[1] for counts in self._counts], dtype=np.int64)
+        return np.array([counts[COUNT.bounces] for counts in self._counts], dtype=np.int64)
 
     def endings(self) -> tuple[Ending, ...]:
         """How each ball ended."""
         final = self.final()
         position, velocity = np.stack([final["x"], final["y"]], 1), np.stack([final["vx"], final["vy"]], 1)
         gone = is_gone(self.modelled.box, position, velocity, self.modelled.radii)
-        endings = [Ending(counts[2]) for counts in self._counts]
+        endings = [Ending(counts[COUNT.ending]) for counts in self._counts]
         return tuple(
             Ending.LEFT_SCENE if ending == Ending.TIME_REACHED and gone[ball] else ending
             for ball, ending in enumerate(endings)
@@ -247,17 +282,17 @@ class Flights:
         """Contacts of the scene, in its coordinates, in order of time."""
         log = np.concatenate(logs) if logs else np.empty((0, LOG_STRIDE))
         ball = np.concatenate(owners) if owners else np.empty(0, np.int32)
-        order = np.lexsort((ball, log[:, 0]))
+        order = np.lexsort((ball, log[:, LOG.time]))
         log, ball = log[order], ball[order]
         contacts = np.zeros(len(log), dtype=CONTACT)
         ox, oy = self.modelled.origin
-        contacts["time"], contacts["ball"] = log[:, 0], ball
-        contacts["x"], contacts["y"] = log[:, 1] + ox, log[:, 2] + oy
-        contacts["vx"], contacts["vy"] = log[:, 3], log[:, 4]
-        contacts["px"], contacts["py"] = log[:, 5] + ox, log[:, 6] + oy
-        contacts["nx"], contacts["ny"] = log[:, 7], log[:, 8]
-        contacts["kind"] = log[:, 10].astype(np.uint8)
-        wall, edge = self.places(log[:, 9].astype(np.int64))
+        contacts["time"], contacts["ball"] = log[:, LOG.time], ball
+        contacts["x"], contacts["y"] = log[:, LOG.x] + ox, log[:, LOG.y] + oy
+        contacts["vx"], contacts["vy"] = log[:, LOG.vx], log[:, LOG.vy]
+        contacts["px"], contacts["py"] = log[:, LOG.px] + ox, log[:, LOG.py] + oy
+        contacts["nx"], contacts["ny"] = log[:, LOG.nx], log[:, LOG.ny]
+        contacts["kind"] = log[:, LOG.kind].astype(np.uint8)
+        wall, edge = self.places(log[:, LOG.feature].astype(np.int64))
         contacts["wall"], contacts["edge"] = wall, edge
         return contacts
 
@@ -279,15 +314,15 @@ class Flights:
 def initial_states(modelled: Modelled, position: FloatArray, velocity: FloatArray) -> FloatArray:
     """(n, STATE_SIZE) states of balls at rest on the clock, local coordinates."""
     states = np.zeros((len(position), STATE_SIZE))
-    states[:, 0:2] = position - modelled.origin
-    states[:, 2:4] = velocity
-    states[:, 6] = velocity[:, 0] * velocity[:, 0] + velocity[:, 1] * velocity[:, 1]
+    local = position - modelled.origin
+    states[:, [STATE.x, STATE.y]] = states[:, [STATE.from_x, STATE.from_y]] = local
+    states[:, [STATE.vx, STATE.vy]] = states[:, [STATE.from_vx, STATE.from_vy]] = velocity
+    states[:, STATE.energy] = velocity[:, 0] * velocity[:, 0] + velocity[:, 1] * velocity[:, 1]
     tolerance = TOLERANCE
     if (gravity := modelled.model.gravity) is not None:
         tolerance = FALLING_TOLERANCE
-        states[:, 6] -= 2.0 * (gravity[0] * states[:, 0] + gravity[1] * states[:, 1])
-    states[:, 7:9], states[:, 9:11] = states[:, 0:2], velocity
-    states[:, 11] = tolerance * np.maximum(np.abs(states[:, 0:2]).max(axis=1, initial=0.0), modelled.model.extent)
+        states[:, STATE.energy] -= 2.0 * (gravity[0] * local[:, 0] + gravity[1] * local[:, 1])
+    states[:, STATE.tolerance] = tolerance * np.maximum(np.abs(local).max(axis=1, initial=0.0), modelled.model.extent)
     return states
 
 

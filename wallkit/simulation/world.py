@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from wallkit.arguments import flag, floats, number, of_type, refused, whole_number, word
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
-from wallkit.kernels.records import NO_HIT
+from wallkit.kernels.records import LOG, NO_HIT
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation.damping import carried_on, damping_of
 from wallkit.simulation.gliding import glide, guides
@@ -155,7 +155,7 @@ class World:
         crossed: list[tuple[Any, ...]] = []
         for ball in np.flatnonzero(self._next_time <= end).tolist():
             crossed += self._cross(ball, end)
-            while (row := self._next[ball]) is not None and row[0] <= end:
+            while (row := self._next[ball]) is not None and row[LOG.time] <= end:
                 rows.append(row[None])
                 owners.append(ball)
                 if self.way == "exact":
@@ -212,7 +212,7 @@ class World:
         end = self._flights.ended(ball) if row is None else None
         self._end[ball] = math.inf if end is None else end
         if self._sensors is not None:
-            until = self._end[ball] if row is None else row[0]
+            until = self._end[ball] if row is None else row[LOG.time]
             kind, (nx, ny) = Kind.SLIDE if self._keeps[ball] else Kind.LEAVE, self._normal[ball].tolist()
             contact, bend = {"kind": kind, "nx": nx, "ny": ny}, float(self._bend[ball])
             flight = float(self._since[ball]), self._base[ball].copy(), float(until), contact, bend
@@ -223,7 +223,7 @@ class World:
     def _set_next_time(self, ball: int) -> None:
         """Note when the next contact or crossing is."""
         row, coming = self._next[ball], self._coming[ball]
-        self._next_time[ball] = coming[0] if coming else math.inf if row is None else row[0]
+        self._next_time[ball] = coming[0] if coming else math.inf if row is None else row[LOG.time]
 
     def _cross(self, ball: int, end: float) -> list[tuple[Any, ...]]:
         """Take from the coming crossings those up to a time."""
@@ -236,11 +236,11 @@ class World:
 
     def _accept(self, ball: int, row: FloatArray) -> None:
         """The frame has reached the contact: from there the ball goes on."""
-        self._base[ball, 0:2] = row[1:3] + self._flights.modelled.origin
-        self._base[ball, 2:4] = row[3:5]
-        self._since[ball], self._pull[ball] = row[0], self._pull_after(row)
-        self._normal[ball], self._touched[ball] = row[7:9], row[9]
-        self._keeps[ball] = row[10] == Kind.SLIDE
+        self._base[ball, 0:2] = row[[LOG.x, LOG.y]] + self._flights.modelled.origin
+        self._base[ball, 2:4] = row[[LOG.vx, LOG.vy]]
+        self._since[ball], self._pull[ball] = row[LOG.time], self._pull_after(row)
+        self._normal[ball], self._touched[ball] = row[[LOG.nx, LOG.ny]], row[LOG.feature]
+        self._keeps[ball] = row[LOG.kind] == Kind.SLIDE
         self._bend[ball] = 0.0
         if self._keeps[ball]:
             contact = self._flights.contacts([row[None]], [np.array([ball], dtype=np.int32)])
@@ -249,17 +249,17 @@ class World:
 
     def _pull_after(self, row: FloatArray) -> FloatArray:
         """Gravity, or the part of it along the wall on which the ball slides from here on."""
-        if row[10] != Kind.SLIDE:
+        if row[LOG.kind] != Kind.SLIDE:
             return self._gravity
-        along = np.array([-row[8], row[7]])
+        along = np.array([-row[LOG.ny], row[LOG.nx]])
         return along * float(along @ self._gravity)
 
     def _accept_late(self, ball: int, row: FloatArray, end: float, dt: float) -> None:
         """Treat the contact as frame-stepping programs do; whatever else was in the frame is not looked at."""
-        contact, after = row[1:3] + self._flights.modelled.origin, row[3:5]
+        contact, after = row[[LOG.x, LOG.y]] + self._flights.modelled.origin, row[[LOG.vx, LOG.vy]]
         if self.way == "stop":
-            self._normal[ball] = row[7:9]
-            self._restart(ball, contact, after, end, int(row[9]))
+            self._normal[ball] = row[[LOG.nx, LOG.ny]]
+            self._restart(ball, contact, after, end, int(row[LOG.feature]))
         elif self.way == "full-step":
             self._restart(ball, contact + dt * after, after, end, NO_HIT)
         else:

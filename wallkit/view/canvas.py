@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import Any, Literal
 
-from wallkit.view.theme import css
+from wallkit.view.theme import STYLES, css
 
 # Path commands in pixels, absolute: ("M", x, y), ("L", x, y), ("Q", x1, y1, x, y), ("C", x1, y1, x2, y2, x, y),
 # ("A", rx, ry, rotation, large, sweep, x, y) and ("Z",).
@@ -21,7 +21,7 @@ class Shape:
     Attributes:
         style: a name in ``theme.STYLES``.
         commands: the path.
-        step: the ramp's step that colours the stroke, or None for the style's own colour.
+        step: the ramp's step that colours the stroke, and the fill where the style has one; None for its own colours.
         opacity: 0 to 1.
         title: what a pointer over it shows.
     """
@@ -101,7 +101,7 @@ class Canvas:
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
             f'viewBox="0 0 {width} {height}" role="img" font-family="system-ui, sans-serif">\n'
-            f"<title>{escape(_printable(self.title))}</title>\n<style>{css()}</style>\n"
+            f"<title>{escape(printable(self.title))}</title>\n<style>{css()}</style>\n"
             f'<rect class="wk-paper" width="{width}" height="{height}"/>\n'
             '<g fill-rule="evenodd" stroke-linejoin="round" stroke-linecap="round">\n'
             f"{body}\n</g>\n</svg>\n"
@@ -113,7 +113,7 @@ def _written(item: Item) -> str:
         return _tag(
             "path",
             f'd="{path_data(item.commands)}"',
-            _classes(item.style, item.step, item.step if item.style.startswith("material") else None),
+            _classes(item.style, item.step, item.step if STYLES[item.style].fill else None),
             item.opacity,
             item.title,
         )
@@ -126,14 +126,14 @@ def _written(item: Item) -> str:
         return (
             f'<text class="wk-{item.style}" x="{_number(item.x)}" y="{_number(item.y)}" '
             f'font-size="{_number(item.size)}" text-anchor="{item.anchor}"{weight}>'
-            f"{escape(_printable(item.text))}</text>"
+            f"{escape(printable(item.text))}</text>"
         )
     return _cells(item)
 
 
 def _tag(name: str, place: str, classes: str, opacity: float, title: str) -> str:
     faint = f' opacity="{_number(opacity)}"' if opacity < 1 else ""
-    told = f"<title>{escape(_printable(title))}</title></{name}>" if title else ""
+    told = f"<title>{escape(printable(title))}</title></{name}>" if title else ""
     return f'<{name} class="{classes}" {place}{faint}{">" + told if told else "/>"}'
 
 
@@ -169,7 +169,7 @@ def _number(value: float) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
-def _printable(text: str) -> str:
+def printable(text: str) -> str:
     """Replace what XML 1.0 cannot hold: control characters and lone surrogates of somebody's layer names."""
     return "".join(
         c if c >= " " and not "\ud800" <= c <= "\udfff" and c not in "\ufffe\uffff" else "\ufffd" for c in text

@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 from collections import deque
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, get_args
 
@@ -18,21 +19,22 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from importers.errors import WallkitError
-from wallkit.arguments import ABOVE_0, number, of_type, refused, word
+from wallkit.arguments import ABOVE_0, number, of_type, refused, whole_number, word
 from wallkit.geometry.arrays import FloatArray
 from wallkit.simulation.run import Run, one_a_ball
 from wallkit.view.canvas import Command, Disc, Item, Label, Shape
 from wallkit.view.frame import Frame
 from wallkit.view.picture import draw_walls, finish, round_length, started
 from wallkit.view.raster import Raster
-from wallkit.view.run_picture import draw_sensors, scene_box
+from wallkit.view.run_picture import Colouring, draw_sensors, ramp_steps, scene_box
 from wallkit.view.theme import RAMP_STEPS, Theme
 from wallkit.view.tracks import arrays_of, tracks
 
 Progress = Callable[[float], None]
 
-_RATES = {"gif": 25, "mp4": 30}  # frames a second; GIF counts in hundredths, so that 25 is exact
-_WIDTH = 640.0
+_RATES = {"gif": 25, "mp4": 30}  # frames a second
+_GIF_RATES = (1, 2, 4, 5, 10, 20, 25, 50)  # GIF counts in hundredths of a second
+_WIDTH = 640
 _CROSSING = 1.8  # seconds of film for a ball to cross the picture, which sets how fast a film runs
 _TRAIL = 0.9  # seconds of film that a trail lasts, and a ghost of a contact
 _TRAILS = 60  # so many balls at most draw trails
@@ -47,18 +49,27 @@ def film(
     kind: Literal["gif", "mp4"],
     *,
     seconds: float = 12.0,
+    width: int = _WIDTH,
+    fps: int | None = None,
+    pace: float | None = None,
+    colour: Colouring = "ball",
     theme: Theme = "light",
     progress: Progress | None = None,
 ) -> bytes:
     """Make a film of a run.
 
-    Time runs at 1, 2 or 5 times a power of ten of real time, so that the balls cross the picture in about two
-    seconds; the film says how fast, and how much of the run it shows.
+    Time runs at ``pace`` seconds of the run a second of the film; if that is not given at 1, 2 or 5 times a power of
+    ten, so that the balls cross the picture in about two seconds. The film says how fast, and how much of the run it
+    shows.
 
     Args:
         run: what to show.
         kind: ``"gif"``, or ``"mp4"`` (H.264 where ffmpeg has it).
         seconds: the film's length at most.
+        width: of the film in pixels, even, 160 to 3840.
+        fps: frames a second, 1 to 60, 25 or 30 if not given; of a GIF 1, 2, 4, 5, 10, 20, 25 or 50.
+        pace: seconds of the run that pass in a second of the film; above 0.
+        colour: what the colour of a ball tells: which it is, the time, or its speed at that time.
         theme: light or dark.
         progress: called with the part done, 0 to 1.
 
@@ -70,29 +81,63 @@ def film(
     may_be = "seconds, more than 0 and at most 3600"
     number(seconds, "seconds", may_be, error=FilmError, code="bad-argument", least=ABOVE_0, most=3600.0)
     word(theme, "theme", get_args(Theme), error=FilmError, code="bad-argument")
+    word(colour, "colour", get_args(Colouring), error=FilmError, code="bad-argument")
+    _check_width(width)
+    rate = _rate(kind, fps)
+    if pace is not None:
+        number(pace, "pace", "a number above 0", error=FilmError, code="bad-argument", least=ABOVE_0)
     if progress is not None and not callable(progress):
         raise refused("progress", progress, "a function of one number, or None", FilmError, "bad-argument")
-    frames = _Frames(run, _RATES[kind], seconds, theme, progress)
+    frames = _Frames(run, Look(width, rate, pace, colour, theme), seconds, progress)
     return _gif(frames) if kind == "gif" else _mp4(frames)
+
+
+def _check_width(width: int) -> None:
+    may_be = "an even whole number, 160 to 3840"  # H.264 wants even numbers
+    whole_number(width, "width", may_be, error=FilmError, code="bad-argument", least=160, most=3840)
+    if width % 2:
+        raise refused("width", width, may_be, FilmError, "bad-argument")
+
+
+def _rate(kind: str, fps: int | None) -> int:
+    if fps is None:
+        return _RATES[kind]
+    may_be = f"one of {', '.join(map(str, _GIF_RATES))}" if kind == "gif" else "a whole number, 1 to 60"
+    rate = whole_number(fps, "fps", may_be, error=FilmError, code="bad-argument", least=1, most=60)
+    if kind == "gif" and rate not in _GIF_RATES:
+        raise refused("fps", fps, f"{may_be}, since GIF counts in hundredths of a second", FilmError, "bad-argument")
+    return rate
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How a film looks: see :func:`film`."""
+
+    width: int
+    fps: int
+    pace: float | None
+    colour: Colouring
+    theme: Theme
 
 
 class _Frames:
     """The frames one by one, drawn over one background."""
 
-    def __init__(self, run: Run, fps: int, seconds: float, theme: Theme, progress: Progress | None) -> None:
-        self.run, self.fps, self.theme, self.progress = run, fps, theme, progress
+    def __init__(self, run: Run, look: Look, seconds: float, progress: Progress | None) -> None:
+        self.run, self.look, self.fps, self.progress = run, look, look.fps, progress
         box, up = scene_box(run.scene), run.scene.walls.y_axis == "up"
-        canvas, self.frame = started(box, up, title="", width=_WIDTH)
+        canvas, self.frame = started(box, up, title="", width=float(look.width))
         start, _, radius = arrays_of(run.scene.balls)
         draw_walls(canvas, run.scene.walls, self.frame, normals=False, free=start)
         draw_sensors(canvas, run.scene, self.frame)
         finish(canvas, self.frame, run.scene.walls.units)
         self.width, self.height = canvas.width, 2.0 * math.ceil(canvas.height / 2)  # H.264 wants even numbers
-        self.background = Raster(self.width, self.height, theme, 1.0).drawn(canvas.items)
+        self.background = Raster(self.width, self.height, look.theme, 1.0).drawn(canvas.items)
         self.radius = np.maximum(radius * self.frame.scale, 3.0)
-        self.speedup = _speedup(run, self.frame)
+        self.speedup = _speedup(run, self.frame) if look.pace is None else look.pace
         self.duration = float(run.final["time"].max(initial=0.0))
-        self.count = max(1, int(min(seconds, self.duration / self.speedup) * fps) + 1)
+        self.count = max(1, int(min(seconds, self.duration / self.speedup) * look.fps) + 1)
+        self.fastest = _fastest(run) if look.colour == "speed" else 1.0
 
     def caption(self, time: float) -> str:
         shown = (self.count - 1) / self.fps * self.speedup
@@ -115,12 +160,17 @@ class _Frames:
                 trails[contact["ball"]].append((float(contact["time"]), *place))
             passed = upto
             balls = self.frame.points(self.run.position(time))
-            yield self._frame(time, balls, trails, contacts[max(0, upto - 200) : upto])
+            yield self._frame(time, balls, self._steps(time), trails, contacts[max(0, upto - 200) : upto])
             if self.progress:
                 self.progress((frame + 1) / self.count)
 
     def _frame(
-        self, time: float, balls: FloatArray, trails: list[deque[tuple[float, float, float]]], recent: NDArray[Any]
+        self,
+        time: float,
+        balls: FloatArray,
+        steps: list[int],
+        trails: list[deque[tuple[float, float, float]]],
+        recent: NDArray[Any],
     ) -> Image.Image:
         items: list[Item] = []
         since = time - _TRAIL * self.speedup
@@ -129,20 +179,35 @@ class _Frames:
             trail.append((time, *balls[ball]))
             while len(trail) > 1 and trail[0][0] < since:
                 trail.popleft()
-            items.extend(_trail(trail, time, since, self._step(ball)))
+            items.extend(_trail(trail, time, since, steps[ball]))
         for contact in recent[recent["time"] > since]:
             ball = int(contact["ball"])
             opacity = 0.8 * (1 - (time - float(contact["time"])) / (time - since))
             x, y = self.frame.point(float(contact["x"]), float(contact["y"]))
-            items.append(Disc("ghost", x, y, float(self.radius[ball]), self._step(ball), opacity=opacity))
+            items.append(Disc("ghost", x, y, float(self.radius[ball]), steps[ball], opacity=opacity))
         for ball, (x, y) in enumerate(balls.tolist()):
-            items.append(Disc("ball", x, y, float(self.radius[ball]), self._step(ball), filled=True))
-        items.append(Label("note", _WIDTH - 28, self.height - 14, self.caption(time), anchor="end"))
+            items.append(Disc("ball", x, y, float(self.radius[ball]), steps[ball], filled=True))
+        items.append(Label("note", self.width - 28, self.height - 14, self.caption(time), anchor="end"))
         return self.background.copied().drawn(items).reduced()
 
-    def _step(self, ball: int) -> int:
+    def _steps(self, time: float) -> list[int]:
+        """Give each ball its step on the ramp now."""
         count = len(self.run.ending)
-        return RAMP_STEPS // 2 if count == 1 else ball * (RAMP_STEPS - 1) // (count - 1)
+        if self.look.colour == "speed":
+            part = np.hypot(*self.run.velocity(time).T) / self.fastest
+        elif self.look.colour == "time":
+            part = np.full(count, time / max(self.duration, 1e-300))
+        else:
+            part = np.arange(count) / (count - 1) if count > 1 else np.full(count, 0.5)
+        steps: list[int] = ramp_steps(part).tolist()
+        return steps
+
+
+def _fastest(run: Run) -> float:
+    """The largest speed of any ball at the start and just after its bounces, and at least a little."""
+    _, velocity, _ = arrays_of(run.scene.balls)
+    after = np.hypot(run.contacts["vx"], run.contacts["vy"])
+    return max(float(np.hypot(*velocity.T).max(initial=0.0)), float(after.max(initial=0.0)), 1e-300)
 
 
 def _trail(points: deque[tuple[float, float, float]], time: float, since: float, step: int) -> list[Shape]:

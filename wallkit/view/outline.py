@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.polygons import contains
+from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.bulge_arcs import radius_of
+from wallkit.geometry.rings import signed_areas
 from wallkit.view.canvas import Command
 from wallkit.view.frame import Frame
 from wallkit.walls import Material, Walls
+from wallkit.walls.checking.self_check import straight_edges
 from wallkit.walls.orient import is_arena
-from wallkit.walls.sample import flattened, in_material
+from wallkit.walls.solid import walls_around
 
 
 def wall_path(walls: Walls, index: int, frame: Frame) -> list[Command]:
@@ -36,25 +37,10 @@ def wall_path(walls: Walls, index: int, frame: Frame) -> list[Command]:
 def _edge(a: FloatArray, b: FloatArray, bulge: float, up: bool) -> Command:
     if bulge == 0.0:
         return ("L", *b)
-    # A chord c of an arc with bulge k has the radius c (1 + k^2) / (4 |k|). A left turn in the drawing stays one on
-    # the screen (sweep 0) when the y axis is turned over, and is clockwise there (sweep 1) when it is not.
-    radius = math.hypot(*(b - a)) * (1.0 + bulge * bulge) / (4.0 * abs(bulge))
+    # A left turn in the drawing stays one on the screen (sweep 0) when the y axis is turned over, and is clockwise
+    # there (sweep 1) when it is not.
+    radius = radius_of(math.hypot(*(b - a)), bulge)
     return ("A", radius, radius, 0, int(abs(bulge) > 1.0), int((bulge > 0.0) != up), *b)
-
-
-def depths(walls: Walls) -> NDArray[np.int64]:
-    """Count the closed walls around each wall's first vertex, by even-odd crossings of a ray to the right.
-
-    ``walls.depth`` is not used: walls made of arrays do not carry it. Only a larger box can be around a smaller
-    one. A first vertex that lies exactly on another wall may be counted either way, a matter of colour only.
-    """
-    depth = np.zeros(len(walls), dtype=np.int64)
-    rings = [flattened(walls, index) for index in range(len(walls))]
-    size = np.array([float(np.ptp(ring, axis=0).prod()) for ring in rings])
-    first = walls.vertices[walls.offsets[:-1]]
-    for index in np.flatnonzero(walls.closed):
-        depth += contains(rings[index], first) & (size < size[index])
-    return depth
 
 
 def solid_areas(walls: Walls, free: FloatArray) -> list[tuple[Material, list[int], bool]]:
@@ -84,28 +70,37 @@ def _is_room(walls: Walls, free: FloatArray) -> bool:
     """Tell whether the outermost walls are rooms."""
     if walls.solid is not None:
         return walls.solid.room
-    inside = int(in_material(walls, free).sum())
+    around, _wall = walls_around(straight_edges(walls), free)
+    inside = int(np.count_nonzero(np.bincount(around, minlength=len(free)) % 2))
     return is_arena(walls) if 2 * inside == len(free) else 2 * inside > len(free)
 
 
 def _areas_by_material(walls: Walls, turned: bool) -> list[tuple[Material, list[int], bool]]:
-    depth = depths(walls)
-    rings = {int(index): flattened(walls, int(index)) for index in np.flatnonzero(walls.closed)}
+    """Nest walls by their first vertices; ``walls.depth`` is not used, for walls made of arrays do not carry it.
+
+    Only a larger wall can be around a smaller one. A first vertex that lies exactly on another wall may be counted
+    either way, a matter of colour only.
+    """
+    edges = straight_edges(walls)
+    size = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
+    inner, outer = walls_around(edges, walls.vertices[walls.offsets[:-1]])
+    larger = size[inner] < size[outer]
+    inner, outer = inner[larger], outer[larger]
+    depth = np.bincount(inner, minlength=len(walls))
+    holes: dict[int, list[int]] = {}
+    next_to = walls.closed[inner] & (depth[inner] == depth[outer] + 1)
+    for hole, ring in zip(inner[next_to].tolist(), outer[next_to].tolist(), strict=True):
+        holes.setdefault(ring, []).append(hole)
+    closed = np.flatnonzero(walls.closed)
     areas: list[tuple[Material, list[int], bool]] = []
     if turned:  # each outermost room is cut out of the frame; they share the first one's material
-        rooms = [index for index in rings if depth[index] == 0]
+        rooms = closed[depth[closed] == 0].tolist()
         areas.append((walls.materials[rooms[0]], rooms, True))
-    # One step deeper than a ring, by depth, so that its holes are found by one look each: (walls, first vertices).
-    deeper: dict[int, tuple[IntArray, FloatArray]] = {}
-    for level in np.unique(depth).tolist():
-        members = np.flatnonzero((depth == level) & walls.closed)
-        deeper[level - 1] = members, walls.vertices[walls.offsets[members]]
-    for index, ring in rings.items():
-        level = int(depth[index])
-        if level % 2 == int(turned):
-            members, first = deeper.get(level, (np.empty(0, dtype=np.int64), np.empty((0, 2))))
-            holes = members[contains(ring, first)].tolist() if len(members) else []
-            areas.append((walls.materials[index], [index, *holes], False))
+    areas += [
+        (walls.materials[index], [index, *holes.get(index, [])], False)
+        for index in closed.tolist()
+        if int(depth[index]) % 2 == int(turned)
+    ]
     return areas
 
 
@@ -147,7 +142,7 @@ def _ticks(
         return [(*((a + b) / 2), *normal)]
     chord = float(np.hypot(*(b - a)))
     angle = 4.0 * math.atan(abs(bulge))
-    radius = chord * (1.0 + bulge * bulge) / (4.0 * abs(bulge))
+    radius = radius_of(chord, bulge)
     count = max(1, int(radius * angle / (2 * spacing)))
     # From the centre, the arc's middle lies along the normal for a positive bulge and against it for a negative one.
     side = math.copysign(1.0, bulge)

@@ -63,16 +63,10 @@ def walls_canvas(
     width: float = WIDTH,
 ) -> Canvas:
     """Draw walls as :func:`walls_svg` does, on a canvas that can become SVG or pixels."""
-    # What was left out by rule (info) may lie anywhere, such as a guide off the page; it shall not shrink the rest.
-    marked = [p for p in problems if p.severity != "info" or not len(walls)]
-    places = [(p.x, p.y, p.x, p.y) for p in marked if p.x is not None and p.y is not None]
-    canvas, frame = started(united([*([walls_box(walls)] if len(walls) else []), *places]), walls.y_axis == "up",
-                            title=title, width=width)  # fmt: skip
+    canvas, frame = started(_marked_box(walls, problems), walls.y_axis == "up", title=title, width=width)
     canvas.title = title or f"{len(walls)} walls"
     draw_walls(canvas, walls, frame, normals=normals)
-    for way in ways:
-        corners = [frame.point(x, y) for x, y in way.tolist()]
-        canvas.add(Shape("way", [("M" if i == 0 else "L", x, y) for i, (x, y) in enumerate(corners)]))
+    _draw_ways(canvas, ways, frame)
     draw_problems(canvas, problems, frame)
     row = finish(canvas, frame, walls.units)
     legend = material_legend(walls)
@@ -83,6 +77,33 @@ def walls_canvas(
         canvas.height = max(canvas.height, row)
     problem_legend(canvas, problems, row)
     return canvas
+
+
+def walls_marks(
+    walls: Walls, problems: Sequence[Problem], *, ways: Sequence[NDArray[np.float64]] = (), note: str = ""
+) -> tuple[Canvas, Frame]:
+    """Draw what :func:`walls_canvas` puts over the walls, without them: marks, ways through leaks, words below."""
+    canvas, frame = started(_marked_box(walls, problems), walls.y_axis == "up", title="", width=WIDTH)
+    _draw_ways(canvas, ways, frame)
+    draw_problems(canvas, problems, frame)
+    row = frame.top + frame.height + MARGIN
+    canvas.add(Label("text", MARGIN, row, note, bold=True))
+    problem_legend(canvas, problems, row + _LINE)
+    return canvas, frame
+
+
+def _marked_box(walls: Walls, problems: Sequence[Problem]) -> Box:
+    """The box around walls and marks."""
+    # What was left out by rule (info) may lie anywhere, such as a guide off the page; it shall not shrink the rest.
+    marked = [p for p in problems if p.severity != "info" or not len(walls)]
+    places = [(p.x, p.y, p.x, p.y) for p in marked if p.x is not None and p.y is not None]
+    return united([*([walls_box(walls)] if len(walls) else []), *places])
+
+
+def _draw_ways(canvas: Canvas, ways: Sequence[NDArray[np.float64]], frame: Frame) -> None:
+    for way in ways:
+        corners = [frame.point(x, y) for x, y in way.tolist()]
+        canvas.add(Shape("way", [("M" if i == 0 else "L", x, y) for i, (x, y) in enumerate(corners)]))
 
 
 def started(box: Box, up: bool, *, title: str, width: float) -> tuple[Canvas, Frame]:

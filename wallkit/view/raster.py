@@ -20,7 +20,7 @@ _ANCHORS = {"start": "ls", "middle": "ms", "end": "rs"}
 def png(canvas: Canvas, theme: Theme = "light", scale: float = 2.0) -> bytes:
     """Give the picture as a PNG file of ``scale`` pixels a pixel of the canvas."""
     data = io.BytesIO()
-    Raster(canvas.width, canvas.height, theme, scale).drawn(canvas.items).reduced().save(data, "PNG", optimize=True)
+    Raster(canvas.width, canvas.height, theme, scale).drawn(canvas.items).reduced().save(data, "PNG")
     return data.getvalue()
 
 
@@ -68,7 +68,8 @@ class Raster:
         lines = [points * self.zoom for points in polylines(shape.commands)]
         style = STYLES[shape.style]
         if style.fill:
-            self._fill(lines, colour(style.fill, self.theme))
+            hue = ramp(shape.step, self.theme) if shape.step is not None else colour(style.fill, self.theme)
+            self._fill(lines, hue, shape.opacity)
         stroke = (
             ramp(shape.step, self.theme)
             if shape.step is not None
@@ -99,7 +100,7 @@ class Raster:
             pen.line([tuple(p) for p in (line - corner).tolist()], round(255 * opacity), width, joint="curve")
         self.image.paste(stroke, tuple(corner.tolist()), mask)
 
-    def _fill(self, lines: list[FloatArray], fill: str) -> None:
+    def _fill(self, lines: list[FloatArray], fill: str, opacity: float) -> None:
         """Fill even-odd: along each row of pixels the inside begins and ends where an edge crosses its middle."""
         if not lines:
             return
@@ -122,7 +123,7 @@ class Raster:
         flips = np.zeros((height, width + 1), dtype=np.uint8)
         np.bitwise_xor.at(flips, (row, np.clip(np.ceil(x - 0.5), 0, width).astype(np.int64)), 1)
         inside = np.bitwise_xor.accumulate(flips[:, :width], axis=1)
-        self.image.paste(fill, (left, top), Image.fromarray(inside * np.uint8(255)))
+        self.image.paste(fill, (left, top), Image.fromarray(inside * np.uint8(round(255 * opacity))))
 
     def _disc(self, disc: Disc) -> None:
         style = STYLES[disc.style]

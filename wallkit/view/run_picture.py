@@ -32,7 +32,7 @@ from wallkit.view.tracks import Tracks, arrays_of, tracks
 if TYPE_CHECKING:
     from wallkit.simulation.run import Run
 
-Colouring = Literal["time", "speed"]
+Colouring = Literal["ball", "time", "speed"]
 
 MAX_STRETCHES = 20_000  # drawn at most; the picture says so where there are more
 MAX_MEASURED = 1_000_000  # for a heat map
@@ -83,21 +83,34 @@ def run_canvas(
         canvas.items.insert(0, Bitmap(frame.left, frame.top, size, rows, 0.9))
     else:
         steps, low, high = _steps(flight, colour)
-        draw_paths(canvas, flight, steps, frame)
-        _draw_ghosts(canvas, run, frame, flight, steps)
-        _draw_starts(canvas, run.scene, frame)
-        _draw_ends(canvas, flight, frame)
+        _draw_flight(canvas, run, frame, flight, steps)
     draw_problems(canvas, problems, frame)
     row = finish(canvas, frame, run.scene.walls.units)
-    unit = "s" if colour == "time" else f"{run.scene.walls.units or 'units'}/s"
+    unit = {"ball": "", "time": " s"}.get(colour, f" {run.scene.walls.units or 'units'}/s")
     if heat:
         _draw_key(canvas, "time spent: none", "most", width)
-    elif len(flight.time):
-        _draw_key(canvas, f"{colour} {low:.4g}", f"{high:.4g} {unit}", width)
+    elif high > low:
+        _draw_key(canvas, f"{colour} {low:.4g}", f"{high:.4g}{unit}", width)
     row = _note_thinning(canvas, flight, row)
     row = draw_legend(canvas, material_legend(run.scene.walls), row)
     problem_legend(canvas, problems, row)
     return canvas
+
+
+def run_marks(run: Run) -> tuple[Canvas, Frame]:
+    """Draw what :func:`run_canvas` puts over the walls, without them: paths, ghosts, starts and ends."""
+    canvas, frame = started(scene_box(run.scene), run.scene.walls.y_axis == "up", title="", width=WIDTH)
+    flight = tracks(run, MAX_STRETCHES)
+    steps, _, _ = _steps(flight, "time")
+    _draw_flight(canvas, run, frame, flight, steps)
+    return canvas, frame
+
+
+def _draw_flight(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: NDArray[np.int64]) -> None:
+    draw_paths(canvas, flight, steps, frame)
+    _draw_ghosts(canvas, run, frame, flight, steps)
+    _draw_starts(canvas, run.scene, frame)
+    _draw_ends(canvas, flight, frame)
 
 
 def scene_svg(scene: Scene, *, title: str = "", width: float = WIDTH) -> str:
@@ -119,11 +132,14 @@ def _scene_base(scene: Scene, title: str, width: float) -> tuple[Canvas, Frame]:
 
 
 def draw_sensors(canvas: Canvas, scene: Scene, frame: Frame) -> None:
-    """Draw the sensors of a scene, dashed."""
+    """Draw the sensors of a scene, dashed, with their names."""
     sensors = scene.sensors
     for index, name in enumerate(sensors.names if sensors is not None else ()):
         assert sensors is not None
         canvas.add(Shape("hidden", wall_path(sensors, index, frame), title=f"sensor {name or index}"))
+        if name:
+            x0, y0, x1, y1 = walls_box(sensors.take([index]))
+            canvas.add(Label("note", *frame.point((x0 + x1) / 2, (y0 + y1) / 2), name, anchor="middle"))
 
 
 def scene_box(scene: Scene) -> Box:
@@ -138,13 +154,23 @@ def scene_box(scene: Scene) -> Box:
 
 def _steps(flight: Tracks, colour: Colouring) -> tuple[NDArray[np.int64], float, float]:
     """Give each stretch its step on the ramp, and the values at the ramp's two ends."""
-    values = flight.time if colour == "time" else np.hypot(*flight.velocity.T)
-    if not len(values):
+    if not len(flight.time):
         return np.empty(0, dtype=np.int64), 0.0, 0.0
-    low = 0.0 if colour == "time" else float(values.min())
-    high = float(flight.until.max() if colour == "time" else values.max())
+    if colour == "ball":
+        low, high, values = 0.0, float(len(flight.offsets) - 2), flight.ball.astype(np.float64)
+    elif colour == "time":
+        low, high, values = 0.0, float(flight.until.max()), flight.time
+    else:
+        values = np.hypot(*flight.velocity.T)
+        low, high = float(values.min()), float(values.max())
     part = (values - low) / (high - low) if high > low else np.zeros(len(values))
-    return np.minimum((part * RAMP_STEPS).astype(np.int64), RAMP_STEPS - 1), low, high
+    return ramp_steps(part), low, high
+
+
+def ramp_steps(part: FloatArray) -> NDArray[np.int64]:
+    """Give steps of the ramp for numbers from 0, its first, to 1, its last; what is beyond belongs to these."""
+    steps: NDArray[np.int64] = np.clip((part * RAMP_STEPS).astype(np.int64), 0, RAMP_STEPS - 1)
+    return steps
 
 
 def draw_paths(canvas: Canvas, flight: Tracks, steps: NDArray[np.int64], frame: Frame) -> None:

@@ -58,6 +58,8 @@ STYLES: dict[str, Style] = {
     "way": Style(stroke="error", width=1.6, dash=(6, 4)),
     "normal": Style(stroke="normal", width=1.0),
     "path": Style(width=1.3),
+    "beam": Style(fill="info", stroke="info", width=0.6),
+    "target": Style(stroke="error", width=1.8),
     "trail": Style(width=2.2),
     "ghost": Style(width=1.0),
     "key": Style(width=8.0),

@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.bulge_arcs import edge_points
 from wallkit.geometry.rings import rings_of
 from wallkit.walls.walls import Walls
 
@@ -49,7 +50,7 @@ def straightened(walls: Walls, tolerance: float | None = None) -> tuple[FloatArr
     """Put lines in the place of arcs: vertices and offsets as in Walls. Line edges stay as they are."""
     if not walls.has_arcs:
         return walls.vertices, walls.offsets
-    counts, inner, ranks = arc_points(walls, largest_distance(walls) if tolerance is None else tolerance)
+    counts, inner, ranks = points_in_arcs(walls, largest_distance(walls) if tolerance is None else tolerance)
     first = np.cumsum(counts) - counts
     vertices = np.empty((int(counts.sum()), 2))
     vertices[first] = walls.vertices
@@ -63,7 +64,7 @@ def largest_distance(walls: Walls) -> float:
     return walls.tolerance or 1e-4 * math.hypot(high_x - low_x, high_y - low_y) or 1.0
 
 
-def arc_points(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, IntArray]:
+def points_in_arcs(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, IntArray]:
     """Points along each arc: vertices that each vertex turns into, the new points, and their rank from 1."""
     following = np.arange(1, len(walls.vertices) + 1)
     full = np.diff(walls.offsets) > 0
@@ -78,22 +79,4 @@ def arc_points(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, In
         counts = np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1).astype(np.int64)
     which = np.repeat(np.arange(len(counts)), counts - 1)
     rank = np.arange(len(which)) - np.repeat(np.cumsum(counts - 1) - (counts - 1), counts - 1) + 1
-    return counts, points_on(a[which], b[which], bulge[which], rank / counts[which]), rank
-
-
-def points_on(a: FloatArray, b: FloatArray, bulge: FloatArray, part: FloatArray) -> FloatArray:
-    """Give the point of each edge at a part (0 to 1) of its angle.
-
-    With half angle h = 2 atan(bulge) and c the chord, the point at angle f = h (2 part - 1) from the middle is
-    middle + c sin f / (2 sin h) + (c turned right) (cos f - cos h) / (2 sin h), where
-    cos f - cos h = 2 sin((h + f) / 2) sin((h - f) / 2) loses no digits for a flat arc.
-    """
-    half = 2 * np.arctan(bulge)
-    turn = half * (2 * part - 1)
-    sin = np.sin(half)
-    flat = sin == 0
-    along = np.where(flat, part - 0.5, np.sin(turn) / np.where(flat, 1.0, 2 * sin))
-    across = np.where(flat, 0.0, np.sin((half + turn) / 2) * np.sin((half - turn) / 2) / np.where(flat, 1.0, sin))
-    chord = b - a
-    right = np.stack([chord[:, 1], -chord[:, 0]], axis=1)
-    return (a + b) / 2 + chord * along[:, None] + right * across[:, None]
+    return counts, edge_points(a[which], b[which], bulge[which], rank / counts[which]), rank

@@ -1,4 +1,4 @@
-"""Contacts: where walls cross, touch and lie on one another; exact for the numbers as given."""
+"""Touches: where walls cross, touch and lie on one another; exact for the numbers as given."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from wallkit.walls.edge_tree import Edges
 
 
 @dataclass(slots=True)
-class Contacts:
+class Touches:
     """What was found, each kind as arrays of the same length.
 
     Attributes:
@@ -27,7 +27,7 @@ class Contacts:
         touch_at: (k, 2) where.
         copy_of: (W,) the first wall with the same edges. Only that one is told to cross or touch others; its copies
             lie on it, told as one overlap each.
-        complete: false when there were more contacts, or more pairs of near edges, than are looked at.
+        complete: false when there were more touches, or more pairs of near edges, than are looked at.
     """
 
     crossing_walls: IntArray
@@ -46,8 +46,8 @@ MOST_PAIRS = 10_000_000
 MOST_CONTACTS = 500_000
 
 
-def find_contacts(edges: Edges) -> Contacts:
-    """Find all contacts of edges that are not neighbours, and neighbours that fold back onto each other."""
+def find_touches(edges: Edges) -> Touches:
+    """Find all touches of edges that are not neighbours, and neighbours that fold back onto each other."""
     kinds: list[list[IntArray]] = [[], [], []]
     copy_of = copies(edges, np.diff(edges.offsets) >= np.where(edges.closed, 3, 2))
     again = copy_of != np.arange(len(copy_of))
@@ -68,7 +68,7 @@ def find_contacts(edges: Edges) -> Contacts:
     more_walls, more_at, touch_walls, touch_at = _through_vertices(edges, *_passages(edges, met[:, 0], met[:, 1]))
     walls = np.sort(np.concatenate([edges.wall[proper], more_walls]), axis=1)
     overlaps = _with_copies(edges, copy_of, *_overlaps(edges, flat[:, 0], flat[:, 1]))
-    return Contacts(walls, np.concatenate([at, more_at]), *overlaps, touch_walls, touch_at, copy_of, complete)
+    return Touches(walls, np.concatenate([at, more_at]), *overlaps, touch_walls, touch_at, copy_of, complete)
 
 
 def _with_copies(
@@ -180,7 +180,7 @@ def _through_vertices(
 
     At one point: the arms of the second lie strictly on different sides of the first. Along a shared edge the
     arms at one end lie on the first wall; but a closed wall has its inside on one side everywhere, so arms on
-    both sides at any two contacts of two closed walls mean a crossing too.
+    both sides at any two touches of two closed walls mean a crossing too.
     """
     if not len(one):
         none = np.empty((0, 2), dtype=np.int64)

@@ -21,7 +21,8 @@ Units = Literal["", "px", "pt", "mm", "cm", "m", "in"]
 """``""`` for those of the file."""
 
 _FLAGS = (
-    "hidden", "unpainted", "outline_strokes", "arena", "solid", "flip_y", "join", "drop_duplicates", "resolve", "union",
+    "hidden", "unpainted", "outline_strokes", "apply_clips", "arena", "solid", "flip_y",
+    "join", "drop_duplicates", "resolve", "union",
 )  # fmt: skip
 _LENGTHS = ("snap", "min_width", "simplify", "grid")
 REPAIRS = ("snap", "join", "drop_duplicates", "resolve", "union", "min_width", "simplify")
@@ -37,6 +38,8 @@ class ImportWishes(TypedDict, total=False):
     hidden: bool
     unpainted: bool
     outline_strokes: bool
+    apply_clips: bool
+    via: str
     arena: bool
     solid: bool
     room: str
@@ -69,6 +72,7 @@ class ImportOptions:
         hidden: take hidden paths too.
         unpainted: take paths that have neither fill nor stroke although others are painted.
         outline_strokes: a stroke with a width becomes the solid that it paints.
+        apply_clips: paths end where clips end that are drawn as paths; what of a path is not seen is left out.
         arena: the outermost closed walls are rooms: what is inside is free, material is outside.
         solid: the outermost closed walls are solid.
         room: a name or glob: the closed walls of that name are rooms. At most one of these three is given; without
@@ -83,6 +87,7 @@ class ImportOptions:
         union: repair: overlapping and touching solids become one.
         min_width: repair: closed walls that no disc of this diameter fits into go; drawing's units.
         simplify: repair: vertices go where the wall then moves by at most this; drawing's units.
+        via: ``"ghostscript"`` lets that program, which must be installed, run PostScript; ``""`` runs none.
         page: which page or artboard, from 1; ``"all"`` for all; None as :func:`importers.read.read_drawing` has it.
         units: of all lengths and places, by the drawing's physical size; then the drawing's units are these.
         origin: what becomes (0, 0): ``"page"`` and ``"box"`` for the corner of smallest coordinates of the page, or of
@@ -99,6 +104,7 @@ class ImportOptions:
     hidden: bool = False
     unpainted: bool = False
     outline_strokes: bool = False
+    apply_clips: bool = False
     arena: bool = False
     solid: bool = False
     room: str = ""
@@ -116,6 +122,7 @@ class ImportOptions:
     units: Units = ""
     origin: str = ""
     grid: float = 0.0
+    via: str = ""
 
     def __post_init__(self) -> None:
         for name in _FLAGS:
@@ -129,6 +136,7 @@ class ImportOptions:
         self._word("curves", ("lines", "arcs"))
         self._word("sides", ("both", "outward"))
         self._word("units", get_args(Units))
+        self._word("via", ("", "ghostscript"))
         self._place()
         self._names()
         said = [name for name in ("arena", "solid", "room") if getattr(self, name)]

@@ -8,22 +8,22 @@ import numpy as np
 
 from wallkit.geometry.arrays import IntArray
 from wallkit.geometry.rings import signed_areas, turned
-from wallkit.walls.crossings import Contacts
+from wallkit.walls.crossings import Touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.nesting import depths
 from wallkit.walls.walls import Walls
 
 
-def oriented(walls: Walls, arena: bool, edges: Edges, contacts: Contacts) -> Walls:
+def oriented(walls: Walls, arena: bool, edges: Edges, touches: Touches) -> Walls:
     """Set depths, and turn closed walls: even depth a solid, odd depth a hole; with ``arena`` all one deeper.
 
     Args:
         walls: turned any way.
         arena: the outermost closed walls are rooms.
         edges: their straight edges.
-        contacts: the contacts of those.
+        touches: the touches of those.
     """
-    return turned_to(walls, depths(edges, contacts.crossing_walls)[0], arena)
+    return turned_to(walls, depths(edges, touches.crossing_walls)[0], arena)
 
 
 def turned_to(walls: Walls, depth: IntArray, arena: bool) -> Walls:

@@ -70,7 +70,7 @@ def plain_name(label: str) -> str:
 def tags_of(path: DrawnPath) -> dict[str, str]:
     """Give the words that count for a path: each key by its nearest level, and one role at most."""
     tags: dict[str, str] = {}
-    for level in path.levels or _levels_of(path):
+    for level in levels_of(path):
         words = _words_of(level)
         if not words:
             continue
@@ -99,8 +99,10 @@ def _words_of(level: Level) -> dict[str, str]:
     return words
 
 
-def _levels_of(path: DrawnPath) -> tuple[Level, ...]:
-    """Make levels of what a reader knows that gives none."""
+def levels_of(path: DrawnPath) -> tuple[Level, ...]:
+    """Give what each level says, the nearest last; made of what there is where a reader gives none."""
+    if path.levels:
+        return path.levels
     own = {key: value for key, value in path.tags.items() if key not in _KEPT_BACK}
     return (
         Level("layer", path.layer),

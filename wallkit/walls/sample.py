@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import ARC_STEP, arc_points
-from wallkit.geometry.polygons import contains
 from wallkit.walls import Walls
 
 
@@ -19,11 +17,3 @@ def flattened(walls: Walls, index: int, step: float = ARC_STEP) -> FloatArray:
         return vertices
     ends = np.roll(vertices, -1, axis=0)  # the last of an open wall has the bulge 0 and gives its point alone
     return np.concatenate([arc_points(a, b, float(k), step) for a, b, k in zip(vertices, ends, bulges, strict=True)])
-
-
-def in_material(walls: Walls, points: FloatArray) -> NDArray[np.bool_]:
-    """Tell for each of (n, 2) points whether an odd number of closed walls goes around it."""
-    inside = np.zeros(len(points), dtype=np.bool_)
-    for index in np.flatnonzero(walls.closed):
-        inside ^= contains(flattened(walls, int(index)), points)
-    return inside

@@ -322,6 +322,12 @@ class Walls(Pictured):
 
         return to_shapely(self, _distance(tolerance))
 
+    def to_svgpathtools(self) -> list[Any]:
+        """Give a ``svgpathtools.Path`` of lines and arcs for each wall, points x + i y in the walls' units and axes."""
+        from wallkit.walls.as_paths import to_svgpathtools
+
+        return to_svgpathtools(self)
+
     def straightened(self, tolerance: float | None = None) -> Walls:
         """Put lines in the place of arcs, within a distance of them.
 

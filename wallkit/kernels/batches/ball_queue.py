@@ -27,6 +27,7 @@ def next_ball(queue, stop):
     """Number of a ball below ``stop`` that is not flown yet, or NO_BALL."""
     taken = queue.taken
     if taken[0] == taken[1]:
+        # One atomic addition for BLOCK balls, so that threads seldom meet at the counter.
         taken[0] = claim(queue.counter, BLOCK)
         taken[1] = taken[0] + BLOCK
     if taken[0] >= stop:

@@ -2,8 +2,8 @@
 
 A chunk is one flat array of floats, LANES for each number of a ball, so that the compiler sees that nothing aliases and
 uses vector instructions. A round takes every ball to its next bounce; a ball that has ended makes room for another.
-The formulas are those of ``impact`` and ``motion``, term by term: the same bits come out. What few balls need in a
-round (corners, places where rounding hides a side) the passes only notice; ``impact`` then answers for those alone.
+The formulas are those of ``line_impact`` and ``motion``, term by term: the same bits come out. What few balls need in a
+round (corners, places where rounding hides a side) the passes only notice; ``line_impact`` then answers for those.
 """
 
 from __future__ import annotations
@@ -104,6 +104,7 @@ def fly_in_step(model, radius, start, queue, stop, until, limit, hits, outcome, 
         scratch: see ``Scratch``.
     """
     s, balls, ended, met, rows = scratch.lanes, scratch.balls, scratch.ended, scratch.met, scratch.rows
+    # A round: all ask what they meet, fetch its normal, bounce; a lane whose ball has ended takes another one.
     _list_rows(model, rows)
     _clear(s)
     flying = 0
@@ -118,6 +119,7 @@ def fly_in_step(model, radius, start, queue, stop, until, limit, hits, outcome, 
             i = ended[j]
             _store(s, i, balls[i], radius, start, hits, outcome)
             if not _board(s, i, balls, radius, start, queue, stop, until, limit, hits, outcome):
+                # Lanes stay packed: passes go over all LANES, but what is done ball by ball only over those that fly.
                 flying -= 1  # no ball is left for this lane: the last one moves here
                 for k in range(0, SCRATCH, LANES):
                     s[k + i] = s[k + flying]
@@ -129,6 +131,7 @@ def _clear(s):
     """Let lanes without a ball hold numbers that do no harm."""
     for i in range(SCRATCH):
         s[i] = 0.0
+    # Energy and row 1 and NONE, so that passes over empty lanes divide by no 0 and meet nothing.
     for i in range(LANES):
         s[ENERGY + i], s[ROW + i], s[LAST + i] = 1.0, NONE, NONE
 
@@ -142,6 +145,7 @@ def _ask(model, radius, s, until, flying):
             _pass_point(s, float(k), model.lines[model.ids[k]])
         else:
             _pass_disc(s, float(k), model.lines[model.ids[k]], radius)
+    # Lines first: corners are asked only where they may be met before what is found by then.
     if radius is not None:
         _reach(s)
         for k in range(lines, rows):
@@ -168,7 +172,7 @@ def _list_rows(model, rows):
 
 @kernel
 def _pass_point(s, row, line):
-    """Let one line ask all points, as ``impact.scan_point`` does."""
+    """Let one line ask all points, as ``line_impact.scan_point`` does."""
     ax, ay, bx, by, nx, ny, length = line.ax, line.ay, line.bx, line.by, line.nx, line.ny, line.length
     for i in range(LANES):
         x, y, vx, vy = s[X + i], s[Y + i], s[VX + i], s[VY + i]
@@ -183,6 +187,7 @@ def _pass_point(s, row, line):
         above = d > 0.0
         closing = vx * nx + vy * ny
         closing = -closing if above else closing
+        # Divided for every lane: one that does not cross drops what comes out, inf and nan as well.
         t = abs(d) / closing
         rises = cross_a < 0.0
         crosses = other & (not near) & (rises != (cross_b < 0.0)) & (rises == above)
@@ -194,7 +199,7 @@ def _pass_point(s, row, line):
 
 @kernel
 def _pass_disc(s, row, line, radius):
-    """Let one line ask all discs, as ``impact.scan_disc`` does."""
+    """Let one line ask all discs, as ``line_impact.scan_disc`` does."""
     ax, ay, nx, ny, length = line.ax, line.ay, line.nx, line.ny, line.length
     for i in range(LANES):
         vx, vy, best = s[VX + i], s[VY + i], s[BEST + i]
@@ -205,6 +210,7 @@ def _pass_disc(s, row, line, radius):
         below = d < 0.0
         d = -d if below else d
         closing = -closing if below else closing
+        # d + t v.n = r on the side of the ball, an overlap at once, and the foot at that time: see ``scan_disc``.
         t = (d - radius) / closing
         t = 0.0 if t < 0.0 else t
         u = ey * nx - ex * ny + t * (vy * nx - vx * ny)
@@ -233,6 +239,7 @@ def _pass_corner(s, row, corner):
         ex, ey = s[X + i] - cx, s[Y + i] - cy
         along = ex * vx + ey * vy
         cross = ex * vy - ey * vx
+        # |e x v| <= r |v| and -e.v <= t v^2 + r |v|; ROOM is r |v|, and REACH the negative of the latter, both widened.
         may = (along < 0.0) & (along >= s[REACH + i]) & (abs(cross) <= room) & (s[LAST + i] != row)
         s[ASK + i] = s[ASK + i] + (MANY + row) if may else s[ASK + i]
 
@@ -241,6 +248,7 @@ def _pass_corner(s, row, corner):
 def _answer_disc(model, radius, s, i):
     """Ask the corner that a disc may meet, or all if there are more."""
     first, stop = int(model.cells[0].corners), int(model.cells[0].end)
+    # One corner alone adds MANY and its row; two or more come to 2 MANY, and all are asked.
     if s[ASK + i] < 2.0 * MANY:
         first = int(s[ASK + i] - MANY)
         stop = first + 1
@@ -291,6 +299,7 @@ def _row_of(model, feature):
 @kernel
 def _look_up(s, met, rows):
     """Fetch the rows of what the balls meet; any for those that meet nothing."""
+    # A gather. What is no row is below 0 and takes row 0, whose normal nobody uses.
     for i in range(LANES):
         met[i] = s[ROW + i] if s[ROW + i] > 0.0 else 0.0
     for i in range(LANES):
@@ -303,6 +312,7 @@ def _bounce(s, radius, lines, until, limit):
     for i in range(LANES):
         x, y, vx, vy, t, row = s[X + i], s[Y + i], s[VX + i], s[VY + i], s[BEST + i], s[ROW + i]
         time, lost, energy = s[TIME + i], s[LOST + i], s[ENERGY + i]
+        # Selects in place of branches, term by term as in ``flight.fly``: `hit` bounces, `late` flies until time is up.
         total = time + t
         passed = (total > time) & (t * (abs(vx) + abs(vy)) > s[TOLERANCE + i] * 2.0**-6)
         still = 0.0 if passed else s[STILL + i] + 1.0
@@ -315,14 +325,17 @@ def _bounce(s, radius, lines, until, limit):
             s[FROM_VX + i] = vx if moved else s[FROM_VX + i]
             s[FROM_VY + i] = vy if moved else s[FROM_VY + i]
         x, y = x + t * vx if moved else x, y + t * vy if moved else y
+        # Neumaier's sum, see ``motion.advance``.
         rest = (time - total) + t if time >= t else (t - total) + time
         time, lost = total if moved else time, lost + rest if moved else lost
         time, lost = until if late & moved else time, 0.0 if late & moved else lost
         nx, ny, twice = s[NX + i], s[NY + i], s[TWICE + i]
         if radius is not None:
+            # The row of a corner holds its place: the normal goes from there to the centre.
             at_corner = row >= lines
             nx, ny = x - nx if at_corner else nx, y - ny if at_corner else ny
             twice = 2.0 / (nx * nx + ny * ny) if at_corner else twice
+        # v - 2 (v.n) n / n.n, scaled to the squared speed: ``motion.reflect`` without restitution.
         normal = vx * nx + vy * ny
         factor = normal * twice
         wx, wy = vx - factor * nx, vy - factor * ny
@@ -384,6 +397,7 @@ def _load(s, i, radius, start, ball):
     """Put a ball, at time 0, into a lane."""
     x, y = start.position[ball, 0] - start.origin[0], start.position[ball, 1] - start.origin[1]
     vx, vy = start.velocity[ball, 0], start.velocity[ball, 1]
+    # Positions are local to the scene's middle, where floats lie densest.
     energy = vx * vx + vy * vy
     s[X + i], s[Y + i], s[VX + i], s[VY + i] = x, y, vx, vy
     s[TIME + i], s[LOST + i], s[BOUNCES + i], s[STILL + i], s[ASK + i] = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -403,6 +417,7 @@ def _store(s, i, ball, radius, start, hits, outcome):
     outcome.velocity[ball, 0], outcome.velocity[ball, 1] = vx, vy
     outcome.time[ball] = s[TIME + i] + s[LOST + i]
     outcome.bounces[ball] = s[BOUNCES + i]
+    # One wall: all bounces are its own, counted once a ball.
     if len(hits) == 1:
         hits[0] += outcome.bounces[ball]
     ending = int(s[ENDING + i])

@@ -1,15 +1,15 @@
 """Many balls on their way through the grid: a wave of them, each stage for all of them together.
 
-A ball alone waits: for memory, for roots and quotients, and for the processor to find out which way a branch goes.
+A ball alone waits: for memory, for roots and quotients, and for branches that the processor predicts wrongly.
 Here every ball of a wave is one step further with every turn of the loop: those that have entered a cell are paired
 with what it lists, all pairs are asked for the time of impact, all balls find out when they leave their cell, all cross
 into clearings. The arithmetic has no branches and runs over flat arrays, LANES for each number of a ball and PAIRS for
 each of a pair, so that vector instructions do it; what is fetched for one does not wait for another. Balls that enter a
 cell which lists something, or turn at a wall, are handled one by one; one that has ended makes room for another. Among
-so many edges that memory is slow to give them, two waves fly in turn: what one needs is on its way while the other
-flies.
+so many edges that they do not stay in the cache, two waves fly in turn: the records of one are prefetched while the
+other flies.
 
-The formulas are those of ``impact``, ``arcs`` and ``motion``, term by term: the same bits come out.
+The formulas are those of ``line_impact``, ``arc_impact`` and ``motion``, term by term: the same bits come out.
 """
 
 from __future__ import annotations
@@ -39,6 +39,7 @@ from wallkit.kernels.batches.wave_columns import (
     NONE,
     NX,
     NY,
+    OCTANT,
     PER_U,
     PER_W,
     PX,
@@ -49,7 +50,6 @@ from wallkit.kernels.batches.wave_columns import (
     TOP,
     TOUCHED,
     TWICE,
-    WAY,
     U,
     W,
 )
@@ -72,10 +72,10 @@ from wallkit.kernels.index.grid import (
     clearings_of,
     departures_of,
     in_units,
+    octant_of,
     per_speed,
     place,
     top_at,
-    way_of,
 )
 from wallkit.kernels.intrinsics import lowest
 from wallkit.kernels.jit import kernel, rare_kernel
@@ -101,7 +101,7 @@ APART = 2.0**12
 NEAR_EDGES = 1 << 15
 """So many stay near the processor with the cells that list them: one wave is faster."""
 NEAR_CELLS = 1 << 15
-"""So many cells stay so near with their clearings that asking for them ahead takes longer than waiting."""
+"""So many cells stay in the cache with their clearings: a prefetch would take longer than it saves."""
 
 
 class WaveScratch(NamedTuple):
@@ -110,11 +110,11 @@ class WaveScratch(NamedTuple):
     movers: Any
     """(WAVES, LANES) ``Mover``."""
     floats: Any
-    """(WAVES, FLOATS) floats, see ``wave_lanes``."""
+    """(WAVES, FLOATS) floats, see ``wave_columns``."""
     integers: Any
     """(WAVES, INTEGERS) signed integers."""
     counts: Any
-    """(WAVES, COUNTS) unsigned integers, see ``wave_lanes``, which need no look whether they count from the end."""
+    """(WAVES, COUNTS) unsigned integers, see ``wave_columns``, which need no look whether they count from the end."""
     pairs: Any
     """LISTED unsigned integers."""
     met: Any
@@ -138,6 +138,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
         outcome: written for these balls, see ``Outcome``.
         scratch: see ``WaveScratch``.
     """
+    # Where the records do not stay in the near caches two waves take turns: one flies while the other's are fetched.
     far = len(model.lines) > NEAR_EDGES
     flying, waves = 0, WAVES if far else 1
     for wave in range(waves):
@@ -147,6 +148,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
         for i in range(LANES):
             flying += _board(model, radius, b, s, n, q, i, start, order, queue, stop, until, limit, outcome)
         cross(model, s, q, far)
+    # A turn: pairs of balls and edges, times of impact, way through the cells, bounces, and lanes that end their ball.
     wave, met = 0, 0
     while flying > 0:
         b, s = scratch.movers[wave], scratch.floats[wave]
@@ -158,31 +160,12 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
             prefetch_cells(model, q, far)
         if far:
             prefetch_listed(model, radius, scratch.counts[wave])
-        turned = turning
-        left = turning  # in three passes: while one ball waits for a quotient, the next ones are worked on
-        while left > 0:
-            i = lowest(left)
-            left &= left - 1
-            n[ENDING + i] = _reach(model, radius, b[i], s, n, i, until)
-        left = turning
-        while left > 0:
-            i = lowest(left)
-            left &= left - 1
-            if n[ENDING + i] == RUNNING:
-                n[ENDING + i] = _reflect(model, b[i], s, n, i, limit)
-                scratch.met[met] = int(b[i].last)
-                met += 1
-        while turning > 0:
-            i = lowest(turning)
-            turning &= turning - 1
-            if n[ENDING + i] == RUNNING:
-                _set_out(model, radius, b[i], s, q, i, until)
-            else:
-                ending |= 1 << i
+        ended, met = _turn_all(model, radius, b, s, n, q, turning, until, limit, scratch.met, met)
+        ending |= ended
         while ending > 0:
             i = lowest(ending)
             ending &= ending - 1
-            how = n[ENDING + i] if (turned >> i) & 1 != 0 else ending_without(None, NO_HIT, until)
+            how = n[ENDING + i] if (turning >> i) & 1 != 0 else ending_without(None, NO_HIT, until)
             _store(radius, b[i], s, n, i, start, until, how, outcome)
             flying += _board(model, radius, b, s, n, q, i, start, order, queue, stop, until, limit, outcome) - 1
         if met >= LANES:
@@ -192,26 +175,75 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
 
 
 @kernel
+def _turn_all(model, radius, b, s, n, q, turning, until, limit, met, count):
+    """Take balls to what they meet, turn them there, and let them set out again.
+
+    Args:
+        model: the scene.
+        radius: of all balls; None for points.
+        b: movers of the wave.
+        s: its floats.
+        n: its signed integers.
+        q: its unsigned integers.
+        turning: a bit for each lane whose ball meets something.
+        until: time at which to stop.
+        limit: number of bounces at which to stop.
+        met: the features met are added behind the first ``count``.
+        count: of them.
+
+    Returns:
+        (a bit for each lane whose ball has ended, number of features met).
+    """
+    # Three passes: a ball's quotients and roots wait some twenty cycles for one another, but not for those of the
+    # next ball, so that the processor works on several balls at a time.
+    left = turning
+    while left > 0:
+        i = lowest(left)
+        left &= left - 1  # takes the lowest bit away
+        n[ENDING + i] = _reach(model, radius, b[i], s, n, i, until)
+    left = turning
+    while left > 0:
+        i = lowest(left)
+        left &= left - 1
+        if n[ENDING + i] == RUNNING:
+            n[ENDING + i] = _reflect(model, b[i], s, n, i, limit)
+            met[count] = int(b[i].last)
+            count += 1
+    left, ended = turning, turning & 0
+    while left > 0:
+        i = lowest(left)
+        left &= left - 1
+        if n[ENDING + i] == RUNNING:
+            _set_out(model, radius, b[i], s, q, i, until)
+        else:
+            ended |= 1 << i
+    return ended, count
+
+
+@kernel
 def _set_out(model, radius, ball, s, q, i, until):
     """Begin a flight: nothing met so far, in the cell where the ball is."""
     grid = model.grid
+    # The end of time is the first contact so far: later ones do not count.
     s[BEST + i] = (until - s[TIME + i]) - s[LOST + i]
     s[FEATURE + i] = NONE
     s[TOUCHED + i] = 0.0
+    # In units of the grid, with the inverses of the speeds: the walk multiplies and never divides.
     px, py, u, w = in_units(grid, ball.x, ball.y, ball.vx, ball.vy)
     per_u, per_w = per_speed(u), per_speed(w)
     s[PX + i], s[PY + i], s[U + i], s[W + i], s[PER_U + i], s[PER_W + i] = px, py, u, w, per_u, per_w
-    way = way_of(per_u, per_w)
+    octant = octant_of(per_u, per_w)
     column, row = place(grid, ball.x, ball.y)
     s[COLUMN + i], s[ROW + i] = float(column), float(row)
-    q[WAY + i] = clearings_of(grid, way)
+    q[OCTANT + i] = clearings_of(grid, octant)
     top = top_at(grid, column, row)
     q[TOP + i] = top << grid.packed
-    q[AT + i] = clearing_at(grid, q[WAY + i], top)
+    q[AT + i] = clearing_at(grid, q[OCTANT + i], top)
+    # A point well off the ends of the edge that it leaves may fly through cells that list its chain alone.
     if radius is None:
         if (grid.departs > 0) & (ball.last >= 0.0):
             if _is_off_ends(model, int(ball.last), ball.x, ball.y, APART * ball.tolerance):
-                q[AT + i] = departures_of(grid, way) + top
+                q[AT + i] = departures_of(grid, octant) + top
     q[CROSSES + i] = 1
 
 
@@ -220,6 +252,7 @@ def _is_off_ends(model, edge, x, y, off):
     """Tell whether a place on an edge is farther than that from both its ends."""
     line = model.lines[edge]
     ax, ay, bx, by = line.ax, line.ay, line.bx, line.by
+    # The sum of both coordinates is at least the distance, and needs no root.
     return (abs(x - ax) + abs(y - ay) > off) & (abs(x - bx) + abs(y - by) > off)
 
 
@@ -227,6 +260,7 @@ def _is_off_ends(model, edge, x, y, off):
 def _reach(model, radius, ball, s, n, i, until):
     """Take a ball to what it meets, as ``flight.fly`` does, and note the normal there: an ending, or RUNNING."""
     x, y, vx, vy, time, lost = ball.x, ball.y, ball.vx, ball.vy, s[TIME + i], s[LOST + i]
+    # What ``meet`` has found is final: the ball has come to the border of its cell after it.
     t, feature = s[BEST + i], int(s[FEATURE + i])
     if radius is None:
         if s[TOUCHED + i] > 0.0 and ball.last >= 0.0:
@@ -255,6 +289,7 @@ def _reflect(model, ball, s, n, i, limit):
     ball.vx, ball.vy, energy = reflect(
         model.restitution, wall, s[NX + i], s[NY + i], s[TWICE + i], ball.vx, ball.vy, ball.energy
     )
+    # Without restitution the speed is that of the start: its root need not be taken again.
     if model.restitution is not None:
         ball.energy, ball.speed = energy, math.sqrt(energy)
     n[BOUNCES + i] += 1
@@ -289,6 +324,7 @@ def _clear(b, s, q):
 @kernel
 def _count(model, met, count, hits):
     """Count bounces off features, many together, so that one does not wait for another's memory: 0 are left."""
+    # Two loops: the walls of all features are fetched before the first is counted.
     for k in range(count):
         met[k] = wall_of(model, met[k])
     for k in range(count):
@@ -306,6 +342,7 @@ def _board(model, radius, b, s, n, q, i, start, order, queue, stop, until, limit
         ball = order[upcoming]
         x, y = start.position[ball, 0] - start.origin[0], start.position[ball, 1] - start.origin[1]
         vx, vy = start.velocity[ball, 0], start.velocity[ball, 1]
+        # A ball that rests, or may not bounce, is stored at once and takes no lane.
         energy = vx * vx + vy * vy
         b[i].x, b[i].y, b[i].vx, b[i].vy, b[i].energy, b[i].speed = x, y, vx, vy, energy, math.sqrt(energy)
         b[i].tolerance, b[i].last, s[TIME + i], s[LOST + i] = tolerance_of(x, y, start.extent), NONE, 0.0, 0.0
@@ -325,6 +362,7 @@ def _store(radius, ball, s, n, i, start, until, ending, outcome):
     """Write where a ball has ended, flown on to the end time if that is why."""
     number = n[BALL + i]
     x, y, vx, vy, time = ball.x, ball.y, ball.vx, ball.vy, s[TIME + i] + s[LOST + i]
+    # BEST is the time that is left; a free flight uses it up.
     if ending == TIME_REACHED and s[BEST + i] > 0.0:
         x, y, time = x + s[BEST + i] * vx, y + s[BEST + i] * vy, until
     x, y = x + start.origin[0], y + start.origin[1]

@@ -13,7 +13,7 @@ from wallkit.kernels.intrinsics import AT_ONCE
 from wallkit.kernels.records import NO_HIT
 
 LANES = 32
-"""Balls of a wave: so few that it stays in the nearest cache, beside what it looks at, and a bit for each in 32."""
+"""Balls of a wave: so few that it stays in the L1 cache, beside what it looks at, and a bit for each in 32."""
 PER_TURN = AT_ONCE
 """So many lines, arcs and corners of its cell a ball asks in a turn at most; most cells list fewer."""
 PAIRS = 56
@@ -21,7 +21,7 @@ PAIRS = 56
 
 
 class Mover(NamedTuple):
-    """What a ball asks with, one line of the cache: fetched for each pair that it is in."""
+    """What a ball asks with, one cache line: fetched for each pair that it is in."""
 
     x: float
     y: float
@@ -54,15 +54,15 @@ found of an arc on the way to the time of impact, and that."""
 FLOATS = 23 * (LANES + PAIRS)
 INSIDE, NEITHER, OUTSIDE, EITHER, CHORD = -1.0, 0.0, 1.0, 2.0, 3.0
 """FROM where a disc may meet its arc: EITHER side stands for outside, else inside. E0 to E3, read when that is found,
-then hold e and f (see ``arcs``)."""
+then hold e and f (see ``arc_impact``)."""
 NONE = float(NO_HIT)
 (
-    NEXT, ARCS, NEXT_ARC, CORNERS, NEXT_CORNER, END, WAY, TOP, AT, CLEARING, CROSSES, ASKING,
+    NEXT, ARCS, NEXT_ARC, CORNERS, NEXT_CORNER, END, OCTANT, TOP, AT, CLEARING, CROSSES, ASKING,
 ) = (LANES * number for number in range(12))  # fmt: skip
 COUNTS = 12 * LANES
 """By ball: NEXT is the place in ``Model.ids`` of the next line that it asks, before that in ARCS; so for arcs, from
-NEXT_ARC to CORNERS, and for corners, from NEXT_CORNER to END. WAY is where the clearings of its way begin, TOP its
-cell, AT where in ``Model.clearings`` it looks; what stands there is the CLEARING. Whether a ball CROSSES is 1 or 0;
+NEXT_ARC to CORNERS, and for corners, from NEXT_CORNER to END. OCTANT is where the clearings of its octant begin, TOP
+its cell, AT where in ``Model.clearings`` it looks; what stands there is the CLEARING. Whether a ball CROSSES is 1 or 0;
 ASKING holds the bits of those that have not asked all that their cell lists."""
 ROOM = PER_TURN * LANES + AT_ONCE
 LINE_IDS, LINE_MOVERS, ARC_IDS, ARC_MOVERS, CORNER_IDS, CORNER_MOVERS = (ROOM * number for number in range(6))

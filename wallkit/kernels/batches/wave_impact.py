@@ -1,8 +1,8 @@
 """Time of impact for a whole wave of balls: all pairs of a ball and a line, an arc or a corner that it asks.
 
-There are no branches, so that vector instructions do the work. The formulas are those of ``impact`` and ``arcs``, term
-by term: the same bits come out. Pairs are worked on many at a time; the last ones are made up to as many with pairs
-whose result is dropped, which may divide by zero: so these passes are for compiled kernels alone.
+There are no branches, so that vector instructions do the work. The formulas are those of ``line_impact`` and
+``arc_impact``, term by term: the same bits come out. Pairs are worked on many at a time; the last ones are made up to
+as many with pairs whose result is dropped, which may divide by zero: so these passes are for compiled kernels alone.
 """
 
 from __future__ import annotations
@@ -76,6 +76,7 @@ def meet(model, radius, movers, s, q, pairs):
     """Let every ball ask what its cell lists, as much as a turn allows."""
     lines, arcs, corners = pair_all(model, radius, q, pairs)
     for first in range(0, lines, PAIRS):
+        # Whole vectors: the last one is made up with other pairs, whose bits are not among the `real` ones.
         padded, real = _part(lines - first)
         for i in range(0, padded, AT_ONCE):
             fetch(movers, pairs, LINE_MOVERS + first + i, s, WHO + i, PAIRS)
@@ -106,12 +107,13 @@ def _part(left):
 
 @kernel
 def _keep(s, pairs, first, met):
-    """Let balls keep the soonest of the contacts found: at equal times as ``impact.precedes`` says."""
+    """Let balls keep the soonest of the contacts found: at equal times as ``line_impact.precedes`` says."""
     while met > 0:
         j = lowest(met)
         met &= met - 1
         i = pairs[first + j]
         t, number, best, feature = s[T + j], s[ID + j], s[BEST + i], s[FEATURE + i]
+        # ``precedes`` without branches: edges by number, then corners, which are -2 - j.
         edge_first = (number >= 0.0) & ((feature < 0.0) | (number < feature))
         corner_first = (feature < NONE) & (number < 0.0) & (number > feature)
         sooner = (t < best) | ((t == best) & (feature != NONE) & (edge_first | corner_first))
@@ -122,6 +124,7 @@ def _keep(s, pairs, first, met):
 @kernel
 def _touch(s, pairs, first, near):
     """Note which points are within rounding of a line."""
+    # Seldom: a loop over the bits that are set costs less than a pass.
     while near > 0:
         s[TOUCHED + pairs[first + lowest(near)]] = 1.0
         near &= near - 1
@@ -148,6 +151,7 @@ def _meet_arcs(model, arcs, radius, movers, s, pairs, listed):
 @rare_kernel
 def _ask_again(model, arcs, radius, movers, s, pairs, k):
     """Let a ball ask its arc alone, with all that its pass leaves out as it is seldom so."""
+    # The scalar kernel, for one pair: it does what the pass has no room for, with the same bits.
     i = pairs[ARC_MOVERS + k]
     mover, at = movers[i], ARC_IDS + k
     last, feature = int(mover.last), int(s[FEATURE + i])
@@ -167,13 +171,14 @@ def _ask_again(model, arcs, radius, movers, s, pairs, k):
 
 @kernel
 def _meet_lines_point(s, padded):
-    """Let every point ask its line, as ``impact.scan_point`` does: who meets it, and who touches it."""
+    """Let every point ask its line, as ``line_impact.scan_point`` does: who meets it, and who touches it."""
     meeting, touching = 0, 0
     for i in range(padded):
         x, y, vx, vy = s[X + i], s[Y + i], s[VX + i], s[VY + i]
         tolerance, number = s[TOLERANCE + i], s[ID + i]
         nx, ny, length = s[E4 + i], s[E5 + i], s[E6 + i]
         ex, ey = s[E0 + i] - x, s[E1 + i] - y
+        # e from the point to a: d = (p - a).n = -e.n, and the foot u = e x n, as in ``scan_point``.
         d = -(ex * nx + ey * ny)
         u = ex * ny - ey * nx
         asked = s[LAST + i] != number
@@ -183,6 +188,7 @@ def _meet_lines_point(s, padded):
         above = d > 0.0
         closing = vx * nx + vy * ny
         closing = -closing if above else closing
+        # All but parallel: the difference of the crosses over the length stands in for v.n.
         closing = closing if closing > 0.0 else abs(cross_b - cross_a) / length
         rises = cross_a < 0.0
         met = asked & (not near) & (rises != (cross_b < 0.0)) & (rises == above)
@@ -194,7 +200,7 @@ def _meet_lines_point(s, padded):
 
 @kernel
 def _meet_lines_disc(s, radius, padded):
-    """Let every disc ask its line, as ``impact.scan_disc`` does: the bits of those that meet it."""
+    """Let every disc ask its line, as ``line_impact.scan_disc`` does: the bits of those that meet it."""
     meeting = 0
     for i in range(padded):
         vx, vy, nx, ny = s[VX + i], s[VY + i], s[E4 + i], s[E5 + i]
@@ -205,6 +211,7 @@ def _meet_lines_disc(s, radius, padded):
         below = d < 0.0
         d = -d if below else d
         closing = -closing if below else closing
+        # d + t v.n = r on the side of the ball, an overlap at once, and the foot at that time.
         t = (d - radius) / closing
         t = 0.0 if t < 0.0 else t
         u = ey * nx - ex * ny + t * (vy * nx - vx * ny)
@@ -216,13 +223,14 @@ def _meet_lines_disc(s, radius, padded):
 
 @kernel
 def _meet_corners(s, radius, padded):
-    """Let every disc ask its corner, as ``impact.scan_corners`` does: the bits of those that meet it."""
+    """Let every disc ask its corner, as ``line_impact.scan_corners`` does: the bits of those that meet it."""
     square, meeting = radius * radius, 0
     for i in range(padded):
         vx, vy, energy, number = s[VX + i], s[VY + i], s[ENERGY + i], -2.0 - s[ID + i]
         ex, ey = s[X + i] - s[E0 + i], s[Y + i] - s[E1 + i]
         along = ex * vx + ey * vy
         cross = ex * vy - ey * vx
+        # r^2 less the squared distance at which the path passes; t = c / (root - e.v), as in ``scan_corners``.
         discriminant = square - cross * cross * (1.0 / energy)
         c = ex * ex + ey * ey - square
         t = c / (math.sqrt(energy * (discriminant if discriminant > 0.0 else 0.0)) - along)
@@ -234,7 +242,7 @@ def _meet_corners(s, radius, padded):
 
 @kernel
 def _meet_arcs_point(s, padded):
-    """Let every point ask its arc, as ``arcs.scan_arcs_point`` does.
+    """Let every point ask its arc, as ``arc_impact.scan_arcs_point`` does.
 
     In two passes, so that the processor works on several vectors at once while roots and quotients take long.
 
@@ -246,6 +254,7 @@ def _meet_arcs_point(s, padded):
     for i in range(padded):
         energy, along, power, square, cut = s[ENERGY + i], s[ALONG + i], s[POWER + i], s[SQUARE + i], s[FROM + i]
         root = math.sqrt(square if square > 0.0 else 0.0)
+        # Numerator and denominator are selected, so that one quotient serves every form of the root.
         above, below = (root - along, energy) if along <= 0.0 else (-power, along + root)
         above, below = (-2.0 * along, energy) if cut == CHORD else (above, below)
         above, below = (power, root - along) if cut == OUTSIDE else (above, below)
@@ -273,6 +282,7 @@ def _find_cuts(s, padded):
         a_right = wy * vx - wx * vy >= 0.0
         b_right = (s[E2 + i] - x) * vy - (s[E3 + i] - y) * vx >= 0.0
         cross = abs(ex * vy - ey * vx)
+        # The middle of the cap beyond the line: a quarter turn from v, on the side where a and b are not.
         far_x, far_y = -vy if a_right else vy, vx if a_right else -vx
         both = (cross * cross < radius * radius * (vx * vx + vy * vy)) & spans(
             sx, sy, fx, fy, radius, wide, far_x, far_y, 0.0
@@ -284,6 +294,7 @@ def _find_cuts(s, padded):
         chord = on & (s[ENERGY + i] * abs(power) > WELL_KNOWN * along * along)
         cut = OUTSIDE if enters & (not inside) else (CHORD if chord else INSIDE)
         s[FROM + i] = cut if meets else NEITHER
+        # Half the chord times |v|, squared: (R |v|)^2 - (e x v)^2, or (e.v)^2 - v^2 power where that does not cancel.
         square = (radius * speed - cross) * (radius * speed + cross)
         part = s[ENERGY + i] * power
         square = along * along - part if along * along - part > part else square
@@ -293,7 +304,7 @@ def _find_cuts(s, padded):
 
 @kernel
 def _meet_arcs_disc(s, disc, padded):
-    """Let every disc ask its arc, as ``arcs.scan_arcs_disc`` does, but from one side only.
+    """Let every disc ask its arc, as ``arc_impact.scan_arcs_disc`` does, but from one side only.
 
     In three short passes, so that the processor works on several vectors at once while roots and quotients take long.
 
@@ -323,6 +334,7 @@ def _take_sides(s, disc, padded):
         power = wx * (wx + 2.0 * sx) + wy * (wy + 2.0 * sy)
         along = ex * vx + ey * vy
         cross = abs(ex * vy - ey * vx)
+        # From inside the centre meets the circle of R - r.
         inner = radius - disc
         slack = slack_of(s[TOLERANCE + i], disc)
         off = hidden_by_rounding(slack, radius)
@@ -335,6 +347,7 @@ def _take_sides(s, disc, padded):
         outside = (power >= 0.0) & (not ahead)
         farthest = inner + off
         enters = (inner > 0.0) & ((farthest * speed >= cross) | (s[LAST + i] == s[ID + i])) & (not behind)
+        # (R +- r)^2 = R^2 +- r (2 R +- r): c is e.e less that, from the power.
         reach = radius + disc if outside else inner
         farthest = reach if outside else farthest
         square = (reach * speed - cross) * (reach * speed + cross)
@@ -365,6 +378,7 @@ def _find_times(s, disc, padded):
         overlaps = (c <= 0.0) if outside else (c >= 0.0) & (along > 0.0)
         is_last = s[LAST + i] == s[ID + i]
         chord = (not outside) & is_last & (energy * abs(c) > WELL_KNOWN * along * along)
+        # Inside the larger root, outside the smaller one, and from the arc itself the whole chord, in one quotient.
         above, below = (root - along, energy) if along <= 0.0 else (-c if square > 0.0 else 0.0, along + root)
         above, below = (-2.0 * along, energy) if chord else (above, below)
         above, below = (c, root - along) if outside else (above, below)
@@ -388,6 +402,7 @@ def _find_places(s, disc, padded):
         mould = is_mould(s[E6 + i], disc)
         meets = (t >= 0.0) & lies_there & (s[FROM + i] != NEITHER) & (not mould)
         aside = aside_of(slack, s[E6 + i])
+        # |s x e| and |e x f| are R times how far the place is from the rays through both ends.
         beside = min(abs(s[E4 + i] * y - s[E5 + i] * x), abs(x * s[E3 + i] - y * s[E2 + i])) <= aside * s[E6 + i]
         unclear = (s[FROM + i] == EITHER) | ((t >= 0.0) & beside) | mould
         again |= int((s[FROM + i] != NEITHER) & unclear & (not meets)) << i

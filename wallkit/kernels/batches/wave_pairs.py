@@ -38,6 +38,7 @@ def pair_all(model, radius, q, pairs):
     while asking > 0:
         i = lowest(asking)
         asking &= asking - 1
+        # A cell's ids follow one another, lines, arcs, corners: each kind has its own list of pairs.
         to = LINE_IDS + lines, LINE_MOVERS + lines
         taken, left = _take(model.ids, model.lines, mixed, q, NEXT + i, ARCS + i, i, pairs, to)
         lines += taken
@@ -71,6 +72,7 @@ def _take(ids, records, seldom, q, at, end, i, pairs, to):
     left: Any = np.int64(q[end]) - first
     if seldom and left == 0:
         return 0, 0
+    # Eight at once, written behind those that are there; the next ball writes over what is too much.
     pair_up(ids, first, i, pairs, to[0], to[1])
     taken = min(left, PER_TURN)
     q[at] = first + taken

@@ -23,6 +23,7 @@ from wallkit.kernels.batches.wave_columns import (
     NEXT_ARC,
     NEXT_CORNER,
     NONE,
+    OCTANT,
     PER_U,
     PER_W,
     PX,
@@ -30,7 +31,6 @@ from wallkit.kernels.batches.wave_columns import (
     ROW,
     TOP,
     TOUCHED,
-    WAY,
     U,
     W,
 )
@@ -58,6 +58,7 @@ def decide(s, q, grid):
     for i in range(LANES):
         px, py, u, w, per_u, per_w = s[PX + i], s[PY + i], s[U + i], s[W + i], s[PER_U + i], s[PER_W + i]
         border_x, border_y = s[BORDER_X + i], s[BORDER_Y + i]
+        # Times to both borders; it leaves by the first, and the other coordinate is that of p + t v, kept in the grid.
         exit_x, exit_y = (border_x - px) * per_u, (border_y - py) * per_w
         sideways = exit_x < exit_y
         time = exit_x if sideways else exit_y
@@ -72,14 +73,16 @@ def decide(s, q, grid):
         x = (border_x if per_u > 0.0 else border_x - 1.0) if sideways else there_x
         y = there_y if sideways else (border_y if per_w > 0.0 else border_y - 1.0)
         outside = (x < 0.0) | (x >= columns) | (y < 0.0) | (y >= rows)
+        # A contact before the border is final, and beyond the grid there is nothing more to find.
         turns = outside | (s[BEST + i] <= time)
         goes = (s[FLIES + i] == 1.0) & ((asking >> i) & 1 == 0)
         column, row = int(0.0 if outside else x), int(0.0 if outside else y)
         s[COLUMN + i], s[ROW + i] = float(column), float(row)
         top = top_at(grid, column, row)
         q[TOP + i] = top << grid.packed
-        q[AT + i] = clearing_at(grid, q[WAY + i], top)
+        q[AT + i] = clearing_at(grid, q[OCTANT + i], top)
         q[CROSSES + i] = int(goes & (not turns))
+        # Nothing met and nothing touched: its flight ends free.
         free = (s[FEATURE + i] == NONE) & (s[TOUCHED + i] == 0.0)
         turning |= int(goes & turns & (not free)) << i
         ending |= int(goes & turns & free) << i
@@ -97,6 +100,7 @@ def _cross_clearings(model, s, q):
     entering, size, per_size = 0, float(1 << model.grid.shift), 1.0 / (1 << model.grid.shift)
     for i in range(LANES):
         clear, crosses = q[CLEARING + i], q[CROSSES + i]
+        # 0 in place of a clearing is a cell that lists something: who crosses (1 > 0) enters it.
         entering |= int(crosses > clear) << i
         clear = clear if clear > 0 else ONE_BY_ONE
         wide, high = size * float(clear & WIDEST), size * float(clear >> HALF)
@@ -124,6 +128,7 @@ def _enter_part(model, s, q, i):
     cell, shift = leaf(model.cells, model.grid, column, row)
     _open(model.cells, q, i, cell)
     far = moves_to_next(model.cells[cell]) << shift
+    # The empty square is as wide to the left: from the cell's right border, or its upper one, back by `far`.
     near = (1 << shift) - far
     column, row = (column >> shift) << shift, (row >> shift) << shift
     s[BORDER_X + i] = float(column + (far if s[PER_U + i] > 0.0 else near))
@@ -148,13 +153,14 @@ def cross(model, s, q, far):
         entering &= entering - 1
         _enter(model, s, q, i)
         if far:
+            # The ids that the next turn pairs up.
             prefetch_far(model.ids, q[NEXT + i])
             prefetch_far(model.ids, q[NEXT + i] + (AT_ONCE - 1))  # so many are read at once, often from two lines
 
 
 @kernel
 def prefetch_cells(model, q, far):
-    """Ask memory for what balls need when they cross: it comes while others turn."""
+    """Prefetch what balls need when they cross, while others turn."""
     for i in range(LANES):
         _prefetch_one(model.clearings, q[AT + i], far)
     if model.grid.packed == 0:
@@ -172,7 +178,7 @@ def _prefetch_one(records, place, far):
 
 @kernel
 def prefetch_listed(model, radius, q):
-    """Ask memory for all that the cells list which balls of another wave have entered."""
+    """Prefetch the records that are listed in the cells which the balls of another wave have entered."""
     asking = int(q[ASKING])
     while asking > 0:
         i = lowest(asking)

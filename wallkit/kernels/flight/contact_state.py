@@ -37,6 +37,7 @@ def stretch(model, gravity, radius, held, side, last, x, y, vx, vy, start_of, to
     rho, away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
     gx, gy = gravity[0], gravity[1]
     tx, ty, speed = ahead_of(rho, away, nx, ny, vx, vy, gx, gy)
+    # e goes from the middle of the guide's circle to the centre, on whichever side of the wall the ball is.
     ex, ey = away * nx, away * ny
     way, event = _own_events(model, held, radius, rho, away, ex, ey, tx, ty, gx, gy, x, y, speed)
     way, event = _met(
@@ -70,6 +71,7 @@ def reach(model, gravity, radius, held, side, last, x, y, way, start_of, toleran
 def _straight(tx, ty, gx, gy, x, y, speed, way, event, span):
     """Go ``way`` in the direction t at v + a t, or as far as in the time ``span``: see ``stretch``."""
     pull = gx * tx + gy * ty
+    # v'^2 = v^2 + 2 a s, and the time is 2 s / (v + v'): no difference, whatever the pull.
     square = max(speed * speed + 2.0 * pull * way, 0.0)
     then = 0.0 if event == TURNS else math.sqrt(square) if way < NEVER else speed
     time = NEVER if way == NEVER or speed + then == 0.0 else 2.0 * way / (speed + then)
@@ -87,6 +89,7 @@ def _round(rho, ex, ey, tx, ty, gx, gy, x, y, speed, way, event, span):
     """Turn by ``way`` = tan(phi / 2) about the centre of a circle, or as far as in the time ``span``."""
     square = speed * speed
     fx, fy, ux, uy = turned(ex, ey, tx, ty, way)
+    # Energy gives the speed; where the ball turns it is 0, exactly.
     then = 0.0 if event == TURNS else speed_at(rho, gx, gy, ex, ey, tx, ty, square, way)
     time = swing_time(rho, gx, gy, ex, ey, fx, fy, way, speed, then)
     if time > span:
@@ -104,6 +107,7 @@ def _own_events(model, held, radius, rho, away, ex, ey, tx, ty, gx, gy, x, y, sp
     if rho == STRAIGHT:
         way, event = NEVER, GOES_ON
         if pull < 0.0:
+            # v^2 + 2 (g.t) s = 0.
             way, event = square / (-2.0 * pull), TURNS
         return _to_end(model, model.arcs, held, radius, rho, away, ex, ey, tx, ty, x, y, way, event)
     way, event = to_quarter(ex, ey, tx, ty, gx, gy), GOES_ON
@@ -140,6 +144,7 @@ def _to_end(model, arcs, held, radius, rho, away, ex, ey, tx, ty, x, y, way, eve
     if rho != STRAIGHT:
         left = _left_on_arc(arcs, held, x - away * radius * ex, y - away * radius * ey, ex, ey, tx, ty)
     else:
+        # Place along the edge, tau = (-ny, nx); onwards where t.tau > 0.
         u = (y - line.ay) * line.nx - (x - line.ax) * line.ny
         onwards = ty * line.nx - tx * line.ny > 0.0
         left = max(line.length - u if onwards else u, 0.0)
@@ -198,6 +203,7 @@ def _border(model, grid, rho, ex, ey, tx, ty, x, y):
     moves = moves_to_next(model.cells[c])
     left, right = around(moves, shift, column, columns)
     low, high = around(moves, shift, row, rows)
+    # A hair beyond the border, so that the next stretch begins in the next cell and not on the border again.
     over = OVER * grid.unit * (1 << shift)
     way = NEVER
     if left > 0:

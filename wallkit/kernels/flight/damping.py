@@ -26,7 +26,9 @@ HALVINGS = 50.0 * math.log(2.0)
 def stopping(damping, energy):
     """Time after which a ball of squared speed ``energy`` stops, and the free time of that."""
     if damping[1] > 0.0:
+        # Drag never stops it quite: after 50 halvings of the speed the way that is left is below rounding.
         return HALVINGS / damping[1], (1.0 - AS_GOOD_AS_NONE) / damping[1]
+    # u - a T = 0; the way u^2 / 2 a takes half that time at the speed u.
     stop = math.sqrt(energy) / damping[0]
     return stop, 0.5 * stop
 
@@ -40,7 +42,9 @@ def free_time(damping, energy, span):
     if span >= stop:
         return whole
     if damping[1] > 0.0:
+        # The way in T is u (1 - e^(-c T)) / c.
         return min(-math.expm1(-damping[1] * span) / damping[1], whole)
+    # The way in T is u T - a T^2 / 2 = u T (1 - T / 2 stop).
     return span * (1.0 - 0.5 * (span / stop))
 
 
@@ -50,9 +54,11 @@ def slowed(damping, energy, t, most):
     if damping is None:
         return t, 1.0
     if damping[1] > 0.0:
+        # c t = 1 - e^(-c T), so T = -ln(1 - c t) / c, and e^(-c T) = 1 - c t of the speed is left.
         part = damping[1] * t
         return min(-math.log1p(-part) / damping[1], most), 1.0 - part
     stop, _whole = stopping(damping, energy)
+    # u'^2 = u^2 - 2 a u t, and the way u t at the mean speed (u + u') / 2 takes 2 t / (1 + k), k = u' / u.
     kept = math.sqrt(1.0 - 2.0 * t / stop)
     return min(2.0 * t / (1.0 + kept), most), kept
 

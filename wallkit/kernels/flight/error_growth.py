@@ -31,10 +31,13 @@ def derivative(
     """
     across = vx * nx + vy * ny
     tx, ty = -nx / across, -ny / across  # dt/dx
+    # A neighbour dx ahead touches earlier by (n.dx) / (v.n): S = 1 + v dt/dx takes its place to the wall.
     s11, s12, s21, s22 = 1 + vx * tx, vx * ty, vy * tx, 1 + vy * ty
     wx, wy = vx - ux, vy - uy
+    # v' = M v, M = T - (T + R) n n^T; along the wall n turns by the curvature k, and v' with it.
     both = keep[0] + keep[1]
     m11, m12, m22 = keep[0] - both * nx * nx, -both * nx * ny, keep[0] - both * ny * ny
+    # For the time by which it touches later, gravity acts before the bounce instead of after it: M g - h.
     jx, jy = m11 * g[0] + m12 * g[1] - h[0], m12 * g[0] + m22 * g[1] - h[1]
     rx, ry = vx * s11 + vy * s21, vx * s12 + vy * s22
     k = both * bend
@@ -110,6 +113,7 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, fresh: Any, va
     for i in range(len(path)):
         t = path[i, 0] - now
         now = path[i, 0]
+        # Free flight for t takes dx to dx + t dv: Var x + t (C + C^T) + t^2 Var v, and C + t Var v.
         both = _plus(xv, (xv[0], xv[2], xv[1], xv[3]))
         xx = _plus(
             xx,
@@ -128,9 +132,10 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, fresh: Any, va
             break  # not a bounce that a neighbour shares: it began in contact
         S, A, B, M = contact(vx, vy, path, bend, keep, pull, i)
         place = _times_turned(_times(S, xx), S)
-        variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]
+        variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]  # the trace of S Var(x) S^T, and rounding
         if not variance[i] < 1e300:
             break
+        # dx' = A dx and dv' = B dx + M dv.
         back = (xv[0], xv[2], xv[1], xv[3])
         turned = _plus(_times(B, xx), _times(M, back))
         vv = _plus(_times_turned(turned, B), _times_turned(_plus(_times(B, xv), _times(M, vv)), M))
@@ -169,6 +174,7 @@ def stretch(start: Any, path: Any, bend: Any, keep: Any, pull: Any, error: Any, 
             A[0] * x + A[1] * y,
             A[2] * x + A[3] * y,
         )
+        # Scaled back to 1 at each bounce, as Benettin et al. (1980) do for Lyapunov exponents.
         size = math.sqrt(x * x + y * y + vx_ * vx_ + vy_ * vy_)
         logs[i] = math.log(size)
         x, y, vx_, vy_ = x / size, y / size, vx_ / size, vy_ / size

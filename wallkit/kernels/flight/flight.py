@@ -19,16 +19,20 @@ from wallkit.kernels.records import (
     BOUNCE_LIMIT,
     COLLAPSE,
     COLLAPSES,
+    COUNT,
     EDGE,
     JOINING,
     LEAVING,
     LEFT_SCENE,
+    LOG,
+    LOG_STRIDE,
     NO_HIT,
     NO_ROW,
     PASSING,
     RUNNING,
     SLIDING,
     STARTING,
+    STATE,
     TIME_REACHED,
     VERTEX,
     WEDGED,
@@ -40,8 +44,8 @@ TOLERANCE = 2.0**-47
 FALLING_TOLERANCE = 2.0**-41
 """The same under gravity: |v| t and g t^2 / 2 come to eight times the extent each before they cancel (up and down
 again in a room), and times are roots of polynomials: eight times eight as much."""
-HELD = (JOINING, PASSING, SLIDING, LEAVING, STARTING)
-"""How a ball is held that a wall, not a flight, moves on: see ``hold.keep``."""
+HOLDS = (JOINING, PASSING, SLIDING, LEAVING, STARTING)
+"""How a ball is held that a wall, not a flight, moves on: see ``resting.keep``."""
 
 
 @kernel
@@ -63,106 +67,226 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
     Returns:
         Number of contacts in the log. The flight goes on from here if ``counts`` says RUNNING.
     """
-    x, y, vx, vy, time, lost, energy = state[0], state[1], state[2], state[3], state[4], state[5], state[6]
-    from_x, from_y, from_vx, from_vy = state[7], state[8], state[9], state[10]
-    tolerance = state[11]
-    last, bounces, still, held, hold, side = counts[0], counts[1], counts[3], counts[4], counts[5], float(counts[6])
-    turns, changes, before = counts[7], counts[8], counts[9]
-    ending = RUNNING
-    noted = 0
+    # Here a ball is (x, y, vx, vy, energy), a clock (time, what it lost), a start (x, y, vx, vy) of the last flight,
+    # and a grip (held, hold, side, turns, changes) how a wall holds the ball, see ``Counts``.
+    ball, clock, start, grip, last, bounces, still, before = read_state(state, counts)
+    tolerance, noted, ending = state[STATE.tolerance], 0, RUNNING
     while ending == RUNNING and noted < capacity:
-        ending = ending_at_once(gravity, energy, bounces, limit)
+        ending = ending_at_once(gravity, ball[4], bounces, limit)
         if ending != RUNNING:
             break
-        remaining = (until - time) - lost
-        if gravity is not None and hold in HELD:
-            keeps = hold in (SLIDING, LEAVING)
-            x, y, vx, vy, t, energy, last, held, hold, side, turns, changes, kind, feature, ending = keep(
-                model, gravity, radius, x, y, vx, vy, energy, last, held, hold, side, turns, changes,
-                (from_x, from_y, from_vx, from_vy), tolerance, remaining,
-            )  # fmt: skip
-            time, lost = (until, 0.0) if ending == TIME_REACHED else advance(time, lost, t)
-            if kind != NO_ROW:
-                nx, ny = normal_from(model, gravity, radius, held, side, x, y)
-                noted = note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, held, kind)
-            if keeps:
-                from_x, from_y = x, y  # it came back along the wall, on its side of that
-                from_vx, from_vy = lifted(model, gravity, radius, held, hold, side, x, y, -vx, -vy)
+        remaining = (until - clock[0]) - clock[1]
+        if gravity is not None and grip[1] in HOLDS:
+            ball, clock, start, grip, last, t, feature, ending, noted = kept_to_wall(
+                model, gravity, radius, ball, clock, start, grip, last, tolerance, remaining, until, log, noted
+            )
             if feature == NO_HIT:
                 continue
             passed = t
         else:
-            best = free_time(model.damping, energy, remaining)  # in which t is: as if nothing slowed the ball down
-            t, feature, touched = first_contact(
-                model, gravity, radius, x, y, vx, vy, energy, last, held, hold, side, tolerance, best
-            )
-            if touched > 0 and last >= 0:
-                met = settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still)
-                if met != NO_HIT:
-                    t, feature = 0.0, met
+            t, feature = contact_ahead(model, gravity, radius, ball, start, grip, last, still, tolerance, remaining)
             if feature in (NO_HIT, AMBIGUOUS) or (feature == COLLAPSES and (gravity is None or before == NO_HIT)):
                 ending = ending_without(model.damping, feature, until)
                 break
-            passed, kept = slowed(model.damping, energy, t, remaining)
-            if gravity is None:  # a collapse is where the last bounce was
-                still = 0 if passes(time, passed, t, vx, vy, tolerance) else still + 1
+            passed, slower = slowed(model.damping, ball[4], t, remaining)
+            if gravity is None:  # a collapse is where the last bounce was: the ball has not moved there yet
+                still = still_now(model.restitution, feature, still, clock, passed, t, ball, tolerance)
                 if still > still_limit(model.restitution):
                     ending = COLLAPSE
                     break
             if t > 0.0:
-                from_x, from_y = x, y
-                from_vx, from_vy = lifted(model, gravity, radius, held, hold, side, x, y, vx, vy)
-                x, y, vx, vy = move(gravity, x, y, vx, vy, t)
-                vx, vy, energy = kept * vx, kept * vy, kept * kept * energy
-                time, lost = advance(time, lost, passed)
+                ball, clock, start = flown(model, gravity, radius, ball, clock, grip, t, passed, slower)
         if gravity is not None:
-            still = 0 if passes(time, passed, t, vx, vy, tolerance) else still + 1
-            if feature == COLLAPSES:
-                still += still_limit(model.restitution)
+            still = still_now(model.restitution, feature, still, clock, passed, t, ball, tolerance)
             if still > still_limit(model.restitution):
-                ending = COLLAPSE
-                if model.restitution is not None:
-                    vx, vy, still = 0.0, 0.0, 0
-                    held, hold, side, ending = stopped_between(
-                        model, gravity, radius, last, side, before, x, y, (from_x, from_y, from_vx, from_vy), tolerance
-                    )
-                    energy = kept_energy(gravity, x, y, 0.0, 0.0)
+                ball, grip, still, ending = caught(model, gravity, radius, ball, start, grip, last, before, tolerance)
                 continue
-        nx, ny, twice, wall = normal_of(model, feature, x, y)
-        nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny)
-        vx, vy, energy = bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy)
-        before, last = (before if feature == last else last), feature
-        bounces += 1
-        turns, changes = 0, 0
+        ball, nx, ny, wall = turned(model, gravity, radius, feature, ball)
+        before, last, bounces = (before if feature == last else last), feature, bounces + 1
         hits[wall] += 1
-        noted = note(log, noted, time + lost, x, y, vx, vy, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
-        if absorbs(model.restitution, wall):
-            ending = ABSORBED
-        if gravity is not None:
-            held, hold, side = held_after(
-                model, gravity, radius, feature, held, hold, side, x, y, vx, vy, nx, ny, tolerance
-            )
-            if hold == WEDGED:
-                ending, vx, vy = AT_REST, 0.0, 0.0
-    if ending == TIME_REACHED and (until - time) - lost > 0.0:
-        from_x, from_y, from_vx, from_vy = x, y, vx, vy
-        t, kept, time, lost = last_flight(model.damping, energy, time, lost, until)
-        x, y, vx, vy = move(gravity, x, y, vx, vy, t)
-        vx, vy, energy = kept * vx, kept * vy, kept * kept * energy
-        if kept == 0.0:
-            ending, vx, vy = AT_REST, 0.0, 0.0
-    state[0], state[1], state[2], state[3], state[4], state[5], state[6] = x, y, vx, vy, time, lost, energy
-    state[7], state[8], state[9], state[10] = from_x, from_y, from_vx, from_vy
-    counts[0], counts[1], counts[2], counts[3], counts[4], counts[5] = last, bounces, ending, still, held, hold
-    counts[6], counts[7], counts[8], counts[9] = int(side), turns, changes, before
+        noted = note(log, noted, clock, ball, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
+        ball, grip, ending = after_bounce(model, gravity, radius, feature, wall, ball, grip, nx, ny, tolerance)
+    ball, clock, start, ending = flown_on(model, gravity, ball, clock, start, ending, until)
+    write_state(state, counts, ball, clock, start, grip, last, bounces, ending, still, before)
     return noted
 
 
 @kernel
-def normal_from(model, gravity, radius, held, side, x, y):
-    """Unit normal, towards the ball, of what holds it."""
-    _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
-    return nx, ny
+def read_state(state, counts):
+    """Read what ``fly`` needs: ball, clock, start, grip, then last, bounces, still and before of ``Counts``."""
+    ball = (state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy], state[STATE.energy])
+    start = (state[STATE.from_x], state[STATE.from_y], state[STATE.from_vx], state[STATE.from_vy])
+    grip = (
+        counts[COUNT.held],
+        counts[COUNT.hold],
+        float(counts[COUNT.side]),
+        counts[COUNT.turns],
+        counts[COUNT.changes],
+    )
+    clock = (state[STATE.time], state[STATE.lost])
+    return (
+        ball,
+        clock,
+        start,
+        grip,
+        counts[COUNT.last],
+        counts[COUNT.bounces],
+        counts[COUNT.still],
+        counts[COUNT.before],
+    )
+
+
+@kernel
+def write_state(state, counts, ball, clock, start, grip, last, bounces, ending, still, before):
+    """Write it back, so that the flight can go on later."""
+    state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy], state[STATE.energy] = ball
+    state[STATE.time], state[STATE.lost] = clock
+    state[STATE.from_x], state[STATE.from_y], state[STATE.from_vx], state[STATE.from_vy] = start
+    counts[COUNT.last], counts[COUNT.bounces], counts[COUNT.ending], counts[COUNT.still], counts[COUNT.before] = (
+        last,
+        bounces,
+        ending,
+        still,
+        before,
+    )
+    counts[COUNT.held], counts[COUNT.hold], counts[COUNT.turns], counts[COUNT.changes] = (
+        grip[0],
+        grip[1],
+        grip[3],
+        grip[4],
+    )
+    counts[COUNT.side] = int(grip[2])
+
+
+@kernel
+def kept_to_wall(model, gravity, radius, ball, clock, start, grip, last, tolerance, remaining, until, log, noted):
+    """Let a ball go on that a wall holds, see ``keep``, and note what happens.
+
+    Returns:
+        (ball, clock, start, grip, last, time that it took, feature off which it bounces or NO_HIT, ending or RUNNING,
+        row of the log for the next contact).
+    """
+    x, y, vx, vy, energy = ball
+    held, hold, side, turns, changes = grip
+    # Whether it keeps to the wall now; one that only joins or leaves it has its flight's start to remember.
+    keeps = hold in (SLIDING, LEAVING)
+    x, y, vx, vy, t, energy, last, held, hold, side, turns, changes, kind, feature, ending = keep(
+        model,
+        gravity,
+        radius,
+        x,
+        y,
+        vx,
+        vy,
+        energy,
+        last,
+        held,
+        hold,
+        side,
+        turns,
+        changes,
+        start,
+        tolerance,
+        remaining,
+    )
+    ball, grip = (x, y, vx, vy, energy), (held, hold, side, turns, changes)
+    clock = (until, 0.0) if ending == TIME_REACHED else advance(clock[0], clock[1], t)
+    if kind != NO_ROW:
+        _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+        noted = note(log, noted, clock, ball, nx, ny, radius, held, kind)
+    if keeps:  # it came back along the wall, on its side of that
+        from_vx, from_vy = lifted(model, gravity, radius, held, hold, side, x, y, -vx, -vy)
+        start = (x, y, from_vx, from_vy)
+    return ball, clock, start, grip, last, t, feature, ending, noted
+
+
+@kernel
+def contact_ahead(model, gravity, radius, ball, start, grip, last, still, tolerance, remaining):
+    """Find what ends a flight: (free time until then, feature); a point in a corner may get out of it at once."""
+    x, y, vx, vy, energy = ball
+    best = free_time(model.damping, energy, remaining)  # in which t is: as if nothing slowed the ball down
+    t, feature, touched = first_contact(
+        model, gravity, radius, x, y, vx, vy, energy, last, grip[0], grip[1], grip[2], tolerance, best
+    )
+    if touched > 0 and last >= 0:
+        # Within rounding of another edge a point has no side of it; where it came from tells.
+        met = settle(model, last, x, y, vx, vy, start[0], start[1], start[2], start[3], tolerance, still)
+        if met != NO_HIT:
+            t, feature = 0.0, met
+    return t, feature
+
+
+@kernel
+def flown(model, gravity, radius, ball, clock, grip, t, passed, slower):
+    """Take a ball along its flight for the free time t, which takes ``passed``: (ball, clock, start)."""
+    x, y, vx, vy, energy = ball
+    from_vx, from_vy = lifted(model, gravity, radius, grip[0], grip[1], grip[2], x, y, vx, vy)
+    start = (x, y, from_vx, from_vy)
+    x, y, vx, vy = move(gravity, x, y, vx, vy, t)
+    return (x, y, slower * vx, slower * vy, slower * slower * energy), advance(clock[0], clock[1], passed), start
+
+
+@kernel
+def still_now(restitution, feature, still, clock, passed, t, ball, tolerance):
+    """How many contacts in a row, with this one, passed neither time nor space; a collapse counts as too many."""
+    # A bounce that moves the clock or the ball by more than rounding starts the count anew.
+    still = 0 if passes(clock[0], passed, t, ball[2], ball[3], tolerance) else still + 1
+    return still + still_limit(restitution) if feature == COLLAPSES else still
+
+
+@kernel
+def caught(model, gravity, radius, ball, start, grip, last, before, tolerance):
+    """What becomes of a ball under gravity whose contacts pass neither time nor space: (ball, grip, still, ending).
+
+    Without restitution nothing takes its speed, and the run ends. Else that is gone, and walls may hold the ball.
+    """
+    if model.restitution is None:
+        return ball, grip, 0, COLLAPSE
+    # Endless bounces in no time take all speed at a wall with restitution: what is left is where forces push it.
+    x, y = ball[0], ball[1]
+    held, hold, side, ending = stopped_between(model, gravity, radius, last, grip[2], before, x, y, start, tolerance)
+    return (x, y, 0.0, 0.0, kept_energy(gravity, x, y, 0.0, 0.0)), (held, hold, side, grip[3], grip[4]), 0, ending
+
+
+@kernel
+def turned(model, gravity, radius, feature, ball):
+    """Turn the velocity of a ball at what it has reached: (ball, normal towards it, of any length, wall)."""
+    x, y, vx, vy, energy = ball
+    nx, ny, twice, wall = normal_of(model, feature, x, y)
+    # The stored normal is that of the edge; a two-sided wall turns the ball back to where it came from.
+    nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny)
+    vx, vy, energy = bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy)
+    return (x, y, vx, vy, energy), nx, ny, wall
+
+
+@kernel
+def after_bounce(model, gravity, radius, feature, wall, ball, grip, nx, ny, tolerance):
+    """What a bounce leads to: (ball, grip, ending or RUNNING); a wall may absorb the ball, or hold it from now on."""
+    ending = ABSORBED if absorbs(model.restitution, wall) else RUNNING
+    x, y, vx, vy, energy = ball
+    held, hold, side = grip[0], grip[1], grip[2]
+    if gravity is not None:
+        held, hold, side = held_after(
+            model, gravity, radius, feature, held, hold, side, x, y, vx, vy, nx, ny, tolerance
+        )
+        if hold == WEDGED:
+            ending, vx, vy = AT_REST, 0.0, 0.0
+    return (x, y, vx, vy, energy), (held, hold, side, 0, 0), ending
+
+
+@kernel
+def flown_on(model, gravity, ball, clock, start, ending, until):
+    """Take a ball whose time is up to that time, or to where damping stops it before: (ball, clock, start, ending)."""
+    if ending != TIME_REACHED or (until - clock[0]) - clock[1] <= 0.0:
+        return ball, clock, start, ending
+    x, y, vx, vy, energy = ball
+    start = (x, y, vx, vy)
+    t, slower, time, lost = last_flight(model.damping, energy, clock[0], clock[1], until)
+    x, y, vx, vy = move(gravity, x, y, vx, vy, t)
+    vx, vy, energy = slower * vx, slower * vy, slower * slower * energy
+    if slower == 0.0:
+        ending, vx, vy = AT_REST, 0.0, 0.0
+    return (x, y, vx, vy, energy), (time, lost), start, ending
 
 
 @kernel
@@ -190,6 +314,7 @@ def ending_without(damping, feature, until):
 @kernel
 def passes(time, passed, t, vx, vy, tolerance):
     """Tell whether a flight passes time and space by more than their rounding; t is its free time."""
+    # 2^-6 of the tolerance: bounces so near are in a wedge or a hollow, and real ones are far longer.
     return time + passed > time and t * (abs(vx) + abs(vy)) > tolerance * 2.0**-6
 
 
@@ -199,6 +324,7 @@ def normal_of(model, feature, x, y):
     if feature >= 0:
         nx, ny, twice = normal_at(model, model.arcs, feature, x, y)
         return nx, ny, twice, wall_of(model, feature)
+    # A disc touches a vertex along the line from it to the centre.
     corner = model.corners[-2 - feature]
     nx, ny = x - corner.x, y - corner.y
     return nx, ny, 2.0 / (nx * nx + ny * ny), wall_of(model, feature)
@@ -236,6 +362,7 @@ def tolerance_of(x, y, extent):
 @kernel
 def has_left(box, r, x, y, vx, vy):
     """Tell whether a ball is outside the box of the walls, by more than rounding, and flies away: ``is_gone``."""
+    # Far beyond the rounding of places, so that a ball that touches the outermost wall is not gone.
     r += 2.0**-40 * max(max(abs(box[0]), abs(box[1])), max(abs(box[2]), abs(box[3])))
     out_x = (x > box[2] + r and vx >= 0.0) or (x < box[0] - r and vx <= 0.0)
     out_y = (y > box[3] + r and vy >= 0.0) or (y < box[1] - r and vy <= 0.0)
@@ -248,10 +375,18 @@ def begin_all(position, velocity, balls, x0, y0, extent, states, counts, start):
     for i in range(len(balls)):
         ball, state = balls[i], states[i]
         x, y, vx, vy = position[ball, 0] - x0, position[ball, 1] - y0, velocity[ball, 0], velocity[ball, 1]
-        state[0], state[1], state[2], state[3], state[4], state[5] = x, y, vx, vy, 0.0, 0.0
-        state[6] = vx * vx + vy * vy
-        state[7], state[8], state[9], state[10] = x, y, vx, vy
-        state[11] = tolerance_of(x, y, extent)
+        state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy], state[STATE.time], state[STATE.lost] = (
+            x,
+            y,
+            vx,
+            vy,
+            0.0,
+            0.0,
+        )
+        # The squared speed is kept for the whole run: bounces scale to it, so that speeds do not drift.
+        state[STATE.energy] = vx * vx + vy * vy
+        state[STATE.from_x], state[STATE.from_y], state[STATE.from_vx], state[STATE.from_vy] = x, y, vx, vy
+        state[STATE.tolerance] = tolerance_of(x, y, extent)
         for k in range(len(start)):
             counts[i, k] = start[k]
 
@@ -261,13 +396,14 @@ def end_all(states, counts, radii, x0, y0, box, balls, outcome):
     """Read from states and counts where some balls ended, in the scene's coordinates; see ``Outcome``."""
     for i in range(len(balls)):
         ball, state = balls[i], states[i]
-        x, y, vx, vy = state[0] + x0, state[1] + y0, state[2], state[3]
+        x, y, vx, vy = state[STATE.x] + x0, state[STATE.y] + y0, state[STATE.vx], state[STATE.vy]
         outcome.position[ball, 0], outcome.position[ball, 1] = x, y
         outcome.velocity[ball, 0], outcome.velocity[ball, 1] = vx, vy
-        outcome.time[ball] = state[4] + state[5]
-        outcome.bounces[ball] = counts[i, 1]
-        gone = counts[i, 2] == TIME_REACHED and has_left(box, radii[i], x, y, vx, vy)
-        outcome.ending[ball] = LEFT_SCENE if gone else counts[i, 2]
+        outcome.time[ball] = state[STATE.time] + state[STATE.lost]
+        outcome.bounces[ball] = counts[i, COUNT.bounces]
+        # A ball that flew on until time was up may be beyond all walls by then.
+        gone = counts[i, COUNT.ending] == TIME_REACHED and has_left(box, radii[i], x, y, vx, vy)
+        outcome.ending[ball] = LEFT_SCENE if gone else counts[i, COUNT.ending]
 
 
 @kernel
@@ -280,15 +416,18 @@ def fly_all(model, gravity, radii, states, counts, until, limit, hits, log, capa
 
 
 @kernel
-def note(log, row, time, x, y, vx, vy, nx, ny, radius, feature, kind):
+def note(log, row, clock, ball, nx, ny, radius, feature, kind):
     """Write one contact to the log, the normal made a unit and pointing to the ball: the row for the next one."""
     if len(log) == 0:
         return row
+    x, y, vx, vy, _energy = ball
     length = math.sqrt(nx * nx + ny * ny)
     nx, ny = nx / length, ny / length
-    o = 11 * row
-    log[o], log[o + 1], log[o + 2], log[o + 3], log[o + 4] = time, x, y, vx, vy
-    log[o + 5], log[o + 6] = x - radius * nx, y - radius * ny
-    log[o + 7], log[o + 8], log[o + 9] = nx, ny, float(feature)
-    log[o + 10] = float(kind)
+    # The contact point is r from the centre, against the normal.
+    o = LOG_STRIDE * row
+    log[o + LOG.time], log[o + LOG.x], log[o + LOG.y] = clock[0] + clock[1], x, y
+    log[o + LOG.vx], log[o + LOG.vy] = vx, vy
+    log[o + LOG.px], log[o + LOG.py] = x - radius * nx, y - radius * ny
+    log[o + LOG.nx], log[o + LOG.ny] = nx, ny
+    log[o + LOG.feature], log[o + LOG.kind] = float(feature), float(kind)
     return row + 1

@@ -54,6 +54,7 @@ def move(gravity, x, y, vx, vy, t):
     if gravity is None:
         return x + t * vx, y + t * vy, vx, vy
     gx, gy = gravity[0], gravity[1]
+    # t (v + t g / 2): one rounding fewer than v t + g t^2 / 2.
     return x + t * (vx + 0.5 * t * gx), y + t * (vy + 0.5 * t * gy), vx + t * gx, vy + t * gy
 
 
@@ -67,6 +68,7 @@ def bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy):
         return reflect(model.restitution, wall, nx, ny, twice, vx, vy, energy)
     if vx * nx + vy * ny >= 0.0:  # it begins to be pressed on the wall: nothing to turn yet
         return vx, vy, energy
+    # energy = v^2 - 2 g.p, so v^2 = energy + 2 g.p at the wall.
     height = 2.0 * (gravity[0] * x + gravity[1] * y)
     vx, vy, square = reflect(model.restitution, wall, nx, ny, twice, vx, vy, max(energy + height, 0.0))
     return vx, vy, square - height
@@ -92,6 +94,7 @@ def facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny):
             towards_ball = _offset(model, model.arcs, feature, x, y, nx, ny)
         else:
             bend = curvature(model, model.arcs, feature, radius, x, y, nx, ny)
+            # The wall pushes with -g.n, and with what it takes to keep the centre on its curve.
             press = -(gravity[0] * nx + gravity[1] * ny) + bend * (vx * vx + vy * vy)
             if abs(towards_ball) <= LEVEL_SPEED * (abs(vx) + abs(vy)) * math.sqrt(nx * nx + ny * ny):
                 towards_ball = press
@@ -109,6 +112,7 @@ def _offset(model, arcs, feature, x, y, nx, ny):
         arc = arcs[feature]
         if arc.radius > 0.0:
             return nx * nx + ny * ny - arc.radius * arc.radius
+    # (p - a).n, the distance from the line.
     line = model.lines[feature]
     return (x - line.ax) * nx + (y - line.ay) * ny
 
@@ -125,6 +129,7 @@ def curvature(model, arcs, feature, radius, x, y, nx, ny):
     if arcs is not None:
         arc = arcs[feature]
         if arc.radius > 0.0:
+            # On the back (e along n) the centre goes round a circle of R + r, in the hollow round one of R - r.
             ex, ey = x - arc.ax + arc.sx, y - arc.ay + arc.sy
             return (
                 -length / math.sqrt(ex * ex + ey * ey)
@@ -145,6 +150,7 @@ def lifted(model, gravity, radius, held, hold, side, x, y, vx, vy):
     if hold in (FREE, STARTING):
         return vx, vy
     _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+    # At rest any lift does: it only says on which side of the wall the ball is.
     speed = abs(vx) + abs(vy)
     lift = 2.0**-40 * speed if speed > 0.0 else 1.0
     return vx + lift * nx, vy + lift * ny

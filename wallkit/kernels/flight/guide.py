@@ -52,6 +52,7 @@ def off_guide(model, arcs, held, side, radius, x, y):
     if held < 0:
         corner = model.corners[-2 - held]
         ex, ey = x - corner.x, y - corner.y
+        # |e| - r = (e.e - r^2) / (|e| + r).
         return (ex * ex + ey * ey - radius * radius) / (math.sqrt(ex * ex + ey * ey) + radius)
     if arcs is not None:
         arc = arcs[held]
@@ -61,6 +62,7 @@ def off_guide(model, arcs, held, side, radius, x, y):
             power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
             out = 1.0 if outside(arc, side) else -1.0
             reach = arc.radius + out * radius
+            # e.e - (R +- r)^2 = power -+ r (2 R +- r), over |e| + (R +- r).
             gap = power - out * radius * (2.0 * arc.radius + out * radius)
             return out * gap / (math.sqrt(ex * ex + ey * ey) + reach)
     line = model.lines[held]
@@ -70,6 +72,7 @@ def off_guide(model, arcs, held, side, radius, x, y):
 @kernel
 def press(gravity, rho, away, nx, ny, square):
     """What presses a ball of squared speed ``square`` on its guide, per mass: -g.n, less or more v^2 / rho."""
+    # On a circle the ball needs v^2 / rho towards the middle: on the back gravity gives it, in a hollow the wall does.
     pressed = -(gravity[0] * nx + gravity[1] * ny)
     return pressed if rho == STRAIGHT else pressed - away * square / rho
 
@@ -80,6 +83,7 @@ def ahead_of(rho, away, nx, ny, vx, vy, gx, gy):
 
     The direction is (0, 0) where nothing moves it.
     """
+    # v.t for t = (-ny, nx), a quarter turn to the left of the normal.
     along = vy * nx - vx * ny
     speed = abs(along)
     if along == 0.0:

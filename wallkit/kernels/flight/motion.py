@@ -11,6 +11,7 @@ NEARLY_ALL = 2.0**-20
 @kernel
 def advance(time, lost, step):
     """Add a step to the time and keep what rounding loses (Neumaier's sum): (time, lost)."""
+    # What the total leaves of the larger one is exact, and so is what that lacks of the smaller one.
     total = time + step
     more, less = max(time, step), min(time, step)
     rest = (more - total) + less
@@ -32,6 +33,7 @@ def reflect(restitution, wall, nx, ny, twice, vx, vy, energy):
     e = restitution[2 * wall]
     f = restitution[2 * wall + 1]
     before = energy
+    # The normal part of v is (v.n) n / n.n, its square (v.n)^2 / n.n = factor normal / 2.
     energy = f * f * energy + (e * e - f * f) * (0.5 * factor * normal)
     if energy < NEARLY_ALL * before:
         return _what_is_left(e, f, nx, ny, twice, vx, vy, normal)
@@ -48,6 +50,7 @@ def _what_is_left(e, f, nx, ny, twice, vx, vy, normal):
     along, whole = vy * nx - vx * ny, 0.5 * twice
     if along * along * whole <= 2.0**-98 * (vx * vx + vy * vy):
         along = 0.0
+    # f (v x n) / n.n along (-ny, nx), and -e (v.n) / n.n along n: n is of any length, and `whole` is 1 / n.n.
     across, up = f * along * whole, -e * normal * whole
     x, y = up * nx - across * ny, up * ny + across * nx
     return x, y, x * x + y * y
@@ -58,5 +61,6 @@ def _with_energy(vx, vy, energy):
     """Scale v to the squared speed ``energy``, which it has but for rounding: one Newton step of 1 / sqrt."""
     if energy <= 0.0:
         return 0.0, 0.0, 0.0
+    # 1 / sqrt(q) is 1.5 - 0.5 q but for 3/8 (1 - q)^2, and q is 1 but for rounding.
     scale = 1.5 - 0.5 * ((vx * vx + vy * vy) / energy)
     return vx * scale, vy * scale, energy

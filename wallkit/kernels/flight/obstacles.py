@@ -33,12 +33,14 @@ SMOOTH_JOINT = 2.0**-20
 @kernel
 def falls(rho, ex, ey, tx, ty, c, gx, gy, q, from_behind):
     """Where on a guide a gap falls through 0 (s, or u up to 1): see above; from behind only after it has risen."""
+    # q s^2 + (G.t) s + c on a line, (c - 2 P) u^2 + 2 rho (G.t) u + c on a circle.
     if rho == STRAIGHT:
         a, b = q, gx * tx + gy * ty
     else:
         a, b = c - 2.0 * rho * ((gx * ex + gy * ey) - 2.0 * q * rho), 2.0 * rho * (gx * tx + gy * ty)
     if not from_behind:
         return first_fall_quadratic(a, b, c, math.inf)
+    # From behind it must rise (b > 0) and turn (a < 0): the fall is the larger root.
     discriminant = b * b - 4.0 * a * c
     if a >= 0.0 or b <= 0.0 or discriminant <= 0.0:
         return NEVER
@@ -50,6 +52,7 @@ def place_at(rho, ex, ey, tx, ty, x, y, u):
     """Centre after the way u on a guide."""
     if rho == STRAIGHT:
         return x + u * tx, y + u * ty
+    # sin(phi) = 2 u / (1 + u^2) and p - p0 = rho sin(phi) (t - u e), with u = tan(phi / 2).
     way = rho * (2.0 * u / (1.0 + u * u))
     return x + way * (tx - u * ex), y + way * (ty - u * ey)
 
@@ -65,6 +68,7 @@ def joined(model, held, edge, x, y, tolerance):
             continue
         for other in range(2):
             if model.joints[2 * held + other].place == joint.place:
+                # They share a joint. A contact there is no obstacle: topology says what follows, not distances.
                 line = model.lines[edge]
                 px, py = (line.ax, line.ay) if end == 0 else (line.bx, line.by)
                 if abs(x - px) <= tolerance and abs(y - py) <= tolerance:
@@ -86,6 +90,7 @@ def follows(model, held, side, edge, to_right):
         if next_end >> 1 != edge or next_end == 2 * held + end:
             continue
         other = model.joints[next_end]
+        # Directions go out from the joint: edges run on into each other where these are opposite, to rounding.
         across, ahead = joint.tx * other.ty - joint.ty * other.tx, joint.tx * other.tx + joint.ty * other.ty
         if ahead < 0.0 and abs(across) < SMOOTH_JOINT and (side_after(next_end, end, side) > 0.0) == to_right:
             return True
@@ -133,12 +138,14 @@ def meet_lines(
             out = 1.0 if turn == 0 else -1.0
             if out < 0.0 and one_sided(model.one_sided, model.edge_wall[edge]):
                 continue
+            # The gap +-d - r has the gradient +-n and does not bend: q = 0.
             c = out * d - radius
             from_behind = above != (out > 0.0) or stands_across(model.one_sided, model.edge_wall, edge, c, slack)
             way = falls(rho, ex, ey, tx, ty, c, out * line.nx, out * line.ny, 0.0, from_behind)
             if not (way < best or (way == best and precedes(edge, feature))):
                 continue
             fx, fy = place_at(rho, ex, ey, tx, ty, x, y, way)
+            # The foot on the edge, tau = (-ny, nx), as far beyond its ends as rounding may put it.
             foot = (fy - line.ay) * line.nx - (fx - line.ax) * line.ny
             if not -slack <= foot <= line.length + slack or follows(model, held, side, edge, out > 0.0):
                 continue
@@ -179,6 +186,7 @@ def meet_arcs(
                 continue
             if out * arc.sweep < 0.0 and one_sided(model.one_sided, model.edge_wall[edge]):
                 continue
+            # The gap +-(|p|^2 - (R +- r)^2) = +-power - r (2 R +- r) has the gradient +-2 p, and q = +-1.
             c = out * power - radius * (2.0 * arc.radius + out * radius)
             from_behind = beyond != (out > 0.0)
             from_behind = from_behind or stands_across(
@@ -191,6 +199,7 @@ def meet_arcs(
             qx, qy = fx - arc.ax + arc.sx, fy - arc.ay + arc.sy
             if not holds(arc, qx, qy, slack) or follows(model, held, side, edge, out * arc.sweep > 0.0):
                 continue
+            # The contact point is r from the centre towards the arc, or away from its middle in the hollow.
             inwards = out * radius / math.sqrt(qx * qx + qy * qy)
             if joined(model, held, edge, fx - inwards * qx, fy - inwards * qy, 8.0 * slack):
                 continue
@@ -208,6 +217,7 @@ def meet_corners(model, start, stop, radius, held, rho, ex, ey, tx, ty, x, y, to
             continue
         corner = model.corners[vertex]
         px, py = x - corner.x, y - corner.y
+        # The gap |p|^2 - r^2 has the gradient 2 p, and q = 1.
         c = px * px + py * py - radius * radius
         from_behind = stands_across(model.one_sided, model.corner_wall, vertex, c, 2.0 * radius * slack)
         way = falls(rho, ex, ey, tx, ty, c, 2.0 * px, 2.0 * py, 1.0, from_behind)

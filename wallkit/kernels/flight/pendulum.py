@@ -39,6 +39,7 @@ def carlson_rf(x: float, y: float, z: float) -> float:
     if int(x <= 0.0) + int(y <= 0.0) + int(z <= 0.0) > 1:
         return math.inf
     mean = (x + y + z) / 3.0
+    # A duplication brings all three four times nearer to their mean; within mean / NEAR the series is exact.
     apart = max(abs(mean - x), abs(mean - y), abs(mean - z)) * NEAR
     dx, dy = mean - x, mean - y
     while apart > mean:
@@ -49,6 +50,7 @@ def carlson_rf(x: float, y: float, z: float) -> float:
         dx, dy, apart = 0.25 * dx, 0.25 * dy, 0.25 * apart
     p, q = dx / mean, dy / mean
     r = -(p + q)
+    # Symmetric functions of the relative differences p, q and r = -(p + q), whose sum is 0 (DLMF 19.36.1).
     e2, e3 = p * q - r * r, p * q * r
     return (1.0 - e2 / 10.0 + e3 / 14.0 + e2 * e2 / 24.0 - 3.0 * e2 * e3 / 44.0) / math.sqrt(mean)
 
@@ -58,6 +60,7 @@ def half_angle(ex, ey, gx, gy):
     """Sine and cosine of half the angle between two directions, one of them a unit: each >= 0, none by cancellation."""
     pull = math.sqrt(gx * gx + gy * gy)
     cosine, sine = (ex * gx + ey * gy) / pull, abs(ex * gy - ey * gx) / pull
+    # cos(a/2) = sqrt((1 + cos a) / 2) where that adds up, and sin(a/2) = sin a / (2 cos(a/2)); else the sine first.
     if cosine >= 0.0:
         c = math.sqrt(0.5 * (1.0 + cosine))
         return 0.5 * sine / c, c
@@ -69,6 +72,7 @@ def half_angle(ex, ey, gx, gy):
 def turned(ex, ey, tx, ty, t):
     """Turn the unit e towards the unit t by phi, t = tan(phi / 2): (direction, its own direction ahead)."""
     per = 1.0 / (1.0 + t * t)
+    # cos(phi) = (1 - t^2) / (1 + t^2), sin(phi) = 2 t / (1 + t^2).
     c, s = (1.0 - t) * (1.0 + t) * per, 2.0 * t * per
     return c * ex + s * tx, c * ey + s * ty, c * tx - s * ex, c * ty - s * ey
 
@@ -81,6 +85,7 @@ def swing_time(rho, gx, gy, ex, ey, fx, fy, t, v0, v1):
     s0, c0 = half_angle(ex, ey, gx, gy)
     s1, c1 = half_angle(fx, fy, gx, gy)
     u, w, x = s1 * c1 * v0 + s0 * c0 * v1, s1 * c0 * v1 + s0 * c1 * v0, s1 * c0 * v0 + s0 * c1 * v1
+    # z1 - z0 = sin^2 h1 - sin^2 h0 = sin(h1 - h0) sin(h1 + h0), and h1 - h0 = phi / 2 has the sine t / sqrt(1 + t^2).
     rise = t / math.sqrt(1.0 + t * t) * (s0 * c1 + c0 * s1)
     return 2.0 * rho * rise * carlson_rf(u * u, w * w, x * x)
 
@@ -88,6 +93,7 @@ def swing_time(rho, gx, gy, ex, ey, fx, fy, t, v0, v1):
 @kernel
 def speed_at(rho, gx, gy, ex, ey, tx, ty, square, t):
     """Speed after a turn by t = tan(phi / 2) from where its square is ``square``: v^2 + 2 rho g.(f - e)."""
+    # f - e = 2 t (t_0 - t e) / (1 + t^2), see ``turned``.
     along, across = gx * tx + gy * ty, gx * ex + gy * ey
     return math.sqrt(max(square + 4.0 * rho * t / (1.0 + t * t) * (along - t * across), 0.0))
 
@@ -101,6 +107,7 @@ def swing_within(rho, gx, gy, ex, ey, tx, ty, square, t_end, span):
     """
     low, high = 0.0, t_end
     v0 = math.sqrt(square)
+    # At first where constant acceleration has it: s = (v + a T / 2) T, and tan(phi / 2) about s / 2 rho.
     t = min(0.5 * (v0 + 0.5 * span * (gx * tx + gy * ty)) * span / rho, t_end)
     if not 0.0 < t < t_end:
         t = 0.5 * t_end
@@ -114,6 +121,7 @@ def swing_within(rho, gx, gy, ex, ey, tx, ty, square, t_end, span):
             high = t
         else:
             low = t
+        # dT/dt = 2 rho / (V (1 + t^2)).
         following = t - 0.5 * late * v * (1.0 + t * t) / rho
         if abs(following - t) <= 2.0**-53 * t:
             break
@@ -132,6 +140,8 @@ def to_quarter(ex, ey, tx, ty, gx, gy):
     ahead = across if along > 0.0 else -across  # on the way down the bottom is next, else the top
     if abs(along) <= 2.0**-50 * abs(across) or ahead <= 0.0:  # it is there, but for rounding, and begins the next one
         return 1.0
+    # The angle to the direction of g, or from it, has the sine |g.t| and the cosine `ahead`, times |g|:
+    # tan(phi / 2) = sin / (1 + cos).
     return abs(along) / (math.sqrt(along * along + across * across) + ahead)
 
 
@@ -161,6 +171,7 @@ def swing(
         if v == 0.0 and pull == 0.0:
             break
         turn = 1.0 if v > 0.0 or (v == 0.0 and pull > 0.0) else -1.0
+        # A stretch ends with its quarter of the circle, where the ball turns, or when time is up.
         tx, ty, square = -turn * ey, turn * ex, v * v
         t, t_turn = to_quarter(ex, ey, tx, ty, gx, gy), turning(rho, gx, gy, ex, ey, tx, ty, square)
         turns = t_turn < t
@@ -201,6 +212,7 @@ def turning(rho, gx, gy, ex, ey, tx, ty, square):
     root = math.sqrt(discriminant)
     if half >= 0.0:
         return -(half + root) / a if a < 0.0 else math.inf
+    # The smaller positive root, by the form that does not cancel where half < 0.
     return square / (root - half)
 
 
@@ -218,6 +230,7 @@ def period(rho, pull, square):
     with R_F that is 4 sqrt(rho / g) R_F(0, 1 - m, 1), m = A / (4 g rho). A full turn: 4 rho R_F(0, A - 4 g rho, A).
     """
     whole = 4.0 * pull * rho
+    # v^2 / (4 g rho) = sin^2 h where it turns: below 1 it swings, above it goes round.
     if square < whole:
         return 4.0 * math.sqrt(rho / pull) * carlson_rf(0.0, 1.0 - square / whole, 1.0)
     return 4.0 * rho * carlson_rf(0.0, square - whole, square)

@@ -32,6 +32,7 @@ def settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, toleranc
     closest = -2.0
     for k in range(cell.first, cell.corners):
         edge = int(model.ids[k])
+        # Of the edges that it runs against, the one that leans most over its way is the next one in the wedge.
         lean = _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
         if lean > closest:
             closest, found = lean, edge
@@ -55,6 +56,7 @@ def came_from(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance):
     if side == 0.0 and not touching(model, model.arcs, edge, from_x, from_y, tolerance)[0]:
         side = _side(model, model.arcs, edge, from_x, from_y, 0.0)
     if side == 0.0:
+        # It began on the edge, too: it flew off to the side to which its velocity points.
         nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
         side = from_vx * nx + from_vy * ny
     return 1.0 if side > 0.0 else -1.0
@@ -65,6 +67,7 @@ def _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance
     """Side of the edge hit last on which the point is: it recedes from it. Along it, the side from which it came."""
     nx, ny, _twice = normal_at(model, model.arcs, last, x, y)
     away = vx * nx + vy * ny
+    # What bounces recedes by more than the rounding of v.n, some 2^-51 |v| |n|; less is a flight along the wall.
     if abs(away) > 2.0**-40 * (abs(vx) + abs(vy)) * (abs(nx) + abs(ny)):
         return 1.0 if away > 0.0 else -1.0
     return came_from(model, last, x, y, from_x, from_y, from_vx, from_vy, tolerance)
@@ -91,6 +94,7 @@ def _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tol
     mx, my, _twice = normal_at(model, model.arcs, last, x, y)
     side = _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
     mx, my = side * mx, side * my
+    # d along the edge, away from the corner: against its own direction where it ends here.
     dx, dy = -ny, nx
     rise = dx * mx + dy * my
     if ends and not starts:
@@ -99,6 +103,7 @@ def _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tol
         return -2.0
     if rise < 0.0:
         dx, dy = -dx, -dy
+    # t along the last wall, the way that the point goes. The cosine between d and t is how closely the edge leans.
     tx, ty = -my, mx
     if tx * vx + ty * vy < 0.0:
         tx, ty = -tx, -ty
@@ -168,6 +173,7 @@ def _passes(one_sided, model, arcs, edge, came):
     if arcs is not None:
         if arcs[edge].radius > 0.0:
             outward = arcs[edge].sweep
+    # One-sided: solid from its outward side alone.
     return came * outward < 0.0
 
 
@@ -176,6 +182,7 @@ def _outcome(model, first, first_side, second, second_side, x, y, vx, vy):
     """Tell what bouncing off two edges in turn comes to, whichever is first: the second edge if that is the same."""
     ax, ay = _leave(model, first, first_side, second, second_side, x, y, vx, vy)
     bx, by = _leave(model, second, second_side, first, first_side, x, y, vx, vy)
+    # Reflections at two walls commute, bounce for bounce, where their angle is pi / n; else the order shows.
     small = SAME * SAME * (vx * vx + vy * vy)
     if model.restitution is not None and ax * ax + ay * ay <= small:
         return COLLAPSES
@@ -189,6 +196,7 @@ def _leave(model, first, first_side, second, second_side, x, y, vx, vy):
     bx, by, b_twice = normal_at(model, model.arcs, second, x, y)
     ax, ay, bx, by = first_side * ax, first_side * ay, second_side * bx, second_side * by
     a_wall, b_wall = model.edge_wall[first], model.edge_wall[second]
+    # In a wedge of the angle a there are at most ceil(pi / a) bounces: unfolded, the way is one straight line.
     for _turn in range(TURNS):
         receding = True
         if vx * ax + vy * ay < 0.0:

@@ -2,8 +2,8 @@
 
 With restitution e < 1 a ball that leaves a wall at the normal speed w, pressed back by p, bounces without end in the
 time 2 w / (p (1 - e)). When the height it reaches, w^2 / (2 p), is below the rounding of positions, these bounces are
-taken at once, and after that it *keeps* to the wall (see ``keeping``). p is -g.n, and on a curve with v^2 / rho, less
-on its back and more in its hollow: what is taken at once moves it by no more than rounding, so p is that of now.
+taken at once, and after that it *keeps* to the wall (see ``contact_state``). p is -g.n, and on a curve with v^2 / rho,
+less on its back and more in its hollow: what is taken at once moves it by no more than rounding, so p is that of now.
 
 At the end of an edge the walls' own topology says what comes next (see ``wallkit.simulation.joints``):
 
@@ -119,6 +119,7 @@ def _struck(model, radius, x, y, vx, vy, gravity, last, tolerance):
         if not touching(model, model.arcs, edge, x, y, tolerance)[0]:
             continue
         nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
+        # It flies at the edge and is pulled at it from the same side.
         into, pull = vx * nx + vy * ny, gravity[0] * nx + gravity[1] * ny
         if into * pull > 0.0 and not (into > 0.0 and one_sided(model.one_sided, model.edge_wall[edge])):
             return edge
@@ -131,6 +132,7 @@ def stays(model, gravity, radius, held, side, x, y, vx, vy):
     if vx != 0.0 or vy != 0.0:
         return False
     _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+    # Coulomb's law: it stands while the pull along the wall is at most the coefficient times what presses it.
     along, pressed = abs(gravity[1] * nx - gravity[0] * ny), -(gravity[0] * nx + gravity[1] * ny)
     least = LEVEL * (abs(gravity[0]) + abs(gravity[1]))
     return along <= least or along <= _grip(model, model.static_friction, held) * pressed
@@ -152,6 +154,7 @@ def _whole_swings(model, gravity, radius, held, side, x, y, span):
         return 0.0
     pull = math.sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1])
     ex, ey = away * nx, away * ny
+    # From here to the bottom it falls by rho (1 - cos): v^2 = 2 rho (g - e.g) there.
     drop = rho * (pull - (ex * gravity[0] + ey * gravity[1]))
     whole = period(rho, pull, 2.0 * drop)
     return math.floor(span / whole) * whole if whole < span else 0.0
@@ -173,6 +176,7 @@ def _join(model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of
     rho, away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
     off = off_guide(model, model.arcs, held, side, radius, x, y)
     x, y = x - off * nx, y - off * ny
+    # Apart into w, off the wall, and u along it, to the left of the normal.
     w, u = vx * nx + vy * ny, vy * nx - vx * ny
     vx, vy = -u * ny, u * nx
     e, f = _kept(model, model.restitution, held)
@@ -180,6 +184,8 @@ def _join(model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of
     stands = u == 0.0 and abs(pull) <= LEVEL * (abs(gravity[0]) + abs(gravity[1]))
     if hold == PASSING or e >= 1.0 or (f >= 1.0 and not stands):
         return x, y, vx, vy, 0.0, SLIDING
+    # Up and down again under p takes 2 w / p, and each bounce e times as long as the one before:
+    # t (1 + e + e^2 + ...) = t / (1 - e).
     t = 2.0 * abs(w) / press(gravity, rho, away, nx, ny, u * u)
     if stands:
         return x, y, vx, vy, t / (1.0 - e), SLIDING
@@ -217,6 +223,7 @@ def _pass_on(model, gravity, radius, held, side, last, x, y, vx, vy, tolerance):
     free = next_end == 2 * held + end
     free = free or (next_side < 0.0 and one_sided(model.one_sided, model.edge_wall[other]))
     there = model.joints[next_end]
+    # The next edge goes off by `rise` towards the ball's side: above 0 the joint is hollow, below 0 it falls away.
     rise, ahead = there.tx * nx + there.ty * ny, there.tx * dx + there.ty * dy
     square = speed * speed
     if not free and rise > 0.0:  # in a hollow it rests, where what pulls it in on either side is more than its speed
@@ -227,6 +234,8 @@ def _pass_on(model, gravity, radius, held, side, last, x, y, vx, vy, tolerance):
         other_rho, other_away, mx, my = guide(model, model.arcs, other, next_side, radius, x, y)
         pressed = press(gravity, other_rho, other_away, mx, my, square)
         level = LEVEL * (abs(gravity[0]) + abs(gravity[1]))
+        # Turned by the angle `rise` it has the speed v rise off the wall; pressed back by p it would rise by
+        # (v rise)^2 / 2 p, and the place of a disc's centre jumps by r rise^2. Below rounding both are no bounce.
         flat = square * rise * rise <= 2.0 * max(pressed, 0.0) * tolerance and radius * rise * rise <= tolerance
         plumb = other_rho == STRAIGHT and abs(pressed) <= level and abs(rise) < SMOOTH_JOINT
         if (pressed > level and flat) or plumb:
@@ -237,6 +246,7 @@ def _pass_on(model, gravity, radius, held, side, last, x, y, vx, vy, tolerance):
         return held, SLIDING, side, last, other
     if radius == 0.0:
         return held, LEAVING, side, held, NO_HIT
+    # A disc pivots about the vertex while gravity can turn it: v^2 / r below -g.n.
     corner = -2 - int(joint.vertex)
     pressed = press(gravity, radius, 1.0, nx, ny, square)
     if pressed > LEVEL * (abs(gravity[0]) + abs(gravity[1])):
@@ -257,6 +267,7 @@ def _edge_at(model, corner, x, y):
     """Edge beside which a disc is that has pivoted about a vertex, and on which side of it: (edge, side)."""
     vertex = model.corners[-2 - corner]
     px, py = x - vertex.x, y - vertex.y
+    # Of the edges around the vertex the one along which the centre is farthest: it is square to the normal there.
     first = int(model.spokes[-2 - corner])
     end = first
     found, best = first, -math.inf
@@ -297,6 +308,7 @@ def held_after(model, gravity, radius, feature, held, hold, side, x, y, vx, vy, 
     clings = _clings(model, gravity, radius, feature, other_side, x, y, vx, vy, tolerance)
     if hold == SLIDING and feature != held:
         _rho, _away, mx, my = guide(model, model.arcs, held, side, radius, x, y)
+        # Wedged: the pull along either wall presses it on the other, and v^2 <= 2 a tolerance takes it up neither.
         on, back = _pushed(gravity, mx, my, nx, ny), _pushed(gravity, nx, ny, mx, my)
         least = min(abs(gravity[1] * mx - gravity[0] * my), abs(gravity[1] * nx - gravity[0] * ny))
         if min(on, back) > 2.0**8 * level and vx * vx + vy * vy <= 2.0 * least * tolerance:
@@ -319,6 +331,7 @@ def held_after(model, gravity, radius, feature, held, hold, side, x, y, vx, vy, 
 @kernel
 def _pushed(gravity, nx, ny, mx, my):
     """What the pull along a wall with unit normal n presses a ball with on another one with unit normal m."""
+    # (g.t) t is the pull along the wall, t = (-ny, nx); its part against m is what presses there.
     pull = gravity[1] * nx - gravity[0] * ny
     return -pull * (nx * my - ny * mx)
 
@@ -330,6 +343,7 @@ def _clings(model, gravity, radius, feature, side, x, y, vx, vy, tolerance):
     if _fits(model, model.arcs, feature, side, radius):
         return False
     pressed = press(gravity, rho, away, nx, ny, vx * vx + vy * vy)
+    # Thrown up at w it rises by w^2 / 2 p.
     w = vx * nx + vy * ny
     return pressed > LEVEL * (abs(gravity[0]) + abs(gravity[1])) and w * w <= 2.0 * pressed * tolerance
 
@@ -380,6 +394,7 @@ def stopped_between(model, gravity, radius, one, one_side, other, x, y, start_of
     _rho, _away, bx, by = guide(model, model.arcs, other, other_side, radius, x, y)
     gx, gy = gravity[0], gravity[1]
     on_one, on_other = -(gx * ax + gy * ay), -(gx * bx + gy * by)
+    # It has no speed: it slides along the wall on which the pull leads away from the other.
     if on_one > 0.0 and _pushed(gravity, ax, ay, bx, by) <= 0.0:
         return one, PASSING, one_side, RUNNING
     if on_other > 0.0 and _pushed(gravity, bx, by, ax, ay) <= 0.0:

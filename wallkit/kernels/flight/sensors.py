@@ -19,7 +19,7 @@ from wallkit.kernels.flight.resting import side_of
 from wallkit.kernels.flight.sensors_on_circles import next_crossing_round
 from wallkit.kernels.index.grid import home
 from wallkit.kernels.jit import kernel, rare_kernel
-from wallkit.kernels.records import EDGE, FREE, LOG_STRIDE, NO_HIT, RUNNING, SLIDE
+from wallkit.kernels.records import COUNT, EDGE, FREE, LOG, LOG_STRIDE, NO_HIT, RUNNING, SLIDE, STATE
 
 
 @kernel
@@ -45,6 +45,7 @@ def next_crossing(sensors, pull, x, y, vx, vy, time, lost, until, last, toleranc
     remaining = (until - time) - lost
     energy = vx * vx + vy * vy
     best = free_time(sensors.damping, energy, remaining)
+    # The centre is a point that nothing turns: the same search as for a wall, with radius 0.
     t, edge, _touched = first_contact(
         sensors, pull, 0.0, x, y, vx, vy, energy, last, NO_HIT, FREE, 1.0, tolerance, best
     )
@@ -60,6 +61,7 @@ def next_crossing(sensors, pull, x, y, vx, vy, time, lost, until, last, toleranc
 def outward(sensors, edge, x, y):
     """Outward unit normal of a sensor's edge at a place on it."""
     nx, ny, twice, _wall = normal_of(sensors, edge, x, y)
+    # twice = 2 / (n.n), so 1 / |n| = sqrt(twice / 2).
     unit = (0.5 * twice) ** 0.5 * _turn(sensors.arcs, edge)
     return nx * unit, ny * unit
 
@@ -83,6 +85,7 @@ def crosses_too(sensors, edge, last, x, y, vx, vy, tolerance):
         _touches, from_here, to_here = touching(sensors, sensors.arcs, last, x, y, tolerance)
         if from_here or to_here:
             vertex = -_side_of_way(sensors, last, from_here, x, y, vx, vy)
+    # The path passes between the ends of an edge if they lie on either side of it; the vertex has one side for all.
     return _side_of_way(sensors, edge, starts, x, y, vx, vy) != vertex
 
 
@@ -90,6 +93,7 @@ def crosses_too(sensors, edge, last, x, y, vx, vy, tolerance):
 def _side_of_way(sensors, edge, starts, x, y, vx, vy):
     """On which side of its way a centre has an edge that starts at (x, y), or ends there: 1 on the left, or -1."""
     nx, ny, _twice = normal_at(sensors, sensors.arcs, edge, x, y)
+    # The edge goes a quarter turn to the left of n from its start: to the left of v where v.n > 0.
     along = 1.0 if starts else -1.0
     return 1.0 if along * (vx * nx + vy * ny) >= 0.0 else -1.0
 
@@ -113,6 +117,7 @@ def count_crossings(sensors, pull, x, y, vx, vy, since, until, found, first):
         if last == NO_HIT:
             break
         _count(sensors, last, x, y, vx, vy, found, first)
+        # Where edges meet the search names one of them; the others that are crossed there are asked for.
         cell = sensors.cells[home(sensors, sensors.grid, x, y)]
         for k in range(cell.first, cell.corners):
             if crosses_too(sensors, sensors.ids[k], last, x, y, vx, vy, tolerance):
@@ -123,12 +128,14 @@ def count_crossings(sensors, pull, x, y, vx, vy, since, until, found, first):
 def _count(sensors, edge, x, y, vx, vy, found, first):
     """Count a crossing of an edge: inwards or outwards."""
     nx, ny = outward(sensors, edge, x, y)
+    # Against the outward normal it goes in.
     found[first + 2 * sensors.edge_wall[edge] + (0 if vx * nx + vy * ny < 0.0 else 1)] += 1
 
 
 @kernel
 def count_round(sensors, gravity, rho, away, nx, ny, x, y, vx, vy, since, until, found, first):
     """Count what a ball crosses that glides along an arc, or pivots about a vertex: see ``count_crossings``."""
+    # e from the middle of the circle to the centre, and the speed counter-clockwise, e x v.
     ex, ey = away * nx, away * ny
     v, last = vy * ex - vx * ey, NO_HIT
     while True:
@@ -162,6 +169,7 @@ def set_pull(model, gravity, pull, kind, feature):
         pull[0], pull[1] = gravity[0], gravity[1]
         if kind == SLIDE and feature >= 0:
             line = model.lines[feature]
+            # (g.t) t, with t = (-ny, nx) along the line.
             along = gravity[1] * line.nx - gravity[0] * line.ny
             pull[0], pull[1] = -along * line.ny, along * line.nx
 
@@ -178,7 +186,7 @@ def fly_sensed(model, gravity, pull, sensors, walls, radii, states, counts, unti
         walls: their number, W.
         radii: (n,) of the balls.
         states: (n, STATE_SIZE), read and written.
-        counts: (n, 6), read and written.
+        counts: (n, 10), see ``Counts``, read and written.
         until: time at which to stop, or inf.
         limit: number of bounces at which to stop.
         found: (W + 2 S,) added to: bounces by wall, then for each sensor how often it is entered, and left.
@@ -186,21 +194,25 @@ def fly_sensed(model, gravity, pull, sensors, walls, radii, states, counts, unti
         capacity: 1 or more.
     """
     for ball in range(len(radii)):
-        x, y, vx, vy, since = states[ball, 0], states[ball, 1], states[ball, 2], states[ball, 3], states[ball, 4]
+        state = states[ball]
+        x, y, vx, vy, since = state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy], state[STATE.time]
         set_pull(model, gravity, pull, EDGE, NO_HIT)
         feature, kind, nx, ny, radius = NO_HIT, EDGE, 0.0, 0.0, radii[ball]
-        while counts[ball, 2] == RUNNING:
-            noted = fly(model, gravity, radii[ball], states[ball], counts[ball], until, limit, found, log, capacity)
+        while counts[ball, COUNT.ending] == RUNNING:
+            noted = fly(model, gravity, radii[ball], state, counts[ball], until, limit, found, log, capacity)
             for row in range(noted):
                 o = LOG_STRIDE * row
+                end = log[o + LOG.time]
+                # From contact to contact the ball flies or slides, or a curve holds it: it crosses sensors on that way.
                 if not count_kept(
-                    model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx, vy, since, log[o], found, walls
+                    model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx, vy, since, end, found, walls
                 ):
-                    count_crossings(sensors, pull, x, y, vx, vy, since, log[o], found, walls)
-                since, x, y, vx, vy = log[o], log[o + 1], log[o + 2], log[o + 3], log[o + 4]
-                nx, ny, feature, kind = log[o + 7], log[o + 8], int(log[o + 9]), int(log[o + 10])
+                    count_crossings(sensors, pull, x, y, vx, vy, since, end, found, walls)
+                since, x, y, vx, vy = end, log[o + LOG.x], log[o + LOG.y], log[o + LOG.vx], log[o + LOG.vy]
+                nx, ny = log[o + LOG.nx], log[o + LOG.ny]
+                feature, kind = int(log[o + LOG.feature]), int(log[o + LOG.kind])
                 set_pull(model, gravity, pull, kind, feature)
-        end = states[ball, 4] + states[ball, 5]
+        end = state[STATE.time] + state[STATE.lost]
         if not count_kept(
             model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx, vy, since, end, found, walls
         ):

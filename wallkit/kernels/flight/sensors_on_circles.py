@@ -42,6 +42,7 @@ def next_crossing_round(sensors, gx, gy, rho, x, y, ex, ey, v, time, until, last
         pull = gy * ex - gx * ey
         if v == 0.0 and pull == 0.0:
             break
+        # At rest it sets out to where gravity pulls it.
         turn = 1.0 if v > 0.0 or (v == 0.0 and pull > 0.0) else -1.0
         tx, ty, square = -turn * ey, turn * ex, v * v
         t, t_turn = to_quarter(ex, ey, tx, ty, gx, gy), turning(rho, gx, gy, ex, ey, tx, ty, square)
@@ -80,6 +81,7 @@ def _first_sensor(sensors, arcs, rho, ex, ey, tx, ty, x, y, last, best):
         rising = tx * line.nx + ty * line.ny
         above = d > 0.0 or (d == 0.0 and rising > 0.0)
         side = 1.0 if above else -1.0
+        # From the side on which the centre is, or, on the sensor, to which it moves: the gap is above 0 and falls.
         way = falls(rho, ex, ey, tx, ty, side * d, side * line.nx, side * line.ny, 0.0, False)
         if way < best:
             fx, fy = place_at(rho, ex, ey, tx, ty, x, y, way)
@@ -96,6 +98,7 @@ def _cross_arc(arc, edge, rho, ex, ey, tx, ty, x, y, last, best, found):
     power = 0.0 if edge == last else wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
     beyond = power > 0.0 or (power == 0.0 and tx * px + ty * py > 0.0)
     side = 1.0 if beyond else -1.0
+    # |p|^2 - R^2, or the negative from inside: of gradient 2 p, and q = 1.
     way = falls(rho, ex, ey, tx, ty, side * power, 2.0 * side * px, 2.0 * side * py, side, False)
     if way < best:
         fx, fy = place_at(rho, ex, ey, tx, ty, x, y, way)

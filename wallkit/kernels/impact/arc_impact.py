@@ -68,11 +68,13 @@ def scan_arcs_point(arcs, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, 
             leaves = leaves and arc.sweep < 0.0
         if not leaves and (inside or not enters):
             continue
+        # |e + t v|^2 = R^2 has the roots (-e.v -+ h) / v^2, h^2 = (e.v)^2 - v^2 power = (R |v|)^2 - (e x v)^2.
         cross = abs(ex * vy - ey * vx)
         square = (arc.radius * speed - cross) * (arc.radius * speed + cross)
         part = energy * power
         square = along * along - part if along * along - part > part else square
         root = math.sqrt(max(square, 0.0))
+        # In at power / (h - e.v); from the arc itself the whole chord; out at (h - e.v) / v^2 or -power / (e.v + h).
         if not inside and enters:
             t = power / (root - along)
         elif on and energy * abs(power) > WELL_KNOWN * along * along:
@@ -92,11 +94,14 @@ def _cuts(arc, wx, wy, x, y, vx, vy):
     """Tell whether the line along v enters, and whether it leaves, the circle through the arc: (enters, leaves)."""
     a_right = wy * vx - wx * vy >= 0.0
     b_right = (arc.bx - x) * vy - (arc.by - y) * vx >= 0.0
+    # The line parts a from b: counter-clockwise from its right to its left passes the way out of the circle.
     if a_right != b_right:
         return b_right, a_right
     ex = wx + arc.sx
     ey = wy + arc.sy
     cross = ex * vy - ey * vx
+    # a and b are on one side. Farther than R from the centre the line cuts nothing; else the arc holds both cuts if
+    # it holds the middle of the cap beyond the line, a quarter turn from v on the other side.
     if cross * cross >= arc.radius * arc.radius * (vx * vx + vy * vy):
         return False, False
     both = holds(arc, -vy, vx, 0.0) if a_right else holds(arc, vy, -vx, 0.0)
@@ -125,9 +130,12 @@ def is_wide(sweep):
 @kernel
 def spans(sx, sy, fx, fy, radius, wide, ex, ey, slack):
     """``holds`` of an arc from s to f about its centre, which may be wide; without branches."""
+    # s x e >= 0: e lies within half a turn past s; e x f >= 0: before f. Crosses are lengths at the arc, times R, so
+    # slack R widens both ends by slack. A wide arc holds what meets either, a narrow one what meets both.
     least = -slack * radius
     past_a = sx * ey - sy * ex >= least
     before_b = ex * fy - ey * fx >= least
+    # With slack the two overlap on the far side of the centre as well: there e.(s + f) < 0.
     ahead = (slack == 0.0) | (ex * (sx + fx) + ey * (sy + fy) >= least)
     return ((past_a | before_b) & wide) | (past_a & before_b & ahead & (not wide))
 
@@ -166,6 +174,7 @@ def scan_arcs_disc(
         from_outside = True
         from_inside = True
         if one_sided is not None and one_sided[edge_wall[ids[k]]] != 0:
+            # A power changes by 2 |e| for each length: the slack of a gap of powers is 2 (R + r) times that of a gap.
             deep = 2.0 * (arc.radius + radius) * slack
             out_gap, in_gap = (
                 power - radius * (2.0 * arc.radius + radius),
@@ -174,6 +183,7 @@ def scan_arcs_disc(
             from_outside = arc.sweep > 0.0 and not stands_across(one_sided, edge_wall, ids[k], out_gap, deep)
             from_inside = arc.sweep < 0.0 and not stands_across(one_sided, edge_wall, ids[k], in_gap, deep)
         t = -1.0
+        # From outside the back of the arc comes first; beside the arc the disc may fly in, and meet the hollow.
         if power >= 0.0:
             if along >= 0.0:
                 continue
@@ -196,6 +206,7 @@ def scan_arcs_disc(
 @kernel
 def _time_to_outside(arc, radius, power, along, cross, speed, energy):
     """Time at which the centre, outside and coming nearer, is at R + r from the arc's centre; -1 if never."""
+    # e.e - (R + r)^2 = power - r (2 R + r) = c, and the smaller root is c / (h - e.v), e.v < 0.
     reach = arc.radius + radius
     c = power - radius * (2.0 * arc.radius + radius)
     part = energy * c
@@ -231,6 +242,8 @@ def is_mould(arc_radius, radius):
 @kernel
 def _time_to_inside(arc, radius, ex, ey, power, along, cross, speed, energy, off, again):
     """Time at which the centre goes away through R - r from the arc's centre, or by it; -1 if never."""
+    # e.e - (R - r)^2 = power + r (2 R - r) = c. The centre leaves that circle at the larger root, (h - e.v) / v^2,
+    # or -c / (e.v + h) where it moves outwards already.
     reach = arc.radius - radius
     c = power + radius * (2.0 * arc.radius - radius)
     if is_mould(arc.radius, radius):
@@ -240,6 +253,7 @@ def _time_to_inside(arc, radius, ex, ey, power, along, cross, speed, energy, off
         return -1.0
     if c >= 0.0 and along > 0.0:
         return 0.0 if power < 0.0 else -1.0
+    # It left the hollow itself: c is rounding, and the chord from there on is -2 e.v / v^2.
     if again and energy * abs(c) > WELL_KNOWN * along * along:
         return -2.0 * along / energy if along < 0.0 else 0.0
     if (reach + off) * speed < cross:
@@ -259,6 +273,8 @@ def _time_to_inside(arc, radius, ex, ey, power, along, cross, speed, energy, off
 def _time_beside(arc, radius, t, ex, ey, vx, vy, off):
     """Time after t at which the centre comes beside the end of the arc, if it is at R - r there; else -1."""
     fx, fy = to_end(arc)
+    # g goes from the centre to the end on the side to which the disc goes round. Its centre is on that ray where
+    # (e + t v) x g = 0, and R - r along it if it touches there.
     gx, gy = (arc.sx, arc.sy) if ex * vy - ey * vx > 0.0 else (fx, fy)
     later = (ex * gy - ey * gx) / (gx * vy - gy * vx) if gx * vy != gy * vx else -1.0
     out = (gx * (ex + later * vx) + gy * (ey + later * vy)) / arc.radius - (arc.radius - radius)

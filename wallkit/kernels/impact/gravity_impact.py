@@ -1,8 +1,8 @@
 """Time of impact under gravity: parabolas against lines, corners and arcs, and their way through the grid.
 
-A gap that falls through zero is a contact; ``roots`` finds when. A ball may meet both sides of one wall in one flight
-(up past its end, and down on it), so each side is asked; from behind, the gap must rise above zero before it falls.
-Where a contact counts only on part of a line or circle, the parts overlap by the rounding of positions.
+A gap that falls through zero is a contact; ``polynomial_roots`` finds when. A ball may meet both sides of one wall in
+one flight (up past its end, and down on it), so each side is asked; from behind, the gap must rise above zero before it
+falls. Where a contact counts only on part of a line or circle, the parts overlap by the rounding of positions.
 
 Most of what a cell lists is not met, and mostly the *hull* of the flight shows that: a part of a parabola is a Bezier
 curve, and a linear form of the place lies between those of its three points, a quadratic one between five made of them.
@@ -35,6 +35,8 @@ def hull_of(x, y, vx, vy, gx, gy, start, stop, tolerance):
     """
     ux, uy = vx + start * gx, vy + start * gy
     half = 0.5 * (stop - start)
+    # A part of a parabola is a quadratic Bezier curve. Its middle point is where the tangents at both ends meet:
+    # half the part's time along either of them.
     px, py = x + start * (vx + 0.5 * start * gx), y + start * (vy + 0.5 * start * gy)
     qx, qy = px + half * ux, py + half * uy
     rx, ry = qx + half * (ux + 2.0 * half * gx), qy + half * (uy + 2.0 * half * gy)
@@ -64,6 +66,7 @@ def fall_line(
         line = lines[ids[k]]
         ex, ey = x - line.ax, y - line.ay
         nx, ny = line.nx, line.ny
+        # Across the edge the centre is at d + vn t + gn t^2 / 2, along it at u + vu t + gu t^2 / 2.
         d, vn, gn = ex * nx + ey * ny, vx * nx + vy * ny, gx * nx + gy * ny
         u, vu, gu = ey * nx - ex * ny, vy * nx - vx * ny, gy * nx - gx * ny
         above = d > 0.0
@@ -75,6 +78,7 @@ def fall_line(
             t = first_fall_quadratic(0.5 * side * gn, side * vn, side * d - radius, math.inf)
             if stands_across(one_sided, edge_wall, ids[k], side * d - radius, slack):
                 t = _fall_from_behind(0.5 * gn, vn, d - radius)
+            # Where this side is not met in time, nor beside the edge, the ball has not come through to the other.
             if not t <= best:
                 continue
             if -slack <= u + t * (vu + 0.5 * t * gu) <= line.length + slack:
@@ -84,6 +88,7 @@ def fall_line(
         if one_sided is not None:
             if side > 0.0 and one_sided[edge_wall[ids[k]]] != 0:
                 continue
+        # The gap to the far side is the negative one, below 0 now: it rises as the ball comes through.
         t = _fall_from_behind(-0.5 * side * gn, -side * vn, -side * d - radius)
         if t < best or (t == best and precedes(ids[k], feature)):
             if -slack <= u + t * (vu + 0.5 * t * gu) <= line.length + slack:
@@ -97,12 +102,16 @@ def _fall_from_behind(a, b, c):
     discriminant = b * b - 4.0 * a * c
     if a >= 0.0 or b <= 0.0 or discriminant <= 0.0:
         return NEVER
+    # a < 0 < b: the larger root, (-b - root) / 2 a, whose terms are of one sign.
     return -0.5 * (b + math.sqrt(discriminant)) / a
 
 
 @rare_kernel
 def _range_of(ax, ay, bx, by, cx, cy, sx, sy):
     """Bounds of w.w + 2 s.w on the Bezier curve of w through a, b and c: of the five coefficients of its quartic."""
+    # w = (1-t)^2 a + 2 t (1-t) b + t^2 c. As a quartic w.w has the coefficients a.a, a.b, (a.c + 2 b.b) / 3, b.c, c.c,
+    # and 2 s.w, raised by two degrees, 2 s.a, s.(a + b), s.(a + 4 b + c) / 3, s.(b + c), 2 s.c. The curve lies between
+    # the least and the largest of them.
     a, b, c = sx * ax + sy * ay, sx * bx + sy * by, sx * cx + sy * cy
     first, second = ax * ax + ay * ay + 2.0 * a, ax * bx + ay * by + a + b
     third = (ax * cx + ay * cy + a + c + 2.0 * (bx * bx + by * by + 2.0 * b)) / 3.0
@@ -128,10 +137,12 @@ def fall_corners(
     low, high = min(min(py, qy), ry), max(max(py, qy), ry)
     most = radius * radius + margin * (4.0 * radius + size)
     slack = slack_of(tolerance, radius)
+    # |e + v t + g t^2/2|^2 = g.g/4 t^4 + v.g t^3 + (v.v + e.g) t^2 + 2 e.v t + e.e.
     c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
     for k in range(start, stop):
         corner = corners[ids[k]]
         cx, cy = corner.x, corner.y
+        # First the box of the hull, which most corners are far from, then the quartic's own bounds, then its roots.
         off_x, off_y = max(max(left - cx, cx - right), 0.0), max(max(low - cy, cy - high), 0.0)
         if off_x * off_x + off_y * off_y > most:
             continue
@@ -167,6 +178,7 @@ def _polished(t, off, wx, wy, sx, sy, vx, vy, gx, gy):
     if not 0.0 < t < NEVER:
         return t
     px, py = wx + t * (vx + 0.5 * t * gx), wy + t * (vy + 0.5 * t * gy)
+    # d/dt of w.(w + 2 s) is 2 (w + s).(v + g t).
     slope = 2.0 * ((px + sx) * (vx + t * gx) + (py + sy) * (vy + t * gy))
     gap = px * (px + 2.0 * sx) + py * (py + 2.0 * sy) + off
     if abs(gap) > t * 2.0**-20 * abs(slope) or slope == 0.0:
@@ -220,6 +232,7 @@ def fall_arcs(
         ax, ay, bx, by, cx, cy = px - arc.ax, py - arc.ay, qx - arc.ax, qy - arc.ay, rx - arc.ax, ry - arc.ay
         if _goes_by(arc, ax, ay, bx, by, cx, cy, slack + margin):
             continue
+        # Bounds of the power on this part of the flight: where it reaches neither level no root is looked for.
         least, most = _range_of(ax, ay, bx, by, cx, cy, arc.sx, arc.sy)
         near = margin * (4.0 * (arc.radius + radius) + size)
         outer, inner = levels_of(arc.radius, radius)
@@ -259,6 +272,7 @@ def _goes_by(arc, ax, ay, bx, by, cx, cy, slack):
         return False
     least = -slack * arc.radius
     sx, sy = arc.sx, arc.sy
+    # As in ``_beside``: s x w for the end a, (w - d) x f for the end b. Linear in w, so the hull's points decide.
     if sx * ay - sy * ax < least and sx * by - sy * bx < least and sx * cy - sy * cx < least:
         return True
     fx, fy = to_end(arc)
@@ -283,6 +297,7 @@ def _side_of(arc, radius, wx, wy, vx, vy, gx, gy, tolerance, reference):
     rises = ex * vx + ey * vy
     if abs(rises) > LEVEL_SPEED * (abs(vx) + abs(vy)) * arc.radius:
         return rises > 0.0, True
+    # Level on the arc |e|^2 / 2 changes with v.v + e.g: below 0 gravity presses the point on the back, from outside.
     return vx * vx + vy * vy + ex * gx + ey * gy < 0.0, True
 
 
@@ -308,6 +323,7 @@ def _time_to_arc(
         fits = from_outside or arc.radius - radius > -mould
         if not (other and fits and (solid_out if from_outside else solid_in)):
             continue
+        # The gap is the power less its level; in the hollow the negative of that.
         side, level = (1.0, outer) if from_outside else (-1.0, inner)
         is_mould = not from_outside and arc.radius - radius < mould
         overlaps = one_way and side * (power - level) < -2.0 * (arc.radius + radius) * slack
@@ -328,6 +344,7 @@ def _time_to_arc(
         t = first_fall_quartic(side * c4, side * c3, b2, b1, c0, LATER * best, from_behind)
         t = _polished(t, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy)
         other = is_mould or from_behind or t <= best
+        # A circle may be met twice, and the arc may lie at the second place alone.
         for _again in range(2):
             if not t <= best or t >= found:
                 break
@@ -347,6 +364,8 @@ def _only_rises(c4, c3, c2, c1, c0, span):
     It is c0 + q t, q a cubic that lies between the four coefficients of its Bezier curve. Where these are a quarter of
     q(0) = c1 and more, the gap is at most 0 up to t = 4 |c0| / c1, and until then its slope keeps most of c1.
     """
+    # q = c1 + c2 t + c3 t^2 + c4 t^3 on [0, span] has the Bezier coefficients c1, c1 + a/3, c1 + (2 a + b)/3 and
+    # c1 + a + b + c.
     a, b, c = c2 * span, c3 * span * span, c4 * span * span * span
     least = 0.25 * c1 + HULL_ROUNDING * (abs(a) + abs(b) + abs(c))
     t = 4.0 * abs(c0) / (c1 if c1 > 0.0 else 1.0)
@@ -357,6 +376,7 @@ def _only_rises(c4, c3, c2, c1, c0, span):
 @rare_kernel
 def _fall_after(c4, c3, c2, c1, c0, time, t_max):
     """The next fall of a quartic through 0 after one at a time, before which it rises above 0."""
+    # Taylor's coefficients about that fall: the same quartic in the time since.
     f0 = (((c4 * time + c3) * time + c2) * time + c1) * time + c0
     f1 = ((4.0 * c4 * time + 3.0 * c3) * time + 2.0 * c2) * time + c1
     f2 = (6.0 * c4 * time + 3.0 * c3) * time + c2

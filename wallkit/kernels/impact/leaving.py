@@ -32,9 +32,11 @@ def left_along(c2, c1, c0, reach, slack, vx, vy, gx, gy, from_behind):
     Returns:
         (c2, c1, c0, from_behind).
     """
+    # c1 = 2 e.v and |e| = L: below 2 L LEVEL_SPEED |v| the ball goes along the circle, but for rounding.
     speed = abs(vx) + abs(vy)
     if abs(c1) > 2.0 * reach * LEVEL_SPEED * speed or abs(c0) > 2.0 * reach * slack:
         return c2, c1, c0, from_behind
+    # c2 = v.v + e.g is how fast it parts from the circle: 0, to rounding, where nothing presses it any longer.
     if abs(c2) <= LEVEL_SPEED * (speed * speed + reach * (abs(gx) + abs(gy))):
         return 0.0, 0.0, 0.0, from_behind
     return c2, 0.0, 0.0, from_behind or c2 < 0.0

@@ -20,6 +20,7 @@ def precedes(feature: int, other: int) -> bool:
     """Order of features at equal times: edges before corners, then by number."""
     if other == NO_HIT:
         return False
+    # Edges are 0 and more, corners -2 - j: the lower corner is the larger number.
     if feature >= 0:
         return other < 0 or feature < other
     return other < 0 and feature > other
@@ -55,6 +56,8 @@ def scan_point(lines, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last
         ey = line.ay - y
         nx = line.nx
         ny = line.ny
+        # e goes from the point to a. So d = (p - a).n = -e.n, and the foot of the point along the edge,
+        # tau = (-ny, nx), is u = (p - a).tau = e x n.
         d = -(ex * nx + ey * ny)
         if -tolerance <= d <= tolerance:
             u = ex * ny - ey * nx
@@ -62,10 +65,12 @@ def scan_point(lines, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last
                 if ids[k] != last:
                     touched += 1
                 continue
+        # e x v < 0 puts a vertex to the left of the ray. Both on one side: the ray passes the edge by.
         cross_a = ex * vy - ey * vx
         cross_b = (line.bx - x) * vy - (line.by - y) * vx
         if (cross_a < 0.0) == (cross_b < 0.0):
             continue
+        # a on the left and b on the right: the ray crosses against n, an approach where d > 0; else along n.
         if (cross_a < 0.0) != (d > 0.0):
             continue
         gap = abs(d)
@@ -79,6 +84,7 @@ def scan_point(lines, ids, start, stop, one_sided, edge_wall, x, y, vx, vy, last
         if one_sided is not None:
             if d < 0.0 and one_sided[edge_wall[ids[k]]] != 0:
                 continue
+        # d + t v.n = 0, and v.n is -closing on the side where d > 0. The look at `reach` saved most quotients.
         t = gap / closing
         if (t < best or (t == best and precedes(ids[k], feature))) and ids[k] != last:
             best = t
@@ -110,6 +116,7 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
         ey = y - line.ay
         nx = line.nx
         ny = line.ny
+        # d = (p - a).n; on the other side of the wall -n takes the place of n, so that d > 0 in what follows.
         d = ex * nx + ey * ny
         closing = -(vx * nx + vy * ny)
         if d < 0.0:
@@ -120,6 +127,7 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
             closing = -closing
         if closing <= 0.0:
             continue
+        # Contact where d + t v.n = r: t = (d - r) / -(v.n).
         gap = d - radius
         if gap > reach * closing:
             continue
@@ -128,6 +136,7 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
             if stands_across(one_sided, edge_wall, ids[k], gap, slack):
                 continue
             t = 0.0
+        # The foot at that time, along tau = (-ny, nx): (p - a).tau + t v.tau.
         u = ey * nx - ex * ny + t * (vy * nx - vx * ny)
         if u < -slack or u > line.length + slack:
             continue
@@ -140,24 +149,9 @@ def scan_disc(lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, v
 
 @kernel
 def scan_corners(
-    corners,
-    ids,
-    start,
-    stop,
-    one_sided,
-    corner_wall,
-    fans,
-    radius,
-    x,
-    y,
-    vx,
-    vy,
-    energy,
-    last,
-    tolerance,
-    best,
+    corners, ids, start, stop, one_sided, corner_wall, fans, radius, x, y, vx, vy, energy, last, tolerance, best,
     feature,
-):
+):  # fmt: skip
     """Earliest contact of a disc with the corners of entries start to stop.
 
     With e = p - corner, |e + t v| = r has the discriminant D = r^2 - (e x v)^2 / v^2, taken from the distance at
@@ -174,14 +168,18 @@ def scan_corners(
         corner = corners[ids[k]]
         ex = x - corner.x
         ey = y - corner.y
+        # |e + t v|^2 = r^2 is v^2 t^2 + 2 (e.v) t + e.e - r^2 = 0; with e.v >= 0 the distance only grows.
         along = ex * vx + ey * vy
         if along >= 0.0:
             continue
         cross = ex * vy - ey * vx
+        # A quarter of the discriminant, (e.v)^2 - v^2 (e.e - r^2), is v^2 r^2 - (e x v)^2 by Lagrange's identity.
+        # Over v^2 it is r^2 less the squared distance at which the path passes: a grazing hit keeps its digits.
         discriminant = square - cross * cross * per_energy
         if discriminant < 0.0:
             continue
         c = ex * ex + ey * ey - square
+        # The smaller root, (-e.v - root) / v^2 = c / (root - e.v): the terms below add up, since e.v < 0.
         t = c / (math.sqrt(energy * discriminant) - along)
         if t < 0.0:
             t = 0.0
@@ -225,6 +223,7 @@ def from_across(one_sided, corner_wall, fans, corners, index, radius, slack, ex,
         return True
     turned = -1.0 if fan.both > 0.0 and ex * (fan.ux + fan.wx) + ey * (fan.uy + fan.wy) < 0.0 else 1.0
     ux, uy, wx, wy = turned * fan.ux, turned * fan.uy, turned * fan.wx, turned * fan.wy
+    # A disc that overlaps an edge by s covers w to each side of the foot, w^2 = r^2 - (r - s)^2, about 2 r s.
     aside = -math.sqrt(2.0 * radius * slack)
     between = ux * ey - uy * ex >= aside and ex * wy - ey * wx >= aside and ex * (ux + wx) + ey * (uy + wy) >= aside
     return not (between or fan.wide > 0.0)

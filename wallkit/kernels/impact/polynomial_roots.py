@@ -29,6 +29,7 @@ def first_fall_quadratic(a: float, b: float, c: float, t_max: float) -> float:
     """
     discriminant = b * b - 4.0 * a * c  # selects in place of branches, which no processor could foresee
     root = math.sqrt(discriminant if discriminant > 0.0 else 0.0)
+    # Falling at the start, the first root is 2 c / (root - b); rising, the one after the top is (b + root) / (-2 a).
     above, rises = c > 0.0, b > 0.0
     numerator, denominator = b + root if rises else 2.0 * c, -2.0 * a if rises else root - b
     # Above and falling it comes down if it is not turned before. Rising it comes back if it is turned, also from an
@@ -56,6 +57,7 @@ def first_fall_quartic(c4: float, c3: float, c2: float, c1: float, c0: float, t_
     Degenerate cases: f constant gives NEVER; a touch (double root) counts when the rounded f is <= 0 on the way to it,
     which is as much as its coefficients say; f that is <= 0 all the way up to where it turns falls from there on.
     """
+    # f'' = 12 c4 t^2 + 6 c3 t + 2 c2. Pieces: up to its first root, between the two, and after, without end.
     low, high = _quadratic_roots(12.0 * c4, 6.0 * c3, 2.0 * c2)
     start, f, slope, falls = 0.0, c0, c1, _falls_from_zero(c4, c3, c2, c1)
     rose = not behind or (f >= 0.0 and not falls)
@@ -116,6 +118,7 @@ def _from_left(c4: float, c3: float, c2: float, c1: float, c0: float, start: flo
         f, slope = _quartic(c4, c3, c2, c1, c0, t), _cubic(4.0 * c4, 3.0 * c3, 2.0 * c2, c1, t)
         if f <= 0.0:
             return t
+        # The root of the tangent at t; f lies above the tangent, so its own root is not passed.
         following = t - f / slope if slope < 0.0 else NEVER
         if following >= end:
             return NEVER
@@ -136,6 +139,7 @@ def _from_right(
     """
     t = end
     bend = 2.0 * ((6.0 * c4 * start + 3.0 * c3) * start + c2)
+    # f + f' h + f'' h^2 / 2 = 0 at h = 2 f / (root - f') = (f' + root) / -f'': the form whose terms add up.
     if bend < 0.0:
         root = math.sqrt(max(slope * slope - 2.0 * f * bend, 0.0))
         near = start + (2.0 * f / (root - slope) if slope < 0.0 else (slope + root) / -bend)
@@ -162,6 +166,7 @@ def _over_the_top(
     Where it does not come above 0 in between it falls from where it turns, or never if it has to rise before.
     """
     bend = 2.0 * ((6.0 * c4 * start + 3.0 * c3) * start + c2)
+    # The top of the parabola at the start is a guess. If f is not above 0 there, its own top is looked for.
     top = start - slope / bend if bend < 0.0 else start
     if not (top < end and _quartic(c4, c3, c2, c1, c0, top) > 0.0):
         last = end if end < NEVER else max(start, _root_bound(c4, c3, c2, c1, c0))
@@ -186,6 +191,7 @@ def _turn_between(c3: float, c2: float, c1: float, c0: float, low: float, high: 
         else:
             high = t
         following = t - f / slope if slope < 0.0 else low
+        # Newton while it at least halves the step before the last, else bisection: so it ends.
         if not low < following < high or abs(following - t) > 0.5 * before:
             following = 0.5 * (low + high)
         before, last = last, abs(following - t)
@@ -203,6 +209,7 @@ def _quadratic_roots(a: float, b: float, c: float) -> tuple[float, float]:
     discriminant = b * b - 4.0 * a * c
     if discriminant < 0.0:
         return NEVER, NEVER
+    # q = -(b + sign(b) root) / 2; the roots are q / a and c / q, since their product is c / a: no difference cancels.
     root = math.sqrt(discriminant)
     q = -0.5 * (b + root) if b >= 0.0 else -0.5 * (b - root)
     first = q / a

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from wallkit.kernels.impact.arc_impact import FALLING_MOULD, MOULD, is_mould, is_wide, to_end
 from wallkit.kernels.intrinsics import prefetch_far
 from wallkit.kernels.jit import kernel, rare_kernel
-from wallkit.kernels.records import WAYS
+from wallkit.kernels.records import OCTANTS
 
 BOW = 1.0 / 8.0
 """Chords miss their arc by at most this part of a cell, and what they miss it by widens them."""
@@ -25,13 +25,13 @@ MOST_CHORDS = 1024
 OF_LINES, OF_ARCS, OF_CORNERS = 1, 2, 4
 """Where in a cell's numbers the entries of a kind are counted. When all are written each of them has come to the end of
 its kind, which is where the next one begins: ``arcs``, ``corners``, and ``first`` of the next cell."""
-ALL_WAYS = (1 << WAYS) - 1
+ALL_OCTANTS = (1 << OCTANTS) - 1
 ASIDE = 2.0**-10
 """Cosine by which a flight must go away from what it is not to meet: far above what rounding may turn."""
 NEAR_CELLS = 1 << 16
-"""So many stay in the second cache: asking memory for them ahead would gain nothing."""
+"""So many stay in the L2 cache: a prefetch would gain nothing."""
 AHEAD = 8
-"""Entered before what memory is asked for: by then it has come, and it is still there."""
+"""Prefetch distance, in entries: by then the cell has come, and it is still in the cache."""
 LATEST = 3
 """Where in a cell's numbers the latest entry stands, so that none is entered twice; later the ``moves_to_next``."""
 
@@ -41,8 +41,8 @@ class Table(NamedTuple):
 
     numbers: Any
     """Four a cell, and four more at the end."""
-    ways: Any
-    """The bits of the ways in which a flight may meet something that a cell lists; empty where nobody asks."""
+    octants: Any
+    """The bits of the octants in which a flight may meet something that a cell lists; empty where nobody asks."""
     ids: Any
     """What the cells list; empty as long as it is only counted."""
 
@@ -67,6 +67,7 @@ def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
                 count += _enter_line(block, lines[source[k]], distance, k, source[k], table)
             elif k >= block.corners:
                 corner, fan = corners[source[k]], fans[source[k]]
+                # Which way such a fan opens is rounding: both ways are entered.
                 if fan.both > 0.0:
                     count += _arc(block, corner.x, corner.y, distance, -fan.ux, -fan.uy, -fan.wx, -fan.wy, fan.wide,
                                   1.0, OF_CORNERS, k, source[k], table)  # fmt: skip
@@ -79,7 +80,7 @@ def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
 
 @kernel
 def _prefetch_cells(block, entry, is_corner, lines, corners, numbers):
-    """Ask memory for the cell in the middle of what is entered soon, and for those above and below it."""
+    """Prefetch the cell in the middle of what is entered soon, and those above and below it."""
     if is_corner:
         x, y = corners[entry].x, corners[entry].y
     else:
@@ -95,23 +96,25 @@ def _prefetch_cells(block, entry, is_corner, lines, corners, numbers):
 def _enter_line(block, line, distance, item, entry, table):
     """Enter the lines at a distance beside an edge; the functions below give how many cells were new to it."""
     nx, ny = line.nx, line.ny
+    # At a contact the centre is on the edge moved out by r, along n or against it.
     sx, sy = distance * nx, distance * ny
-    ways = ALL_WAYS
-    if len(table.ways) > 0:
-        ways = ways_against(nx, ny, nx, ny)
+    octants = ALL_OCTANTS
+    if len(table.octants) > 0:
+        octants = octants_against(nx, ny, nx, ny)
     count = _line(block, line.ax + sx, line.ay + sy, line.bx + sx, line.by + sy, block.reach,
-                  OF_LINES, item, entry, ways, table)  # fmt: skip
+                  OF_LINES, item, entry, octants, table)  # fmt: skip
     if distance > 0.0:
-        if len(table.ways) > 0:
-            ways = ways_against(-nx, -ny, -nx, -ny)
+        if len(table.octants) > 0:
+            octants = octants_against(-nx, -ny, -nx, -ny)
         count += _line(block, line.ax - sx, line.ay - sy, line.bx - sx, line.by - sy, block.reach,
-                       OF_LINES, item, entry, ways, table)  # fmt: skip
+                       OF_LINES, item, entry, octants, table)  # fmt: skip
     return count
 
 
 @kernel
 def _enter_arc(block, arc, distance, item, entry, table):
     """Enter the arcs at a distance outside and inside an arc."""
+    # The arc's centre is a - s. A centre at a contact is R + r or |R - r| from it, in a direction of the arc.
     x, y, per = arc.ax - arc.sx, arc.ay - arc.sy, 1.0 / arc.radius
     fx, fy = to_end(arc)
     ux, uy, wx, wy = arc.sx * per, arc.sy * per, fx * per, fy * per
@@ -135,13 +138,14 @@ def _arc(block, x, y, radius, ux, uy, wx, wy, wide, facing, kind, item, entry, t
         return _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, table)
     mx, my = _half_way(ux, uy, wx, wy, wide)
     if small:
+        # The box holds the ends, and each extreme of the circle that is in the arc: as near to its middle m as u is.
         edge = mx * ux + my * uy  # directions as near to the middle are in the arc
         left, right = -1.0 if -mx >= edge else min(ux, wx), 1.0 if mx >= edge else max(ux, wx)
         low, high = -1.0 if -my >= edge else min(uy, wy), 1.0 if my >= edge else max(uy, wy)
         if radius < 0.0:
             left, right, low, high = right, left, high, low
         return _box(block, x + radius * left, x + radius * right, y + radius * low, y + radius * high,
-                    kind, item, entry, ALL_WAYS, table)  # fmt: skip
+                    kind, item, entry, ALL_OCTANTS, table)  # fmt: skip
     if wide == 0.0:
         count = _chords(block, x, y, radius, ux, uy, mx, my, facing, kind, item, entry, table)
         return count + _chords(block, x, y, radius, mx, my, wx, wy, facing, kind, item, entry, table)
@@ -154,11 +158,13 @@ def _arc(block, x, y, radius, ux, uy, wx, wy, wide, facing, kind, item, entry, t
 
 
 @kernel
-def ways_against(ux, uy, wx, wy):
-    """Give the bits of the ways (see ``grid.way_of``) in which a flight may go against a direction between u and w.
+def octants_against(ux, uy, wx, wy):
+    """The bits of the octants in which a flight may go against a direction between u and w; see ``grid.octant_of``.
 
-    Not so where both lie along both ends of the way, by more than rounding: so do all between, along all of the way.
+    It may not where both u and w lie along both ends of the octant, by more than rounding: so do all between them.
     """
+    # An octant lies between two directions, such as (1, 0) and (1, 1). A normal with n.(1, 0) > 0 and n.(1, 1) > 0
+    # goes along with every flight between them, and none of these meets the wall. n.(1, 1) is a sum, n.(1, -1) a rest.
     low_x, high_x, low_y, high_y = min(ux, wx), max(ux, wx), min(uy, wy), max(uy, wy)
     low_sum, high_sum = min(ux + uy, wx + wy), max(ux + uy, wx + wy)
     low_rest, high_rest = min(ux - uy, wx - wy), max(ux - uy, wx - wy)
@@ -171,12 +177,13 @@ def ways_against(ux, uy, wx, wy):
         + (int(up & right_up) << 4) + (int(up & left_up) << 5)
         + (int(down & right_down) << 6) + (int(down & left_down) << 7)
     )  # fmt: skip
-    return ALL_WAYS - along
+    return ALL_OCTANTS - along
 
 
 @kernel
 def _half_way(ux, uy, wx, wy, wide):
     """Direction half way from u counter-clockwise to w: along their sum, or beside their difference."""
+    # u + w, or, beyond a right angle, where that cancels, w - u turned by a quarter to the right.
     if ux * wx + uy * wy <= 0.0:
         mx, my = wy - uy, ux - wx
     else:
@@ -195,28 +202,30 @@ def _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, tabl
     roundings a chord, and the centre of a flat arc is far away: both are parts of the radius, and widen the chords.
     """
     cosine, sine = min(ux * wx + uy * wy, 1.0), ux * wy - uy * wx
+    # cos(A/2) = sqrt((1 + cos A) / 2), and the bow R (1 - cos(A/2)) = R (1 - cos A) / 2 / (1 + cos(A/2)).
     half = math.sqrt(0.5 + 0.5 * cosine)
     size = abs(radius)
     bow = size * (0.5 - 0.5 * cosine) / (1.0 + half)
     count = 1
     while bow > BOW * block.side and count < MOST_CHORDS:
+        # sin(A/2) = sin A / (2 cos(A/2)).
         cosine, sine, count = half, sine / (2.0 * half), 2 * count
         half = math.sqrt(0.5 + 0.5 * cosine)
         bow = size * (0.5 - 0.5 * cosine) / (1.0 + half)
     reach = block.reach + bow + size * (count + 1) * 2.0**-51
-    ax, ay, entries, ways = x + radius * ux, y + radius * uy, 0, ALL_WAYS
+    ax, ay, entries, octants = x + radius * ux, y + radius * uy, 0, ALL_OCTANTS
     for _chord in range(count):
         wx, wy = ux * cosine - uy * sine, ux * sine + uy * cosine
         bx, by = x + radius * wx, y + radius * wy
-        if len(table.ways) > 0 and facing != 0.0:
-            ways = ways_against(facing * ux, facing * uy, facing * wx, facing * wy)
-        entries += _line(block, ax, ay, bx, by, reach, kind, item, entry, ways, table)
+        if len(table.octants) > 0 and facing != 0.0:
+            octants = octants_against(facing * ux, facing * uy, facing * wx, facing * wy)
+        entries += _line(block, ax, ay, bx, by, reach, kind, item, entry, octants, table)
         ax, ay, ux, uy = bx, by, wx, wy
     return entries
 
 
 @rare_kernel
-def _box(block, left, right, low, high, kind, item, entry, ways, table):
+def _box(block, left, right, low, high, kind, item, entry, octants, table):
     """Enter a box, and what is within reach of it."""
     per_side, reach = block.per_side, block.reach
     left, right = (left - reach - block.x0) * per_side, (right + reach - block.x0) * per_side
@@ -225,12 +234,12 @@ def _box(block, left, right, low, high, kind, item, entry, ways, table):
         return 0
     count = 0
     for column in range(int(max(left, 0.0)), int(min(right, block.columns - 0.5)) + 1):
-        count += _rows(block, column, low, high, kind, item, entry, ways, table)
+        count += _rows(block, column, low, high, kind, item, entry, octants, table)
     return count
 
 
 @rare_kernel
-def _line(block, ax, ay, bx, by, reach, kind, item, entry, ways, table):
+def _line(block, ax, ay, bx, by, reach, kind, item, entry, octants, table):
     """Enter a line, and all within reach of it along x and y: column by column, the rows that it covers there."""
     per_side = block.per_side
     ax, ay, bx, by, reach = (
@@ -244,31 +253,33 @@ def _line(block, ax, ay, bx, by, reach, kind, item, entry, ways, table):
     if first == last or ax == bx:
         bottom, top, count = low - reach, high + reach, 0
         for column in range(first, last + 1):
-            count += _rows(block, column, bottom, top, kind, item, entry, ways, table)
+            count += _rows(block, column, bottom, top, kind, item, entry, octants, table)
         return count
+    # The rows that the line covers over a column, itself widened by `reach`, cut to the line's own height.
     slope, count = (by - ay) / (bx - ax), 0
     for column in range(first, last + 1):
         here, there = ay + (column - reach - ax) * slope, ay + (column + 1 + reach - ax) * slope
         bottom, top = max(low, min(here, there, high)) - reach, min(high, max(here, there, low)) + reach
         if top >= 0.0 and bottom < block.rows:
-            count += _rows(block, column, bottom, top, kind, item, entry, ways, table)
+            count += _rows(block, column, bottom, top, kind, item, entry, octants, table)
     return count
 
 
 @kernel
-def _rows(block, column, bottom, top, kind, item, entry, ways, table):
+def _rows(block, column, bottom, top, kind, item, entry, octants, table):
     """Enter what a column holds between two heights, given in cells; one of them at least is in the block."""
     numbers, lowest, count = table.numbers, int(max(bottom, 0.0)), 0
     at = 4 * (block.first + column + block.columns * lowest)
     for _row in range(lowest, int(min(top, block.rows - 0.5)) + 1):
+        # The latest entry stands in the cell, so that chords and sides that overlap are entered once.
         if numbers[at + LATEST] != item + 1:
             numbers[at + LATEST] = item + 1
             if len(table.ids) > 0:
                 table.ids[numbers[at + kind]] = entry
             numbers[at + kind] += 1
             count += 1
-        if len(table.ways) > 0:
-            table.ways[at >> 2] |= ways
+        if len(table.octants) > 0:
+            table.octants[at >> 2] |= octants
         at += 4 * block.columns
     return count
 
@@ -279,6 +290,7 @@ def lay_out(numbers):
     total = 0
     for at in range(0, len(numbers) - 4, 4):
         lines, arcs, corners = numbers[at + OF_LINES], numbers[at + OF_ARCS], numbers[at + OF_CORNERS]
+        # Where each kind begins. Writing an entry moves this on, in the end to where the next kind begins.
         numbers[at + OF_LINES] = total
         numbers[at + OF_ARCS] = total + lines
         numbers[at + OF_CORNERS] = total + lines + arcs
@@ -289,10 +301,11 @@ def lay_out(numbers):
 
 @kernel
 def describe(numbers, before, farthest, cells):
-    """Write of cells what ``Cell`` has, flat; so many ids come before theirs, and ``farthest`` is the most moves."""
+    """Write the fields of ``Cell``, flat; so many ids come before theirs; ``farthest`` bounds distances."""
     for at in range(0, len(cells), 4):
         first, arcs, corners, end = numbers[at], numbers[at + OF_LINES], numbers[at + OF_ARCS], numbers[at + OF_CORNERS]
         if first == end:
+            # An empty cell: all four fields hold its Chebyshev distance to the nearest one with entries.
             moves = min(max(numbers[at + LATEST], 1), farthest)
             cells[at], cells[at + 1], cells[at + 2], cells[at + 3] = moves, moves, moves, moves
         else:

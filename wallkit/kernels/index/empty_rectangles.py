@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from wallkit.kernels.impact.arc_impact import is_wide, to_end
-from wallkit.kernels.index.cell_entries import ALL_WAYS, LATEST, ways_against
+from wallkit.kernels.index.cell_entries import ALL_OCTANTS, LATEST, octants_against
 from wallkit.kernels.index.grid import clearing_at, clearings_of, departures_of
 from wallkit.kernels.jit import kernel, rare_kernel
-from wallkit.kernels.records import HALF, WAYS, WIDEST
+from wallkit.kernels.records import HALF, OCTANTS, WIDEST
 
 STRETCH = 4
 """Cells of a chain that a rectangle takes in, along and across: more make few longer."""
@@ -16,14 +16,16 @@ MANY = -1
 
 @kernel
 def clear(blocks, numbers, endless):
-    """Link each cell that lists nothing to the nearest one that does: how many king's moves it is away, at least 1.
+    """Note for each empty cell its Chebyshev distance to the nearest cell with entries, at least 1.
 
-    Two passes over each block, forth and back, as for any distance of moves. What lies around a block is not known and
+    Two passes over each block, forth and back. What lies around a block is not known and
     counts as listing something, unless the block is ``endless``: there is nothing beyond the whole grid.
     """
     for b in range(len(blocks)):
         block = blocks[b]
         columns, rows, outside = block.columns, block.rows, 1 << 30 if endless else 0
+        # Two-pass distance transform in the chessboard metric (Rosenfeld and Pfaltz 1966): forth from the neighbours to
+        # the left and below, then back from those to the right and above.
         for row in range(rows):
             for column in range(columns):
                 at = 4 * (block.first + row * columns + column)
@@ -51,21 +53,21 @@ def clear(blocks, numbers, endless):
 
 
 @kernel
-def clear_ahead(ways, grid, above, clearings):
-    """Find a large empty rectangle that begins with each cell, each way; see ``Model.clearings``.
+def clear_ahead(octants, grid, above, clearings):
+    """Find a large empty rectangle that begins with each cell, for each octant; see ``Model.clearings``.
 
     It is the one of the cell beside and this cell, or that of the cell above and this cell, cut to what is free above
     or beside. There is nothing beyond the border, and WIDEST is all that half of a number holds.
 
     Args:
-        ways: of the cells, see ``Table``.
+        octants: of the cells, see ``Table``.
         grid: that they are in.
         above: a number for each column, to work with.
         clearings: written.
     """
     columns, rows = grid.columns, grid.rows
-    for way in range(grid.ways):
-        step, rise, first = 1 - 2 * (way & 1), 1 - (way & 2), clearings_of(grid, way)
+    for octant in range(grid.octants):
+        step, rise, first = 1 - 2 * (octant & 1), 1 - (octant & 2), clearings_of(grid, octant)
         for j in range(rows):
             row = rows - 1 - j if rise > 0 else j
             beside, wide, high = WIDEST, WIDEST, WIDEST
@@ -73,9 +75,11 @@ def clear_ahead(ways, grid, above, clearings):
                 column = columns - 1 - i if step > 0 else i
                 cell = row * columns + column
                 at = clearing_at(grid, first, cell)
-                if (ways[cell] >> way) & 1 != 0:
+                if (octants[cell] >> octant) & 1 != 0:
                     beside, wide, high, above[column], clearings[at] = 0, 0, WIDEST, 0, 0
                     continue
+                # Two candidates: this row as far as it is free, as high as the lowest of its columns; and the rectangle
+                # of the cell above, one row higher, cut to what is free here.
                 up, broad, tall = WIDEST, WIDEST, WIDEST
                 if j > 0:
                     up = min(int(above[column]) + 1, WIDEST)
@@ -93,12 +97,13 @@ def clear_ahead(ways, grid, above, clearings):
 @kernel
 def is_larger(wide, high, than_wide, than_high):
     """Compare w h / (w + h) of two rectangles, since a ball leaves one by the shorter side, mostly."""
+    # w h / (w + h) > W H / (W + H), multiplied out: whole numbers, no quotient.
     return wide * high * (than_wide + than_high) > than_wide * than_high * (wide + high)
 
 
 @kernel
-def ways_along(lines, arcs, along):
-    """Find the ways that lie along all outward normals of each edge: their bits, none for what has no normal."""
+def octants_along(lines, arcs, along):
+    """Find the octants that lie along all outward normals of each edge: their bits, none for what has no normal."""
     for e in range(len(lines)):
         ux, uy = lines[e].nx, lines[e].ny
         wx, wy = ux, uy
@@ -109,25 +114,26 @@ def ways_along(lines, arcs, along):
                 per = (1.0 if arcs[e].sweep > 0.0 else -1.0) / arcs[e].radius
                 ux, uy, wx, wy = per * arcs[e].sx, per * arcs[e].sy, per * fx, per * fy
                 wide = is_wide(arcs[e].sweep)
-        along[e] = 0 if wide else ALL_WAYS - ways_against(ux, uy, wx, wy)
+        along[e] = 0 if wide else ALL_OCTANTS - octants_against(ux, uy, wx, wy)
 
 
 @kernel
 def clear_departures(listing, chains, grid, clearings):
-    """Find a large rectangle, each way, in which a ball that leaves a wall in a cell meets nothing.
+    """Find a large rectangle, for each octant, in which a ball that leaves a wall in a cell meets nothing.
 
-    Its cells list nothing at all, or edges of one chain alone (see ``monotone_chains``), which it leaves. It begins
-    with a few cells of the chain, along the row or the column, and goes on as the clearings of empty ones do.
+    Its cells list nothing at all, or edges of one chain alone (see ``wallkit.simulation.grid_chains``), which it
+    leaves. It begins with a few cells of the chain, along the row or the column, and goes on as the clearings of empty
+    ones do.
 
     Args:
         listing: the cells that list something.
-        chains: for each pair of opposite ways, by cell: the chain of all that it lists, 0 for nothing, or MANY.
-        grid: not packed, with clearings for four ways.
+        chains: for each pair of opposite octants, by cell: the chain of all that it lists, 0 for nothing, or MANY.
+        grid: not packed, with clearings for the quadrants.
         clearings: departures are written, for cells of one chain.
     """
     columns, rows, cells = grid.columns, grid.rows, grid.columns * grid.rows
-    for way in range(WAYS):
-        step, rise, plane, pair = 1 - 2 * (way & 1), 1 - (way & 2), (way & 3) * cells, pair_of(way) * cells
+    for octant in range(OCTANTS):
+        step, rise, plane, pair = 1 - 2 * (octant & 1), 1 - (octant & 2), (octant & 3) * cells, pair_of(octant) * cells
         for k in range(len(listing)):
             cell = listing[k]
             if chains[pair + cell] != MANY:
@@ -136,13 +142,14 @@ def clear_departures(listing, chains, grid, clearings):
                 tall, broad = _grow(chains, pair, clearings, plane, columns, rows, column, row, 0, rise, step, 0)
                 if is_larger(broad, tall, wide, high):
                     wide, high = broad, tall
-                clearings[departures_of(grid, way) + cell] = wide + (high << HALF)
+                clearings[departures_of(grid, octant) + cell] = wide + (high << HALF)
 
 
 @kernel
-def pair_of(way):
-    """Number the four pairs of opposite ways."""
-    return ((way ^ (way >> 1)) & 1) + ((way >> 2) << 1)
+def pair_of(octant):
+    """Number the four pairs of opposite octants."""
+    # Opposite octants differ in both signs. Their parity, and which component is the larger, name the pair.
+    return ((octant ^ (octant >> 1)) & 1) + ((octant >> 2) << 1)
 
 
 @rare_kernel
@@ -160,6 +167,7 @@ def _grow(chains, pair, clearings, plane, columns, rows, column, row, step, rise
         far, empty = k + 1, chains[pair + cell] == 0
         if empty:
             far = min(k + _side(clearings[plane + cell], step), WIDEST)
+        # One line longer, but only as wide as the narrowest so far: the best of all lengths is kept.
         if is_larger(far, limit, along, across):
             along, across = far, limit
         if empty:
@@ -175,6 +183,7 @@ def _across(chains, pair, clearings, plane, columns, rows, column, row, step, ri
             return k
         cell = row * columns + column
         if chains[pair + cell] == 0:
+            # The rectangle ahead of an empty cell goes on in this line: its length counts whole.
             return min(k + _side(clearings[plane + cell], step), WIDEST)
         if chains[pair + cell] != chain:
             return k

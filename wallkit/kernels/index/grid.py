@@ -46,6 +46,7 @@ def scan(model, c, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
 @kernel
 def search(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, feature):
     """Find the earliest contact before ``best``: (time, feature, edges touched by a point where it starts)."""
+    # Few edges: one cell lists them all.
     if grid is None:
         return scan(model, 0, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
     return _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, feature)
@@ -53,7 +54,7 @@ def search(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, fea
 
 @kernel
 def home(model, grid, x, y):
-    """Give the number of the cell that lists what a point at (x, y) touches."""
+    """Number of the cell that lists what a point at (x, y) touches."""
     if grid is None:
         return 0
     column, row = place(grid, x, y)
@@ -63,6 +64,7 @@ def home(model, grid, x, y):
 @kernel
 def place(grid, x, y):
     """Column and row of a place, in units; those at the border for places beyond."""
+    # Whole units: borders of cells are whole numbers too, and the walk compares them exactly.
     return (
         _unit((x - grid.x0) * grid.per_unit, grid.columns << grid.shift),
         _unit((y - grid.y0) * grid.per_unit, grid.rows << grid.shift),
@@ -73,6 +75,7 @@ def place(grid, x, y):
 def _unit(offset, count):
     """Keep an offset in units within the grid, nothing at all (0 times inf) too; without branches."""
     offset = offset if offset > 0.0 else 0.0
+    # A comparison with nan is false: 0 is taken for it.
     last = count - 1.0
     return int(offset if offset < last else last)
 
@@ -89,6 +92,7 @@ def leaf(cells, grid, column, row):
     shift = grid.shift
     c = top_at(grid, column, row) << grid.packed
     while is_divided(cells[c]):
+        # 2^bits by 2^bits parts, row by row: the next bits of row and column number the part.
         bits = int(cells[c].arcs)
         last = (1 << bits) - 1
         shift -= bits
@@ -105,20 +109,21 @@ def is_divided(cell):
 
 @kernel
 def moves_to_next(cell):
-    """How many king's moves it is from an undivided cell to the nearest that may list something; 1 if this one does."""
+    """Chebyshev distance from an undivided cell to the nearest one with entries; 1 if this one has some."""
     return int(cell.first) if cell.first == cell.end else 1
 
 
 @kernel
-def way_of(per_u, per_w):
-    """Which eighth of a full turn a flight goes: 1 to the left, 2 down, 4 more up or down than sideways."""
+def octant_of(per_u, per_w):
+    """The octant of a direction: 1 to the left, 2 down, 4 more up or down than sideways, added up."""
+    # Three bits: the two signs, and which component is the larger. 1 / u compares as u does, the other way round.
     return int(per_u <= 0.0) + 2 * int(per_w <= 0.0) + 4 * int(abs(per_w) < abs(per_u))
 
 
 @kernel
-def clearing(clearings, grid, way, column, row):
+def clearing(clearings, grid, octant, column, row):
     """Width and height of the clearing ahead of a place in units, in cells that are not part of another; 0 for none."""
-    size = int(clearings[clearing_at(grid, clearings_of(grid, way), top_at(grid, column, row))])
+    size = int(clearings[clearing_at(grid, clearings_of(grid, octant), top_at(grid, column, row))])
     return size & WIDEST, size >> HALF
 
 
@@ -129,22 +134,23 @@ def top_at(grid, column, row):
 
 
 @kernel
-def clearings_of(grid, way):
-    """Where in ``Model.clearings`` those for a way begin."""
-    way &= grid.ways - 1
-    return FIRST_CLEARING + way if grid.packed > 0 else way * grid.columns * grid.rows
+def clearings_of(grid, octant):
+    """Where in ``Model.clearings`` those of an octant begin."""
+    octant &= grid.octants - 1
+    return FIRST_CLEARING + octant if grid.packed > 0 else octant * grid.columns * grid.rows
 
 
 @kernel
 def clearing_at(grid, first, top):
-    """Where in ``Model.clearings`` that of a cell is, with those for its way from the first on."""
+    """Where in ``Model.clearings`` that of a cell is, with those of its octant from the first on."""
+    # Packed, a cell and its rectangles are 2^PACKED numbers in a row; else each octant has a plane of its own.
     return first + (top << (PACKED * grid.packed))
 
 
 @kernel
-def departures_of(grid, way):
-    """Where in ``Model.clearings`` the departures for a way begin, one for each cell."""
-    return (grid.ways + way) * grid.columns * grid.rows
+def departures_of(grid, octant):
+    """Where in ``Model.clearings`` the departures of an octant begin, one for each cell."""
+    return (grid.octants + octant) * grid.columns * grid.rows
 
 
 @kernel
@@ -170,7 +176,7 @@ def ahead(grid, wide, high, shift, column, row, px, py, u, w, per_u, per_w):
     """When a ball leaves a rectangle, and where to: (time, column, row).
 
     All in units: the ball is at p and flies with (u, w), of which the inverses are ``per_speed``; the rectangle begins
-    with the cell of side 2^shift at (column, row) and is ``wide`` times ``high`` of them large, the way of the flight.
+    with the cell of side 2^shift at (column, row) and is ``wide`` times ``high`` of them large, in the flight's octant.
 
     Beyond the border that it passes the column (or row) is a whole number, not a rounded one, and the other never goes
     back: so every step goes on, also where a path runs through the common corner of four cells. The rounding
@@ -178,9 +184,11 @@ def ahead(grid, wide, high, shift, column, row, px, py, u, w, per_u, per_w):
     rounding, and entries reach into their neighbours by far more (see ``wallkit.simulation.build_grid``).
     """
     right, up = int(per_u > 0.0), int(per_w > 0.0)  # in sums instead of branches, which no processor could foresee
+    # To the right the border is `wide` cells on from the left edge of this one, to the left wide - 1 back from it.
     border_x = ((column >> shift) + 1 - right + (2 * right - 1) * wide) << shift
     border_y = ((row >> shift) + 1 - up + (2 * up - 1) * high) << shift
     exit_x, exit_y = (border_x - px) * per_u, (border_y - py) * per_w
+    # It leaves by the border that it comes to first: exact there, and the other coordinate is that of p + t v.
     sideways = int(exit_x < exit_y)
     time = exit_x if exit_x < exit_y else exit_y
     there_x = _unit(px + time * u, grid.columns << grid.shift)
@@ -201,12 +209,13 @@ def _march(model, grid, radius, x, y, vx, vy, energy, last, tolerance, best, fea
     touched = 0
     px, py, u, w = in_units(grid, x, y, vx, vy)
     per_u, per_w = per_speed(u), per_speed(w)
-    way = way_of(per_u, per_w)
+    octant = octant_of(per_u, per_w)
     column, row = place(grid, x, y)
     time = -math.inf
+    # What is met before the border of the cells walked so far is final: later cells hold only later contacts.
     while best > time and inside(grid, column, row):
         shift = grid.shift
-        wide, high = clearing(model.clearings, grid, way, column, row)
+        wide, high = clearing(model.clearings, grid, octant, column, row)
         if wide == 0:
             c, shift = leaf(model.cells, grid, column, row)
             wide = high = moves_to_next(model.cells[c])

@@ -1,8 +1,8 @@
 """The way of a parabola through the grid, and what it meets there first.
 
-Both coordinates of the velocity keep their signs but for a moment each, and so does the eighth of a full turn in which
+Both coordinates of the velocity keep their signs but for a moment each, and so does the octant in which
 the ball goes. Between two such *turns* the walk is that of a straight flight: a rectangle of cells after the other,
-each as large as there is nothing to meet going that way.
+each as large as there is nothing to meet in that octant.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from wallkit.kernels.impact.gravity_impact import fall_arcs, fall_corners, fall_
 from wallkit.kernels.impact.polynomial_roots import NEVER
 from wallkit.kernels.index.grid import clearing, leaf, moves_to_next, place
 from wallkit.kernels.jit import kernel
-from wallkit.kernels.records import WAYS
+from wallkit.kernels.records import OCTANTS
 
 
 @kernel
@@ -28,22 +28,24 @@ def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolera
         )
     column, row = place(grid, x, y)
     columns, rows = grid.columns << grid.shift, grid.rows << grid.shift
-    touched, way = 0, 0
+    touched, octant = 0, 0
     now = turn = 0.0
+    # Four turns at most make five pieces, and on each columns and rows only rise, or only fall.
     for step in range(5 * (columns + rows) + 16):
         if step == 0 or now == turn:
             turn = _next_turn(grid, vx, vy, gx, gy, now)
-            way = _way_between(vx, vy, gx, gy, now, turn)
+            octant = _way_between(vx, vy, gx, gy, now, turn)
         c, shift = 0, grid.shift
-        wide, high = clearing(model.clearings, grid, way, column, row)
+        wide, high = clearing(model.clearings, grid, octant, column, row)
         listed = wide == 0
         if listed:
             c, shift = leaf(model.cells, grid, column, row)
             wide = high = moves_to_next(model.cells[c])
-        left, right = _span(column, shift, wide, way & 1)
-        low, top = _span(row, shift, high, way & 2)
-        after_x = _until_left(grid.x0, grid.unit, left, right, columns, x, vx, gx, now, way & 1)
-        after_y = _until_left(grid.y0, grid.unit, low, top, rows, y, vy, gy, now, way & 2)
+        left, right = _span(column, shift, wide, octant & 1)
+        low, top = _span(row, shift, high, octant & 2)
+        after_x = _until_left(grid.x0, grid.unit, left, right, columns, x, vx, gx, now, octant & 1)
+        after_y = _until_left(grid.y0, grid.unit, low, top, rows, y, vy, gy, now, octant & 2)
+        # The walk goes on to the border, or to where the octant changes, and looks for contacts until then.
         then = min(now + min(after_x, after_y), turn)
         if listed:
             best, feature, more = _fall_scan(
@@ -56,12 +58,13 @@ def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolera
         there_x, there_y = place(grid, x + now * (vx + 0.5 * now * gx), y + now * (vy + 0.5 * now * gy))
         there_x = min(max(there_x, left), right - 1)
         there_y = min(max(there_y, low), top - 1)
+        # Beyond the border that is passed the number is a whole one; at a turn the ball stays in its cell.
         if now < turn and after_x < after_y:
-            there_x = right if way & 1 == 0 else left - 1
+            there_x = right if octant & 1 == 0 else left - 1
         elif now < turn:
-            there_y = top if way & 2 == 0 else low - 1
-        column = max(there_x, column) if way & 1 == 0 else min(there_x, column)
-        row = max(there_y, row) if way & 2 == 0 else min(there_y, row)
+            there_y = top if octant & 2 == 0 else low - 1
+        column = max(there_x, column) if octant & 1 == 0 else min(there_x, column)
+        row = max(there_y, row) if octant & 2 == 0 else min(there_y, row)
     return best, feature, touched
 
 
@@ -92,9 +95,10 @@ def _fall_scan(
 
 @kernel
 def _next_turn(grid, vx, vy, gx, gy, now):
-    """The first time after now at which the way of a flight changes, see ``grid.way_of``."""
+    """The first time after now at which the octant of a flight changes, see ``grid.octant_of``."""
     turn = min(_standstill(vx, gx, now), _standstill(vy, gy, now))
-    if grid.ways == WAYS:
+    # Octants change too where |vx| = |vy|.
+    if grid.octants == OCTANTS:
         turn = min(turn, min(_standstill(vx - vy, gx - gy, now), _standstill(vx + vy, gx + gy, now)))
     return turn
 
@@ -108,7 +112,8 @@ def _standstill(v, g, now):
 
 @kernel
 def _way_between(vx, vy, gx, gy, now, turn):
-    """The way of a flight between two turns, see ``grid.way_of``."""
+    """The octant of a flight between two turns, see ``grid.octant_of``."""
+    # Signs do not change between two turns: any time between them tells.
     t = 0.5 * (now + turn) if turn < NEVER else 2.0 * now + 1.0
     ux, uy = vx + t * gx, vy + t * gy
     return int(ux <= 0.0) + 2 * int(uy <= 0.0) + 4 * int(abs(ux) < abs(uy))
@@ -120,6 +125,7 @@ def _span(number, shift, count, back):
 
     It goes the way of the flight: to lower numbers if ``back``.
     """
+    # Backwards the rectangle ends with this cell's right border.
     cell = number >> shift
     if back != 0:
         return (cell + 1 - count) << shift, (cell + 1) << shift
@@ -147,6 +153,7 @@ def _until_left(origin, unit, first, end, count, p, v, g, now, back):
     if a == 0.0:
         return d / u if u > 0.0 else NEVER
     u = max(u, 0.0)
+    # u t + a t^2 / 2 = d has the root 2 d / (u + sqrt(u^2 + 2 a d)), which loses no digits as a vanishes.
     square = u * u + 2.0 * a * d
     if square < 0.0:
         return NEVER

@@ -28,11 +28,13 @@ def all_clear(lines, extent, origin, position, radii):
         near = 0
         for i in range(len(radii)):
             ex, ey = (position[2 * i] - x0) - ax, (position[2 * i + 1] - y0) - ay
+            # From the segment: across it e.n, along it by how much e.tau is below 0 or beyond the length.
             off = ex * nx + ey * ny
             along = ey * nx - ex * ny
             before = -along if along < 0.0 else 0.0
             beyond = along - length if along > length else before
             reach = radii[i] + MARGIN * (radii[i] + extent)
+            # Counted, not returned at once: without a branch the loop is vectorised.
             near += 0 if off * off + beyond * beyond > reach * reach else 1
         if near > 0:
             return False
@@ -57,6 +59,7 @@ def all_clear_in_cells(lines, extent, position, radii, box, ends, sorted_balls):
     for i in range(len(radii)):
         largest = max(largest, radii[i])
     reach = largest + MARGIN * (largest + extent)
+    # side^2 >= w h / n and side >= (w + h) / n, so (w / side + 1)(h / side + 1) <= 2 n + 1 cells, about a ball each.
     side = max(max(math.sqrt(width * height / len(radii)), (width + height) / len(radii)), reach)
     columns, rows = int(width / side) + 1, int(height / side) + 1
     _sort(position, radii, left, low, side, columns, columns * rows, ends, sorted_balls)
@@ -77,6 +80,8 @@ def all_clear_in_cells(lines, extent, position, radii, box, ends, sorted_balls):
 @kernel
 def _sort(position, radii, left, low, side, columns, cells, ends, sorted_balls):
     """Sort balls by cell, counting first: those of cell c come from ends[c] to ends[c + 1]."""
+    # Counting sort. Counts stand two places on; summed up they are where each cell begins, one place on; and filling a
+    # cell moves that to where the next one begins.
     for i in range(len(radii)):
         ends[_cell(position, i, left, low, side, columns) + 2] += 1
     for cell in range(cells):

@@ -33,11 +33,14 @@ from wallkit.kernels.records import (
     AMBIGUOUS_CORNER,
     AT_REST,
     COLLAPSE,
+    COUNT,
     JOINING,
     LEAVING,
+    LOG,
     PASSING,
     RUNNING,
     SLIDING,
+    STATE,
 )
 
 MOST = 2**62
@@ -66,13 +69,15 @@ def wall_ahead(model, gravity, discs, ball, until):
         state[k] = discs.states[ball][k]
     for k in range(len(counts)):
         counts[k] = discs.counts[ball][k]
-    if counts[2] != RUNNING:
+    if counts[COUNT.ending] != RUNNING:
         return NEVER
     noted = fly_on(model, gravity, row[RADIUS], state, counts, widened(until, row[TIME]), hits, log)
     if noted > 0:
-        return log[0]
-    if counts[2] in (COLLAPSE, AMBIGUOUS_CORNER) or (gravity is not None and counts[2] == AT_REST):
-        return state[4] + state[5]
+        return log[LOG.time]
+    if counts[COUNT.ending] in (COLLAPSE, AMBIGUOUS_CORNER) or (
+        gravity is not None and counts[COUNT.ending] == AT_REST
+    ):
+        return state[STATE.time] + state[STATE.lost]
     return NEVER
 
 
@@ -84,12 +89,13 @@ def cold(gravity, discs, ball):
         return
     row, state, counts = discs.ball[ball], discs.states[ball], discs.counts[ball]
     x, y, vx, vy = row[X], row[Y], row[VX], row[VY]
-    state[0], state[1], state[2], state[3], state[4], state[5] = x, y, vx, vy, row[TIME], row[LOST]
-    state[6] = vx * vx + vy * vy if gravity is None else kept_energy(gravity, x, y, vx, vy)
-    state[7], state[8], state[9], state[10] = x, y, vx, vy
+    state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy] = x, y, vx, vy
+    state[STATE.time], state[STATE.lost] = row[TIME], row[LOST]
+    state[STATE.energy] = vx * vx + vy * vy if gravity is None else kept_energy(gravity, x, y, vx, vy)
+    state[STATE.from_x], state[STATE.from_y], state[STATE.from_vx], state[STATE.from_vy] = x, y, vx, vy
     for k in range(len(counts)):
         counts[k] = discs.start[k]
-    counts[1] = int(own[BOUNCES])
+    counts[COUNT.bounces] = int(own[BOUNCES])
     own[BEING] = FLYING
 
 
@@ -97,9 +103,9 @@ def cold(gravity, discs, ball):
 def give_up_if_held(discs, ball):
     """End a disc that a wall comes to hold under gravity, by an approach with no speed: others cannot meet it."""
     counts = discs.counts[ball]
-    holds = counts[5] in (JOINING, SLIDING, LEAVING, PASSING)
-    if counts[2] == AT_REST or (counts[2] == RUNNING and holds):
-        counts[2] = COLLAPSE
+    holds = counts[COUNT.hold] in (JOINING, SLIDING, LEAVING, PASSING)
+    if counts[COUNT.ending] == AT_REST or (counts[COUNT.ending] == RUNNING and holds):
+        counts[COUNT.ending] = COLLAPSE
 
 
 @rare_kernel
@@ -110,11 +116,12 @@ def take_wall_contact(model, gravity, discs, ball, hits, log, noted):
     count_still(discs, ball, row[DUE] - (row[TIME] + row[LOST]))
     state, counts, tried = discs.states[ball], discs.counts[ball], discs.tries[3]
     found = fly_on(model, gravity, row[RADIUS], state, counts, widened(row[DUE], row[TIME]), hits, tried)
-    row[X], row[Y], row[VX], row[VY], row[TIME], row[LOST] = state[0], state[1], state[2], state[3], state[4], state[5]
-    own[BOUNCES], own[MET] = counts[1], NOBODY
+    row[X], row[Y], row[VX], row[VY] = state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy]
+    row[TIME], row[LOST] = state[STATE.time], state[STATE.lost]
+    own[BOUNCES], own[MET] = counts[COUNT.bounces], NOBODY
     if gravity is not None:
         give_up_if_held(discs, ball)
-    ending = counts[2]
+    ending = counts[COUNT.ending]
     if ending == ABSORBED or (gravity is not None and ending != RUNNING):
         quit_cell(discs, ball)
         own[BEING] = OUT
@@ -141,8 +148,8 @@ def states_at(model, gravity, discs, time, states, endings):
             state[k] = discs.states[ball][k]
         for k in range(len(counts)):
             counts[k] = discs.counts[ball][k]
-        if counts[2] == RUNNING and time < NEVER:
+        if counts[COUNT.ending] == RUNNING and time < NEVER:
             fly_on(model, gravity, discs.ball[ball][RADIUS], state, counts, time, hits, log)
         for k in range(len(state)):
             states[ball][k] = state[k]
-        endings[ball] = counts[2]
+        endings[ball] = counts[COUNT.ending]

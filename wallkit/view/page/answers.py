@@ -16,10 +16,11 @@ from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
 from wallkit.scene.samples import samples
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation.run import Ending, Run
+from wallkit.view.page import aiming
 from wallkit.view.page.documents import Document, Reader
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
 from wallkit.view.page.questions import Opening
-from wallkit.view.page.warmth import Warmth
+from wallkit.view.page.worlds import CompilingError, Worlds, check_index
 from wallkit.walls import Walls
 from wallkit.walls.fields import MOST_RESTITUTION
 from wallkit.walls.import_options import ImportOptions
@@ -51,7 +52,7 @@ class Answers:
 
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
-        self.warmth = Warmth()
+        self._worlds = Worlds()
 
     def open(self, file: Opening, watched: bool = False) -> Document:
         """Open a file's bytes; only a file of this machine's own owner may name others, in its folder."""
@@ -87,17 +88,29 @@ class Answers:
 
     def simulate(self, body: Table, document: Document) -> Table:
         """Fly balls: to a time, or for a number of bounces each."""
-        from wallkit.simulation.simulate import simulate
-
         scene = scene_of(body, document)
         until, bounces = limits_of(body, len(scene.balls))
-        mode = self.warmth.mode(scene)
-        most = bounces if mode == "auto" else min(bounces, max(1, INTERPRETED_CONTACTS // len(scene.balls)))
-        run = simulate(scene, until, most, mode=mode)
+        flights, ready = self._worlds.flights(body, document, scene)
+        most = bounces if ready else min(bounces, max(1, INTERPRETED_CONTACTS // len(scene.balls)))
+        run = self._worlds.run(flights, until, most)
         table = run_table(run, horizon="until" in body)
         if most < bounces and Ending.BOUNCE_LIMIT in run.ending:  # the page asks again, the compiler ready by then
             table |= {"partial": True, "duration": float(run.final["time"].min())}
         return table
+
+    def aim(self, body: Table, document: Document) -> Table:
+        """Find all shots of a ball that reach a target."""
+        scene = scene_of(body, document)
+        target = body.get("target")
+        if not isinstance(target, list) or len(target) != 3:
+            raise QuestionError("target is no disc", code="bad-request", fix="give [x, y, radius]")
+        x, y, radius = (number(part, "target", -MAX_COORDINATE, MAX_COORDINATE) for part in target)
+        bounces = int(number(body.get("bounces", 3), "bounces", 0, aiming.MOST_BOUNCES))
+        check_index(scene)
+        windows = aiming.windows_of(scene, (x, y, radius), bounces)
+        if windows is None:
+            raise CompilingError
+        return aiming.windows_table(windows)
 
     def save(self, body: Table, document: Document) -> Download:
         """Give the scene, the replay of its run or the walls as a file."""
@@ -115,11 +128,12 @@ class Answers:
             content = json.dumps(scene_to_json(scene, until), allow_nan=False)
             return Download(f"{stem}.scene.json", content, "application/json")
         if what == "replay":
-            from wallkit.simulation.simulate import simulate
             from wallkit.view.replay import replay_html
 
-            run = simulate(scene, until, bounces)
-            page = replay_html(run, title=document.name)
+            flights, ready = self._worlds.flights(body, document, scene)
+            if not ready:  # a file is whole, or is none
+                raise CompilingError
+            page = replay_html(self._worlds.run(flights, until, bounces), title=document.name)
             return Download(f"{stem}.html", page, "text/html; charset=utf-8")
         raise QuestionError(f"what is {what!r}", code="bad-request", fix='give "scene", "replay" or "walls"')
 
@@ -146,6 +160,7 @@ class Answers:
             "walls": walls_table(walls, begin[:, :2], opened.scene.sensors),
             "problems": self.problems_table(document),
             "balls": balls_table(opened.scene.balls),
+            "targets": aiming.targets_of(opened.scene),
             "gravity": opened.scene.gravity,
             "materials": {
                 "restitution": first.restitution if first else 1.0,

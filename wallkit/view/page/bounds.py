@@ -30,6 +30,8 @@ LIGHT_CONTACTS = 1_000
 """A run of at most so many contacts, of all balls together, is light; aiming asks for 24."""
 TICK = 0.05
 """Seconds between two looks at whether the asker is still there."""
+PAUSE = 0.5
+"""Seconds until a question is asked again that waits for a compiler."""
 
 
 def hold_memory(more: int) -> None:

@@ -79,6 +79,7 @@ class Reply:
         download: a file's name, where the person shall keep it.
         document: what was opened, or imported again.
         missing: the worker does not know the document; nothing else is said.
+        compiling: a process apart compiles what the answer needs; ask again when it may have done so.
         error: what the question is refused with.
         internal: an error that nobody meant, in words.
     """
@@ -88,5 +89,6 @@ class Reply:
     download: str = ""
     document: Kept | None = None
     missing: bool = False
+    compiling: bool = False
     error: WallkitError | None = None
     internal: str = ""

@@ -28,7 +28,7 @@ from wallkit.view.page.workers import QUESTIONS, InternalError, LostError, Worke
 
 MAX_BODY = 32 * 1024 * 1024
 PATIENCE = 30.0  # seconds that a connection may say nothing
-PAGE_SCRIPTS = (*look.SHARED_SCRIPTS, "desk.js", "aim.js", "panel.js", "gallery.js", "page.js")
+PAGE_SCRIPTS = (*look.SHARED_SCRIPTS, "desk.js", "windows.js", "aim.js", "panel.js", "gallery.js", "page.js")
 PAGE_STYLES = ("theme.css", "look.css", "page.css")
 
 POLICY = (

@@ -17,6 +17,7 @@ from wallkit.view.page.answers import Answers, Download, QuestionError
 from wallkit.view.page.bounds import hold_memory, in_words
 from wallkit.view.page.documents import MOST_DOCUMENTS, Document, Reader
 from wallkit.view.page.questions import Kept, Question, Reply
+from wallkit.view.page.worlds import CompilingError
 
 Make = Callable[[Reader], Answers]
 
@@ -74,6 +75,8 @@ def reply_to(question: Question, answers: Answers, documents: Documents, memory:
         return _replied(question, answers, documents)
     except WallkitError as error:
         return Reply(error=plain(error))
+    except CompilingError:
+        return Reply(compiling=True)
     except MemoryError:
         return Reply(error=too_large(memory))
     except Exception as error:  # whatever it is, the page hears of it and the worker goes on
@@ -96,6 +99,8 @@ def _replied(question: Question, answers: Answers, documents: Documents) -> Repl
         return Reply(_text(answers.document_table(document)))
     if question.name == "simulate":
         return Reply(_text(answers.simulate(question.body, document)))
+    if question.name == "aim":
+        return Reply(_text(answers.aim(question.body, document)))
     if question.name == "save":
         saved: Download = answers.save(question.body, document)
         return Reply(saved.content, saved.media, saved.name)

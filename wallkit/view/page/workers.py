@@ -20,7 +20,7 @@ from multiprocessing.connection import Connection
 from importers.errors import LimitError, WallkitError
 from wallkit.scene.opening import read_file
 from wallkit.view.page.answers import Answers
-from wallkit.view.page.bounds import HEAVY, LIGHT, LIGHT_CONTACTS, TICK, Bounds
+from wallkit.view.page.bounds import HEAVY, LIGHT, LIGHT_CONTACTS, PAUSE, TICK, Bounds
 from wallkit.view.page.documents import Reader, Shelf
 from wallkit.view.page.payload import Table
 from wallkit.view.page.questions import Kept, Opening, Question, Reply
@@ -28,8 +28,8 @@ from wallkit.view.page.worker import Make, work
 from wallkit.watch_file import Watch
 
 Gone = Callable[[], bool]
-QUESTIONS = ("sample", "walls", "saved", "simulate", "save")
-_ABOUT_DOCUMENTS = ("walls", "simulate", "save")
+QUESTIONS = ("sample", "walls", "saved", "simulate", "aim", "save")
+_ABOUT_DOCUMENTS = ("walls", "simulate", "aim", "save")
 
 
 class GoneError(ConnectionError):
@@ -171,15 +171,13 @@ class Worker:
             if gone():
                 raise GoneError
         try:
-            self._let_start(gone)
-            seconds = self.bounds.seconds if bounded else None
-            end = None if seconds is None else time.monotonic() + seconds
-            reply = self._answered(question, gone, end)
-            if reply.missing and kept is not None:
-                reply = self._answered(replace(question, document=kept.packed), gone, end)
+            while (reply := self._replied(question, kept, gone, bounded=bounded)).compiling:
+                self._pause()  # the compiler's time is not the question's
             return reply
         except BaseException as error:  # too long, gone, lost, Ctrl+C: a process that is still at it is ended
             self._renew()
+            if self._closed:
+                raise GoneError from None
             if isinstance(error, EOFError | OSError) and not isinstance(error, GoneError):
                 raise _lost() from None
             raise
@@ -191,6 +189,21 @@ class Worker:
         self._closed = True
         self._process.kill()
         self._process.join()
+
+    def _replied(self, question: Question, kept: Kept | None, gone: Gone, *, bounded: bool) -> Reply:
+        self._let_start(gone)
+        seconds = self.bounds.seconds if bounded else None
+        end = None if seconds is None else time.monotonic() + seconds
+        reply = self._answered(question, gone, end)
+        if reply.missing and kept is not None:
+            reply = self._answered(replace(question, document=kept.packed), gone, end)
+        return reply
+
+    def _pause(self) -> None:
+        """Let the others have their turn for a while."""
+        self._turn.release()
+        time.sleep(PAUSE)
+        self._turn.acquire()
 
     def _answered(self, question: Question, gone: Gone, end: float | None) -> Reply:
         self._pipe.send(question)

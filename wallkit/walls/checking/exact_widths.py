@@ -2,69 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import NDArray
 
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.walls.walls import Walls
 
-ComplexArray = NDArray[np.complex128]
 
-_FLAT = 1e-9  # an arc of a smaller bulge bows by less than 1e-9 of its chord and counts as a line here
-
-
-@dataclass(slots=True)
-class ExactEdges:
-    """Lines and arcs as complex numbers: end points, and for arcs centre, radius and the angle that is turned by.
-
-    Attributes:
-        a: (n,) start points.
-        b: (n,) end points.
-        centre: (n,) of arcs; 0 for lines.
-        radius: (n,) of arcs; 0 for lines.
-        angle: (n,) that an arc turns by; 0 for lines.
-    """
-
-    a: ComplexArray
-    b: ComplexArray
-    centre: ComplexArray
-    radius: FloatArray
-    angle: FloatArray
-
-    @classmethod
-    def of(cls, walls: Walls) -> ExactEdges:
-        """Take all edges of walls."""
-        z = walls.vertices[:, 0] + 1j * walls.vertices[:, 1]
-        a, b, bulge = z[walls.edge_starts], z[walls.edge_ends], walls.bulges[walls.edge_starts]
-        round_ = np.abs(bulge) > _FLAT
-        k = np.where(round_, bulge, 1.0)
-        centre = np.where(round_, (a + b) / 2 + 1j * (b - a) * (1 - k * k) / (4 * k), 0)
-        radius = np.where(round_, np.abs(b - a) * (1 + k * k) / (4 * np.abs(k)), 0.0)
-        return cls(a, b, centre, radius, np.where(round_, 4 * np.arctan(bulge), 0.0))
-
-    def take(self, index: IntArray) -> ExactEdges:
-        """Give those at ``index``."""
-        return ExactEdges(self.a[index], self.b[index], self.centre[index], self.radius[index], self.angle[index])
-
-    def nearest(self, point: ComplexArray) -> ComplexArray:
-        """Give each edge's point nearest to its ``point``."""
-        d = self.b - self.a
-        square = np.abs(d) ** 2
-        part = np.divide(((point - self.a) * d.conj()).real, square, out=np.zeros(len(d)), where=square > 0)
-        on_line: ComplexArray = self.a + d * np.clip(part, 0.0, 1.0)
-        if not self.radius.any():
-            return on_line
-        off = point - self.centre
-        with np.errstate(divide="ignore", invalid="ignore"):
-            on_circle = self.centre + off / np.abs(off) * self.radius
-            turned = np.angle(off / (self.a - self.centre))
-        turned = np.where(self.angle < 0, -turned, turned) % (2 * np.pi)
-        end = np.where(np.abs(point - self.a) <= np.abs(point - self.b), self.a, self.b)
-        on_arc = np.where((turned <= np.abs(self.angle)) & (off != 0), on_circle, end)
-        result: ComplexArray = np.where(self.radius > 0, on_arc, on_line)
-        return result
+def exact_edges(walls: Walls) -> ExactEdges:
+    """Take all edges of walls."""
+    starts = walls.edge_starts
+    return ExactEdges.of(walls.vertices[starts], walls.vertices[walls.edge_ends], walls.bulges[starts])
 
 
 def nearest_pair(edges: ExactEdges, a: complex, b: complex, reach: float) -> tuple[complex, complex]:

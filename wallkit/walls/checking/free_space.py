@@ -23,13 +23,13 @@ from wallkit.arguments import ABOVE_0, number, of_type
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.conforming_delaunay import SHORTEST, Triangulation, triangulate
 from wallkit.walls.as_shapely import straightened
-from wallkit.walls.checking.exact_widths import ExactEdges, nearest_pair
+from wallkit.walls.checking.exact_widths import exact_edges, nearest_pair
 from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.narrow_places import with_feet
 from wallkit.walls.checking.parts import Parts
 from wallkit.walls.checking.room_circles import larger_circles
 from wallkit.walls.checking.self_check import diagonal
-from wallkit.walls.crossings import find_contacts
+from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.walls import Walls, WallsError
 
@@ -115,9 +115,10 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
     edges = Edges(vertices, offsets, walls.closed)
     nothing = not len(edges) or diagonal(vertices) == 0
-    if nothing or len(edges) > MOST_EDGES or _is_tangle(edges):
+    pieces = None if nothing or len(edges) > MOST_EDGES else _noded(edges)
+    if pieces is None:
         return FreeSpace([], np.empty((0, 3)), nothing)
-    a, b = _noded(edges)
+    a, b = pieces
     coarse = triangulate(a, b)
     mesh = None if coarse is None else with_feet(coarse)
     if mesh is None:
@@ -139,12 +140,6 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
         chosen = replace(_where_free(found, solids, False), inside=True)
     chosen = _roomier(chosen, mesh)
     return _sharpened(chosen, walls, vertices) if walls.has_arcs else chosen
-
-
-def _is_tangle(edges: Edges) -> bool:
-    """More crossings than can be looked at: all edges cut where they cross would be too many."""
-    contacts = find_contacts(edges)
-    return not contacts.complete or len(contacts.crossing_at) > MOST_CROSSINGS
 
 
 def _where_free(found: FreeSpace, solids: Solids, free: bool) -> FreeSpace:
@@ -170,7 +165,7 @@ def _roomier(found: FreeSpace, mesh: Triangulation) -> FreeSpace:
 
 def _sharpened(found: FreeSpace, walls: Walls, vertices: FloatArray) -> FreeSpace:
     """Measure gaps between the arcs themselves."""
-    exact = ExactEdges.of(walls)
+    exact = exact_edges(walls)
     reach = 4 * (walls.tolerance / 10 or 1e-4 * diagonal(vertices))
     gaps = []
     for gap in found.gaps[:MOST_SHARPENED]:
@@ -207,8 +202,18 @@ def reached(walls: Walls, radius: float, starts: FloatArray, places: FloatArray)
     return result
 
 
-def _noded(edges: Edges) -> tuple[FloatArray, FloatArray]:
-    """All edges, cut where they cross or touch, each piece once."""
+def _noded(edges: Edges) -> tuple[FloatArray, FloatArray] | None:
+    """All edges, cut where they cross or touch, each piece once; None for a tangle: the pieces would be too many.
+
+    GEOS looks for crossings in steps that grow with the square of walls around each other, so where there are none
+    it is not asked.
+    """
+    touches = find_touches(edges)
+    if not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS:
+        return None
+    copied = (touches.copy_of != np.arange(len(touches.copy_of))).any()
+    if not (copied or len(touches.crossing_at) or len(touches.touch_at) or len(touches.overlap_at)):
+        return edges.a, edges.b
     lines = shapely.linestrings(np.stack([edges.a, edges.b], axis=1))
     parts = shapely.get_parts(shapely.node(shapely.multilinestrings(lines)))
     coordinates, index = shapely.get_coordinates(parts, return_index=True)

@@ -14,14 +14,14 @@ import numpy as np
 import shapely
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
-from wallkit.walls.checking.exact_widths import ComplexArray, ExactEdges
 from wallkit.walls.checking.meetings import meetings, on_edge
 from wallkit.walls.checking.open_ends import OWN, BoolArray, OpenEnds, Surroundings, in_the_way, put_on
 from wallkit.walls.checking.overshoots import Overshoots, overshoots
 from wallkit.walls.walls import Walls
 
-Kind = Literal["corner", "middle", "bridge", "extend", "foot", "trim"]
+EndKind = Literal["corner", "middle", "bridge", "extend", "foot", "trim"]
 
 _ASKEW = 3.0  # a move along the own line is taken up to so many times the distance, else an edge is added
 
@@ -45,7 +45,7 @@ class LooseEnd:
         back: where the first end moves back to before the bridge is added, if it reaches past the second.
     """
 
-    kind: Kind
+    kind: EndKind
     ends: tuple[int, ...]
     distance: float
     need: float
@@ -217,7 +217,7 @@ def _to_walls(
     end, edge, distance, foot = near.end[keep], near.edge[keep], near.distance[keep], near.foot[keep]
     mine = ends.take(end)
     ahead = _ahead(scene, mine, edge)
-    out = overshoots(scene, ends, np.flatnonzero(loose), reach)
+    out = overshoots(scene, ends, np.flatnonzero(loose), (near.end, near.edge), reach)
     order = np.lexsort((distance, end))
     first = order[np.unique(end[order], return_index=True)[1]] if len(order) else order
     on = np.full(len(ends.at), -1)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
-from wallkit.walls.checking.exact_widths import ComplexArray, ExactEdges
+from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 
 _SLACK = 1e-12  # of an edge: what rounding does to the part of it at which a point lies
 

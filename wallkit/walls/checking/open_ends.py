@@ -9,8 +9,9 @@ import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
-from wallkit.walls.checking.exact_widths import ComplexArray, ExactEdges
+from wallkit.walls.checking.exact_widths import exact_edges
 from wallkit.walls.checking.meetings import meetings, on_edge
 from wallkit.walls.walls import Walls
 
@@ -54,7 +55,6 @@ class Surroundings:
     edge_wall: IntArray
     starts: IntArray
     stops: IntArray
-    boxes: NDArray[np.object_]
     tree: shapely.STRtree
     along: FloatArray  # (V,) way along its wall to each vertex
     total: FloatArray  # (W,) length of each wall
@@ -63,7 +63,7 @@ class Surroundings:
     @classmethod
     def of(cls, walls: Walls) -> Surroundings:
         """Measure walls and put their boxes into a tree."""
-        edges = ExactEdges.of(walls)
+        edges = exact_edges(walls)
         length = np.where(edges.radius > 0, np.abs(edges.angle) * edges.radius, np.abs(edges.b - edges.a))
         bow = np.abs(np.tan(edges.angle / 4)) * np.abs(edges.b - edges.a) / 2
         a, b = walls.vertices[walls.edge_starts], walls.vertices[walls.edge_ends]
@@ -78,7 +78,7 @@ class Surroundings:
         there = ROUNDING * float(np.abs(walls.vertices).max(initial=0.0))
         total = np.bincount(edge_wall, length, len(walls)).astype(np.float64)
         starts, stops = walls.edge_starts, walls.edge_ends
-        return cls(walls, edges, edge_wall, starts, stops, boxes, shapely.STRtree(boxes), along, total, there)
+        return cls(walls, edges, edge_wall, starts, stops, shapely.STRtree(boxes), along, total, there)
 
     def ends(self) -> OpenEnds:
         """All open ends."""

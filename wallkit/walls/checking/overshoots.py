@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.walls.checking.exact_widths import ComplexArray
+from wallkit.geometry.exact_edges import ComplexArray
 from wallkit.walls.checking.meetings import meetings, on_edge, part_of
 from wallkit.walls.checking.open_ends import OpenEnds, Surroundings
 
@@ -42,8 +41,16 @@ class Overshoots:
         self.sections[row] = sections
 
 
-def overshoots(scene: Surroundings, ends: OpenEnds, rows: IntArray, reach: float) -> Overshoots:
-    """Find, for the ends in ``rows``, the farthest crossing with another wall within reach along the own wall."""
+def overshoots(
+    scene: Surroundings, ends: OpenEnds, rows: IntArray, near: tuple[IntArray, IntArray], reach: float
+) -> Overshoots:
+    """Find, for the ends in ``rows``, the farthest crossing with another wall within reach along the own wall.
+
+    What is crossed within reach along the wall is within reach of the end: ``near`` has all such pairs of an end and an
+    edge.
+    """
+    apart = scene.edge_wall[near[1]] != ends.wall[near[0]]
+    near = near[0][apart], near[1][apart]
     count = len(ends.at)
     zero = np.zeros(count, dtype=np.int64)
     found = Overshoots(np.zeros(count), np.zeros(count, dtype=np.complex128), zero - 1, zero)
@@ -58,7 +65,7 @@ def overshoots(scene: Surroundings, ends: OpenEnds, rows: IntArray, reach: float
             break
         edge = here.edge + k * here.step
         done_after = done + np.abs(scene.along[scene.starts[edge]] - scene.along[scene.stops[edge]])
-        _cross(scene, ends, here, rows, edge, (done, done_after), reach, k, found)
+        _cross(scene, ends, here, rows, edge, near, (done, done_after), reach, k, found)
         done = done_after
     return found
 
@@ -69,19 +76,17 @@ def _cross(
     here: OpenEnds,
     rows: IntArray,
     edge: IntArray,
+    near: tuple[IntArray, IntArray],
     way: tuple[FloatArray, FloatArray],
     reach: float,
     k: int,
     found: Overshoots,
 ) -> None:
     """Note the crossings of one edge of each end, ``way[0]`` to ``way[1]`` from the end along the wall."""
-    tip = scene.walls.vertices[here.vertex + k * here.step]
-    left = (reach - way[0])[:, None]
-    box = shapely.bounds(scene.boxes[edge])
-    low, high = np.maximum(box[:, :2], tip - left), np.minimum(box[:, 2:], tip + left)
-    source, other = scene.tree.query(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
-    apart = scene.edge_wall[other] != here.wall[source]
-    source, other = source[apart], other[apart]
+    place = np.full(len(ends.at), -1)
+    place[rows] = np.arange(len(rows))
+    source = place[near[0]]
+    source, other = source[source >= 0], near[1][source >= 0]
     e, f = scene.edges.take(edge[source]), scene.edges.take(other)
     open_end = np.zeros(len(scene.walls.vertices), dtype=np.bool_)
     open_end[ends.vertex] = True

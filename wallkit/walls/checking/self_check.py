@@ -17,7 +17,7 @@ from wallkit.walls.as_shapely import straightened
 from wallkit.walls.checking.loose_ends import LooseEnd, loose_ends, settled_places
 from wallkit.walls.checking.widths import is_thin
 from wallkit.walls.copies import copies
-from wallkit.walls.crossings import Contacts, find_contacts
+from wallkit.walls.crossings import Touches, find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.walls import Walls
 
@@ -71,7 +71,7 @@ def validate(
     *,
     lines: Sequence[int | None] = (),
     edges: Edges | None = None,
-    contacts: Contacts | None = None,
+    touches: Touches | None = None,
 ) -> list[Problem]:
     """Find every violation: crossings, doubled edges and walls, slivers, gaps between open ends.
 
@@ -79,18 +79,18 @@ def validate(
         walls: any walls; arcs are looked at as lines within a tenth of the tolerance.
         lines: line in the file of each wall, for the report.
         edges: the straight edges of the walls, if they are at hand.
-        contacts: the contacts of those edges, if they are at hand.
+        touches: those of these edges, if they are at hand.
 
     Returns:
         Problems in the order crossings, duplicates, slivers, gaps; empty means valid. A crossing that an open end
         only sticks out of is told as that end, not as a crossing too.
     """
     edges = straight_edges(walls) if edges is None else edges
-    contacts = find_contacts(edges) if contacts is None else contacts
+    touches = find_touches(edges) if touches is None else touches
     findings = Findings(walls, lines)
-    loose = loose_ends(walls, _NEAR * diagonal(edges.vertices)) if contacts.complete else []
-    _crossings(findings, contacts, _at_ends(walls, contacts, loose))
-    _duplicates(findings, edges, contacts)
+    loose = loose_ends(walls, _NEAR * diagonal(edges.vertices)) if touches.complete else []
+    _crossings(findings, touches, _at_ends(walls, touches, loose))
+    _duplicates(findings, edges, touches)
     _slivers(findings, edges)
     _gaps(findings, edges, loose)
     return findings.closed()
@@ -107,51 +107,54 @@ def diagonal(vertices: FloatArray) -> float:
     return float(np.hypot(*(vertices.max(axis=0) - vertices.min(axis=0)))) if len(vertices) else 0.0
 
 
-def _at_ends(walls: Walls, contacts: Contacts, loose: Sequence[LooseEnd]) -> NDArray[np.bool_]:
+def _at_ends(walls: Walls, touches: Touches, loose: Sequence[LooseEnd]) -> NDArray[np.bool_]:
     """Which crossings are where an end sticks out, or where an end lies on an arc that lines stand for here."""
     places = np.array([end.at for end in loose if end.kind == "trim"], dtype=np.complex128)
     if walls.has_arcs and not walls.closed.all():
         places = np.concatenate([places, settled_places(walls)])
-    result = np.zeros(len(contacts.crossing_at), dtype=np.bool_)
+    result = np.zeros(len(touches.crossing_at), dtype=np.bool_)
     if len(places) and len(result):
         size = float(np.abs(walls.vertices).max())
         within = 1e-9 * size + (walls.tolerance / 5 if walls.has_arcs else 0.0)
+        across = np.sort(places.real)
+        x = touches.crossing_at[:, 0]
+        beside = np.flatnonzero(np.searchsorted(across, x - within) < np.searchsorted(across, x + within, "right"))
         tree = shapely.STRtree(shapely.points(places.real, places.imag))
-        found, _ = tree.query(shapely.points(contacts.crossing_at), predicate="dwithin", distance=within)
-        result[found] = True
+        found, _ = tree.query(shapely.points(touches.crossing_at[beside]), predicate="dwithin", distance=within)
+        result[beside[found]] = True
     return result
 
 
-def _crossings(findings: Findings, contacts: Contacts, known: NDArray[np.bool_]) -> None:
+def _crossings(findings: Findings, touches: Touches, known: NDArray[np.bool_]) -> None:
     """Crossings but those that are ``known`` otherwise."""
-    own = contacts.crossing_walls[:, 0] == contacts.crossing_walls[:, 1]
+    own = touches.crossing_walls[:, 0] == touches.crossing_walls[:, 1]
     for row in findings.first(np.flatnonzero(own), "self-crossing"):
-        wall, at = int(contacts.crossing_walls[row, 0]), contacts.crossing_at[row]
+        wall, at = int(touches.crossing_walls[row, 0]), touches.crossing_at[row]
         fix = "redraw the path, or resolve its crossings (--resolve)"
         findings.add(wall, "self-crossing", "warning", f"{findings.called(wall)} crosses itself", fix, at)
     for row in findings.first(np.flatnonzero(~own & ~known), "crossing"):
-        one, two = contacts.crossing_walls[row].tolist()
+        one, two = touches.crossing_walls[row].tolist()
         message = f"{findings.called(one)} and {findings.called(two)} cross"
         solids = findings.walls.closed[one] and findings.walls.closed[two]
         fix = "draw them apart, or unite the solids (--union)" if solids else "draw them apart, or end one at the other"
-        findings.add(one, "crossing", "warning", message, fix, contacts.crossing_at[row])
-    if not contacts.complete:
+        findings.add(one, "crossing", "warning", message, fix, touches.crossing_at[row])
+    if not touches.complete:
         message = "more edges meet or lie close together than are looked at: not all crossings and gaps are known"
         findings.problems.append(Problem("tangled", "warning", message, "take fewer layers, or a larger tolerance"))
 
 
-def _duplicates(findings: Findings, edges: Edges, contacts: Contacts) -> None:
+def _duplicates(findings: Findings, edges: Edges, touches: Touches) -> None:
     """Walls drawn twice, walls that run over themselves, walls that share edges."""
     first = copies(edges, edges.closed & (np.diff(edges.offsets) >= 3))
     for wall in np.flatnonzero(first != np.arange(len(first))).tolist():
         message = f"{findings.called(wall)} is the same as {findings.called(int(first[wall]))}"
         fix = "delete one of them, or drop duplicates (--drop-duplicates)"
         findings.add(wall, "duplicate-wall", "warning", message, fix, edges.vertices[edges.offsets[wall]])
-    pairs = np.sort(edges.wall[contacts.overlap_edges], axis=1)
+    pairs = np.sort(edges.wall[touches.overlap_edges], axis=1)
     pairs = pairs.reshape(-1, 2)
     same = first[pairs[:, 0]] == first[pairs[:, 1]] if len(first) else np.empty(0, dtype=np.bool_)
     doubled = ~same | (pairs[:, 0] == pairs[:, 1])
-    _shared(findings, pairs[doubled], contacts.overlap_at[doubled], contacts.overlap_length[doubled])
+    _shared(findings, pairs[doubled], touches.overlap_at[doubled], touches.overlap_length[doubled])
 
 
 def _shared(findings: Findings, pairs: IntArray, at: FloatArray, length: FloatArray) -> None:

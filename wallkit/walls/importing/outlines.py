@@ -12,7 +12,7 @@ from importers.drawing import DrawnPath
 from importers.problems import Problem, Severity
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.importing.curves_to_lines import Pieces
-from wallkit.walls.importing.segments import Strokes
+from wallkit.walls.importing.segments import Segments
 from wallkit.walls.origins import Origin
 from wallkit.walls.roles import material_of, said_of, sides_of
 from wallkit.walls.walls import Material, Sides, Walls
@@ -149,7 +149,7 @@ def on_grid(outlines: Outlines, grid: float) -> tuple[Outlines, float]:
     return replace(outlines, vertices=vertices + 0.0), moved * (math.sqrt(2.0) if outlines.bulges.any() else 1.0)
 
 
-def assemble(strokes: Strokes, pieces: Pieces, paths: list[DrawnPath]) -> Outlines:
+def assemble(strokes: Segments, pieces: Pieces, paths: list[DrawnPath]) -> Outlines:
     """String the edges of all subpaths together: start points, edge ends, and what closes.
 
     An outline is closed when the file closes it or when it is drawn back to its very start (the same bits).

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import IO, Literal, Unpack
+from typing import IO, Any, Literal, Unpack, cast
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from importers.drawing import Drawing, DrawnPath
 from importers.problems import Problem
 from wallkit.geometry.arrays import FloatArray
 from wallkit.walls.checking.self_check import straight_edges, validate
-from wallkit.walls.crossings import find_contacts
+from wallkit.walls.crossings import find_touches
 from wallkit.walls.import_options import ImportOptions, ImportWishes
 from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_arcs
 from wallkit.walls.importing.choose_paths import choose
@@ -23,7 +24,7 @@ from wallkit.walls.importing.drawn_sensors import drawn_places, drawn_sensors
 from wallkit.walls.importing.fill_rule import material_rings
 from wallkit.walls.importing.outlines import Outlines, assemble, keep_sides, on_grid
 from wallkit.walls.importing.placing import placed
-from wallkit.walls.importing.segments import Strokes, gather
+from wallkit.walls.importing.segments import Segments, default_tolerance, gather
 from wallkit.walls.nesting import depths
 from wallkit.walls.orient import turned_to
 from wallkit.walls.repairing.passes import repair
@@ -31,14 +32,14 @@ from wallkit.walls.solid import Nested, decide
 from wallkit.walls.walls import Walls, WallsError
 from wallkit.walls.walls_json import sensors_like
 
-Source = str | Path | IO[bytes] | IO[str] | Drawing
+Source = str | Path | IO[bytes] | IO[str] | Drawing | Sequence[Any]
 
 
 def import_walls(source: Source, options: ImportOptions | None = None, /, **wishes: Unpack[ImportWishes]) -> Walls:
     """Turn a drawing into walls.
 
     Args:
-        source: a path, a file object, or a Drawing.
+        source: a path, a file object, a Drawing, or paths of the library svgpathtools (px, y down).
         options: all options in one value; or else
         **wishes: the same as keywords, such as ``tolerance=0.05, curves="arcs", snap=0.5``; see
             :class:`wallkit.walls.import_options.ImportOptions` for all of them. ``repairs`` takes a ``Repairs``.
@@ -101,12 +102,12 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
     return walls if sensors is None else replace(walls, sensors=sensors_like(walls, sensors))
 
 
-def _pieces(strokes: Strokes, within: float, options: ImportOptions) -> Pieces:
+def _pieces(strokes: Segments, within: float, options: ImportOptions) -> Pieces:
     return fit_arcs(strokes, within) if options.curves == "arcs" else flatten(strokes, within)
 
 
 def _outlines(
-    strokes: Strokes, pieces: Pieces, paths: list[DrawnPath], options: ImportOptions
+    strokes: Segments, pieces: Pieces, paths: list[DrawnPath], options: ImportOptions
 ) -> tuple[Outlines, float]:
     """Make clean polylines, on the grid that is asked for: them, and how far that moved anything at most."""
     outlines = assemble(strokes, pieces, paths)
@@ -127,10 +128,16 @@ def _sensors(paths: list[DrawnPath], options: ImportOptions, within: float) -> t
     return sensors, [_moved(problem, options.scale, options.flip_y) for problem in pointless] + problems
 
 
-def _read(source: str | Path | IO[bytes] | IO[str], options: ImportOptions) -> Drawing:
+def _read(source: str | Path | IO[bytes] | IO[str] | Sequence[Any], options: ImportOptions) -> Drawing:
+    if type(source).__module__.startswith("svgpathtools."):  # a Path is a list of segments
+        source = [source]
+    if isinstance(source, list | tuple):
+        from importers.svg.svgpathtools_paths import drawing_from_svgpathtools
+
+        return drawing_from_svgpathtools(source)
     from importers.read import read_drawing  # late: it brings the readers of all formats
 
-    drawing: Drawing = read_drawing(source, page=options.page)
+    drawing: Drawing = read_drawing(cast(Any, source), page=options.page, via=options.via)
     return drawing
 
 
@@ -141,15 +148,6 @@ def _outlined(paths: list[DrawnPath], tolerance: float | None) -> tuple[list[Dra
         default_tolerance(gather(sub for path in paths for sub in path.subpaths)) if tolerance is None else tolerance
     )
     return outline_strokes(paths, within)
-
-
-def default_tolerance(strokes: Strokes) -> float:
-    """0.1 % of the diagonal of the box of all end and control points, at most 0.1."""
-    points = np.concatenate([strokes.starts, strokes.ends, strokes.cubics.reshape(-1, 2)])
-    if not len(points):
-        return 0.1
-    diagonal = float(np.hypot(*(points.max(axis=0) - points.min(axis=0))))
-    return min(0.1, diagonal / 1000) or 0.1
 
 
 def _with_segments(paths: list[DrawnPath]) -> tuple[list[DrawnPath], list[Problem]]:
@@ -183,17 +181,17 @@ def nested(outlines: Outlines, options: ImportOptions, tolerance: float, balls: 
     """Find out which rings are edges of paint, nest them, decide what is solid, repair if asked to, turn, and check."""
     plain = replace(outlines.to_walls(options.sides), tolerance=tolerance)
     edges = straight_edges(plain)
-    contacts = find_contacts(edges)
-    keep, dropped = material_rings(outlines, edges, contacts.crossing_walls)
+    touches = find_touches(edges)
+    keep, dropped = material_rings(outlines, edges, touches.crossing_walls)
     problems = outlines.problems + dropped
     if not keep.all():
         outlines = outlines.keep(keep)
         plain = replace(outlines.to_walls(options.sides), tolerance=tolerance)
         edges = straight_edges(plain)
-        contacts = find_contacts(edges)
+        touches = find_touches(edges)
     owners = [outlines.paths[owner] for owner in outlines.owner.tolist()]
     lines = [path.line for path in owners]
-    depth, parent = depths(edges, contacts.crossing_walls)
+    depth, parent = depths(edges, touches.crossing_walls)
     solid = decide(Nested(edges, depth, parent, owners), options, balls)
     repairs = options.repairs
     if repairs is not None:
@@ -202,7 +200,7 @@ def nested(outlines: Outlines, options: ImportOptions, tolerance: float, balls: 
         problems = problems + [change.to_problem() for change in done.changes] + done.violations
         return replace(done.walls, solid=solid, problems=_still_true(problems, done.walls))
     walls = turned_to(plain, depth, solid.room)
-    found = validate(plain, lines=lines, edges=edges, contacts=contacts)
+    found = validate(plain, lines=lines, edges=edges, touches=touches)
     return replace(walls, solid=solid, problems=problems + found)
 
 

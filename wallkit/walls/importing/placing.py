@@ -10,6 +10,8 @@ from importers.drawing import Artboard, Drawing, DrawnPath, Segment, Subpath
 from importers.page_choice import keep_artboard
 from importers.problems import Problem
 from wallkit.walls.import_options import ImportOptions, point_of
+from wallkit.walls.importing.clips import clipped
+from wallkit.walls.importing.segments import default_tolerance, gather
 from wallkit.walls.walls import WallsError
 
 INCH = {"px": 96.0, "pt": 72.0, "mm": 25.4, "cm": 2.54, "m": 0.0254, "in": 1.0}
@@ -26,10 +28,11 @@ def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
 
     Args:
         drawing: as read; it stays as it is.
-        options: ``page``, ``units``, ``origin`` and ``flip_y`` are asked.
+        options: ``page``, ``units``, ``origin``, ``flip_y``, ``apply_clips`` and ``tolerance`` are asked.
 
     Raises:
         DrawingError: there is no such page.
+        LimitError: the clips are too large to cut with.
         WallsError: the origin is to be a page or box that the drawing has not, or its units are no lengths.
     """
     if isinstance(options.page, int) and drawing.page != options.page:
@@ -38,6 +41,8 @@ def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
     elif options.page is None and len(drawing.artboards) > 1:
         drawing = replace(drawing, problems=[*drawing.problems, _several(drawing)])
     units = options.units or drawing.units
+    if options.apply_clips:
+        drawing = clipped(drawing, _nearness(drawing, options))
     if units == drawing.units and not options.origin:
         return drawing
     for word in (units, drawing.units):
@@ -58,6 +63,13 @@ def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
         artboards=[_artboard(board, moved) for board in drawing.artboards],
         sheet=None if drawing.sheet is None else _artboard(drawing.sheet, moved),
     )
+
+
+def _nearness(drawing: Drawing, options: ImportOptions) -> float:
+    """Give half the tolerance in the drawing's own units: the other half is for what becomes of the lines."""
+    own = INCH.get(options.units or drawing.units, 1.0) / INCH.get(drawing.units, 1.0)
+    usual = default_tolerance(gather(sub for path in drawing.paths for sub in path.subpaths), 0.1 / own)
+    return (usual if options.tolerance is None else options.tolerance / own) / 2
 
 
 def _several(drawing: Drawing) -> Problem:

@@ -1,12 +1,10 @@
-"""Strokes: the segments of many subpaths as arrays, so that what follows runs without a Python loop per edge.
+"""Segments: those of many subpaths as arrays, so that what follows runs without a Python loop per edge.
 
-Quadratics are raised to cubics (the same curve). Elliptic arcs go from their end points to centre and axes:
-``P(a) = centre + u cos(a) + v sin(a)`` for a from ``start`` to ``start + turn``.
+Quadratics are raised to cubics (the same curve). Elliptic arcs go from their end points to centre and axes.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -15,50 +13,19 @@ from numpy.typing import NDArray
 
 from importers.drawing import Segment, Subpath
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ellipse_arcs import Arcs, centre_form
 
-LINE, CUBIC, ARC = 0, 1, 2
-
-
-@dataclass(slots=True)
-class Arcs:
-    """Elliptic arcs in centre form.
-
-    Attributes:
-        centre: (n, 2).
-        u: (n, 2) the ellipse's first half axis, from the centre.
-        v: (n, 2) the second, a quarter turn counter-clockwise from ``u``.
-        start: (n,) angle of the first point in radians.
-        turn: (n,) angle to the last point, negative when clockwise; 0 for an arc without extent.
-    """
-
-    centre: FloatArray
-    u: FloatArray
-    v: FloatArray
-    start: FloatArray
-    turn: FloatArray
-
-    def take(self, index: NDArray[np.generic]) -> Arcs:
-        """Give the arcs at ``index``."""
-        return Arcs(self.centre[index], self.u[index], self.v[index], self.start[index], self.turn[index])
-
-    def points(self, angle: FloatArray) -> FloatArray:
-        """Give the point of each arc at its angle: (n, 2)."""
-        return self.centre + self.u * np.cos(angle)[:, None] + self.v * np.sin(angle)[:, None]
-
-    @property
-    def radii(self) -> tuple[FloatArray, FloatArray]:
-        """The lengths of the two half axes, each (n,)."""
-        return np.hypot(self.u[:, 0], self.u[:, 1]), np.hypot(self.v[:, 0], self.v[:, 1])
+KIND_LINE, KIND_CUBIC, KIND_ARC = 0, 1, 2
 
 
 @dataclass(slots=True)
-class Strokes:
+class Segments:
     """Subpaths as arrays: subpath ``s`` has the segments ``offsets[s]`` to ``offsets[s + 1]``.
 
     Attributes:
         starts: (S, 2) where each subpath starts.
         offsets: (S + 1,) int64.
-        kinds: (N,) LINE, CUBIC or ARC.
+        kinds: (N,) KIND_LINE, KIND_CUBIC or KIND_ARC.
         ends: (N, 2) end point of each segment, bit for bit as in the file.
         begins: (N, 2) start point of each segment.
         cubics: (C, 4, 2) the cubics, in order.
@@ -74,7 +41,7 @@ class Strokes:
     arcs: Arcs
 
 
-def gather(subpaths: Iterable[Subpath], scale: float = 1.0, flip_y: bool = False) -> Strokes:
+def gather(subpaths: Iterable[Subpath], scale: float = 1.0, flip_y: bool = False) -> Segments:
     """Collect subpaths into arrays, scaled and mirrored if asked (untouched bit for bit if not)."""
     starts: list[tuple[float, float]] = []
     offsets, kinds, ends = [0], [], []
@@ -92,7 +59,7 @@ def gather(subpaths: Iterable[Subpath], scale: float = 1.0, flip_y: bool = False
     start_array = np.array(starts, dtype=np.float64).reshape(-1, 2) * factor
     end_array = np.array(ends, dtype=np.float64).reshape(-1, 2) * factor
     offset_array = np.array(offsets, dtype=np.int64)
-    return Strokes(
+    return Segments(
         starts=start_array,
         offsets=offset_array,
         kinds=np.array(kinds, dtype=np.int8),
@@ -106,17 +73,17 @@ def gather(subpaths: Iterable[Subpath], scale: float = 1.0, flip_y: bool = False
 def _add(segment: Segment, x: float, y: float, cubics: list[tuple[float, ...]], arcs: list[tuple[float, ...]]) -> int:
     kind = segment[0]
     if kind == "L":
-        return LINE
+        return KIND_LINE
     if kind == "C":
         cubics.append((x, y, *segment[1:]))
-        return CUBIC
+        return KIND_CUBIC
     if kind == "Q":
         x1, y1, x2, y2 = segment[1:]
         third = (x + 2 * x1) / 3, (y + 2 * y1) / 3, (x2 + 2 * x1) / 3, (y2 + 2 * y1) / 3
         cubics.append((x, y, *third, x2, y2))
-        return CUBIC
+        return KIND_CUBIC
     arcs.append((x, y, *segment[1:]))
-    return ARC
+    return KIND_ARC
 
 
 def _begins(starts: FloatArray, offsets: IntArray, ends: FloatArray) -> FloatArray:
@@ -127,45 +94,18 @@ def _begins(starts: FloatArray, offsets: IntArray, ends: FloatArray) -> FloatArr
     return begins
 
 
-def centre_form(rows: FloatArray) -> Arcs:
-    """Turn end-point form into centre form (the SVG specification, implementation notes F.6.5).
-
-    Args:
-        rows: (n, 9) of x0, y0, rx, ry, rotation in degrees, large, sweep, x1, y1; radii that reach.
-
-    Degenerate: equal end points give ``turn`` 0. Radii that only just reach (a half ellipse) leave
-    1 - k within rounding of 0, whose root would move the centre by 1e-8 radii: it counts as 0.
-    """
-    x0, y0, rx, ry, rotation, large, sweep, x1, y1 = rows.T
-    cos, sin = _turns(rotation)
-    dx, dy = (x0 - x1) / 2, (y0 - y1) / 2
-    with np.errstate(divide="ignore", invalid="ignore"):
-        a, b = (cos * dx + sin * dy) / rx, (cos * dy - sin * dx) / ry
-        k = a * a + b * b
-        spare = np.where(np.abs(1 - k) <= 8 * np.finfo(float).eps, 0.0, np.maximum(1 - k, 0.0) / k)
-    empty = ~(k > 0)
-    off = np.where(empty, 0.0, np.where(large != sweep, 1.0, -1.0) * np.sqrt(np.where(empty, 0.0, spare)))
-    ca, cb = off * b, -off * a  # the centre in units of the radii, from the chord's middle
-    u, v = np.stack([rx * cos, rx * sin], axis=1), np.stack([-ry * sin, ry * cos], axis=1)
-    middle = np.stack([x0 + x1, y0 + y1], axis=1) / 2
-    start = np.arctan2(b - cb, a - ca)
-    turn = np.arctan2(-b - cb, -a - ca) - start
-    turn = np.where((sweep != 0) & (turn <= 0), turn + 2 * math.pi, turn)
-    turn = np.where((sweep == 0) & (turn >= 0), turn - 2 * math.pi, turn)
-    return Arcs(middle + ca[:, None] * u + cb[:, None] * v, u, v, start, np.where(empty, 0.0, turn))
-
-
-def _turns(degrees: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Cosine and sine of angles in degrees, exact at quarter turns."""
-    radians = np.radians(degrees)
-    cos, sin = np.cos(radians), np.sin(radians)
-    quarter = np.mod(degrees, 90.0) == 0
-    return np.where(quarter, np.rint(cos), cos), np.where(quarter, np.rint(sin), sin)
-
-
 def _scaled(arcs: Arcs, factor: FloatArray) -> Arcs:
     mirrored = factor[0] * factor[1] < 0
     u, v = arcs.u * factor, arcs.v * factor
     if not mirrored:
         return Arcs(arcs.centre * factor, u, v, arcs.start, arcs.turn)
     return Arcs(arcs.centre * factor, u, -v, -arcs.start, -arcs.turn)  # v a quarter turn left of u again
+
+
+def default_tolerance(strokes: Segments, most: float = 0.1) -> float:
+    """0.1 % of the diagonal of the box of all end and control points, at most ``most``."""
+    points = np.concatenate([strokes.starts, strokes.ends, strokes.cubics.reshape(-1, 2)])
+    if not len(points):
+        return most
+    diagonal = float(np.hypot(*(points.max(axis=0) - points.min(axis=0))))
+    return min(most, diagonal / 1000) or most

@@ -10,26 +10,26 @@ import shapely
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.rings import rings_of, signed_areas
 from wallkit.walls.checking.widths import is_thin, winding
-from wallkit.walls.crossings import find_contacts
+from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.nesting import depths
-from wallkit.walls.repairing.ends import Outcome
-from wallkit.walls.repairing.loose_walls import Line, edges_of, like
+from wallkit.walls.repairing.ends import Repaired
+from wallkit.walls.repairing.loose_walls import LooseWall, edges_of, like
 
 
-def resolve_crossings(lines: list[Line], tolerance: float) -> Outcome:
+def resolve_crossings(lines: list[LooseWall], tolerance: float) -> Repaired:
     """Put the outline of what they enclose in the place of closed lines that cross or run over themselves."""
     edges = edges_of(lines, tolerance / 10)
-    contacts = find_contacts(edges)
-    own = contacts.crossing_walls[:, 0] == contacts.crossing_walls[:, 1]
-    pairs = edges.wall[contacts.overlap_edges].reshape(-1, 2)
+    touches = find_touches(edges)
+    own = touches.crossing_walls[:, 0] == touches.crossing_walls[:, 1]
+    pairs = edges.wall[touches.overlap_edges].reshape(-1, 2)
     folded = pairs[:, 0] == pairs[:, 1]
-    touching = contacts.touch_walls[:, 0] == contacts.touch_walls[:, 1]
-    bad = {int(w) for w in contacts.crossing_walls[own, 0]} | {int(w) for w in pairs[folded, 0]}
-    bad |= {int(w) for w in contacts.touch_walls[touching, 0]}
-    copy_of = contacts.copy_of.tolist()
+    touching = touches.touch_walls[:, 0] == touches.touch_walls[:, 1]
+    bad = {int(w) for w in touches.crossing_walls[own, 0]} | {int(w) for w in pairs[folded, 0]}
+    bad |= {int(w) for w in touches.touch_walls[touching, 0]}
+    copy_of = touches.copy_of.tolist()
     bad = {wall for wall, line in enumerate(lines) if line.closed and copy_of[wall] in bad}
-    result: list[Line] = []
+    result: list[LooseWall] = []
     at = None
     for index, line in enumerate(lines):
         if index not in bad:
@@ -62,14 +62,14 @@ def rings_around(area: shapely.Geometry) -> list[FloatArray]:
     return rings
 
 
-def unite(lines: list[Line], tolerance: float, arena: bool) -> Outcome:
+def unite(lines: list[LooseWall], tolerance: float, arena: bool) -> Repaired:
     """Make one solid of those that overlap or share an edge, with the holes that are left of theirs."""
     edges = edges_of(lines, tolerance / 10)
-    contacts = find_contacts(edges)
-    depth, _ = depths(edges, contacts.crossing_walls)
+    touches = find_touches(edges)
+    depth, _ = depths(edges, touches.crossing_walls)
     depth = depth + (1 if arena else 0)
-    shared = edges.wall[contacts.overlap_edges].reshape(-1, 2)
-    pairs = np.concatenate([contacts.crossing_walls, shared])
+    shared = edges.wall[touches.overlap_edges].reshape(-1, 2)
+    pairs = np.concatenate([touches.crossing_walls, shared])
     closed = np.array([line.closed for line in lines], dtype=np.bool_)
     pairs = pairs[(pairs[:, 0] != pairs[:, 1]) & closed[pairs].all(axis=1)]
     group = _groups(len(lines), pairs)
@@ -127,7 +127,7 @@ def _united(edges: Edges, members: IntArray, depth: IntArray) -> list[FloatArray
     return rings_around(area)
 
 
-def remove_slivers(lines: list[Line], width: float, tolerance: float) -> Outcome:
+def remove_slivers(lines: list[LooseWall], width: float, tolerance: float) -> Repaired:
     """Drop closed lines that no disc of diameter ``width`` fits into.
 
     The largest disc in a ring has at least the radius area / perimeter, so only rings below that are looked at.

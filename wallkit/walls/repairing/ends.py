@@ -12,15 +12,15 @@ import shapely
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.walls.copies import copies
-from wallkit.walls.repairing.loose_walls import Line, edges_of
+from wallkit.walls.repairing.loose_walls import LooseWall, edges_of
 
-Outcome = tuple[list[Line], int, float, str, "FloatArray | None"]
+Repaired = tuple[list[LooseWall], int, float, str, "FloatArray | None"]
 _ROUNDS = 30
 
 
-def drop_zero_length(lines: list[Line]) -> Outcome:
+def drop_zero_length(lines: list[LooseWall]) -> Repaired:
     """Drop edges without length; lines that are a point alone go."""
-    kept: list[Line] = []
+    kept: list[LooseWall] = []
     count, at = 0, None
     for line in lines:
         following = np.roll(line.vertices, -1, axis=0)
@@ -36,9 +36,9 @@ def drop_zero_length(lines: list[Line]) -> Outcome:
     return kept, count, 0.0, f"{count} edges without length dropped", at
 
 
-def join_ends(lines: list[Line]) -> Outcome:
+def join_ends(lines: list[LooseWall]) -> Repaired:
     """Join open lines where exactly two ends meet; a line whose ends meet becomes closed."""
-    pool: dict[int, Line] = dict(enumerate(lines))
+    pool: dict[int, LooseWall] = dict(enumerate(lines))
     count, at = 0, None
     waiting = True
     while waiting:
@@ -67,13 +67,13 @@ def join_ends(lines: list[Line]) -> Outcome:
     return list(pool.values()), count, 0.0, f"{count} times ends that meet were joined", at
 
 
-def _close(line: Line) -> Line | None:
+def _close(line: LooseWall) -> LooseWall | None:
     if len(line.vertices) < 3 + (not line.bulges.any()):
         return None  # there and back: nothing to enclose
     return replace(line, vertices=line.vertices[:-1], bulges=line.bulges[:-1], closed=True)
 
 
-def _append(one: Line, one_end: int, two: Line, two_end: int) -> Line:
+def _append(one: LooseWall, one_end: int, two: LooseWall, two_end: int) -> LooseWall:
     """Put ``two`` behind ``one``, each turned so that the meeting ends meet."""
     one = _reverse(one) if one_end == 0 else one
     two = _reverse(two) if two_end == -1 else two
@@ -86,13 +86,13 @@ def _append(one: Line, one_end: int, two: Line, two_end: int) -> Line:
     )
 
 
-def _reverse(line: Line) -> Line:
+def _reverse(line: LooseWall) -> LooseWall:
     """An open line the other way round: the edges' bulges change sign and place."""
     bulges = np.concatenate([0.0 - line.bulges[:-1][::-1], [0.0]])
     return replace(line, vertices=line.vertices[::-1].copy(), bulges=bulges)
 
 
-def drop_duplicates(lines: list[Line]) -> Outcome:
+def drop_duplicates(lines: list[LooseWall]) -> Repaired:
     """Drop closed lines drawn before, and edges of open lines that are drawn already."""
     rings = [line for line in lines if line.closed]
     edges = edges_of(rings)
@@ -104,7 +104,7 @@ def drop_duplicates(lines: list[Line]) -> Outcome:
     for line in rings:
         if id(line) not in double:
             known |= set(_edge_keys(line))
-    kept: list[Line] = []
+    kept: list[LooseWall] = []
     count, at = len(double), next((ring.vertices[0] for ring in rings if id(ring) in double), None)
     for line in lines:
         if line.closed:
@@ -122,7 +122,7 @@ def drop_duplicates(lines: list[Line]) -> Outcome:
     return kept, count, 0.0, f"{count} walls or edges drawn twice dropped", at
 
 
-def _with_middles(line: Line) -> Line:
+def _with_middles(line: LooseWall) -> LooseWall:
     """The line with the middle of each arc as a vertex more: chord bows to the right by bulge / 2 of its length."""
     chord = np.roll(line.vertices, -1, axis=0) - line.vertices
     right = np.stack([chord[:, 1], -chord[:, 0]], axis=1)
@@ -133,7 +133,7 @@ def _with_middles(line: Line) -> Line:
     return replace(line, vertices=both, bulges=np.zeros(len(both)))
 
 
-def _edge_keys(line: Line) -> list[tuple[bytes, bytes, float]]:
+def _edge_keys(line: LooseWall) -> list[tuple[bytes, bytes, float]]:
     """The edges of a line, the same whichever way they run."""
     ends = line.vertices + 0.0
     following = np.roll(ends, -1, axis=0)
@@ -145,7 +145,7 @@ def _edge_keys(line: Line) -> list[tuple[bytes, bytes, float]]:
     return keys
 
 
-def _runs(line: Line, keep: list[bool]) -> list[Line]:
+def _runs(line: LooseWall, keep: list[bool]) -> list[LooseWall]:
     """The parts of an open line whose edges are kept."""
     parts = []
     begin = None
@@ -160,17 +160,17 @@ def _runs(line: Line, keep: list[bool]) -> list[Line]:
     return parts
 
 
-def simplify(lines: list[Line], tolerance: float) -> Outcome:
+def simplify(lines: list[LooseWall], tolerance: float) -> Repaired:
     """Drop vertices by Douglas and Peucker, rings between two fixed corners; lines with arcs stay as they are.
 
     Lines that would cross something then are left as they were.
     """
-    from wallkit.walls.crossings import find_contacts
+    from wallkit.walls.crossings import find_touches
 
     made = [_simplified(line, tolerance) for line in lines]
     for _ in range(_ROUNDS):
-        crossing = find_contacts(edges_of(made)).crossing_walls
-        new = set(np.unique(crossing).tolist()) - set(np.unique(find_contacts(edges_of(lines)).crossing_walls).tolist())
+        crossing = find_touches(edges_of(made)).crossing_walls
+        new = set(np.unique(crossing).tolist()) - set(np.unique(find_touches(edges_of(lines)).crossing_walls).tolist())
         again = [index for index in new if made[index] is not lines[index]]
         if not again:
             break
@@ -182,7 +182,7 @@ def simplify(lines: list[Line], tolerance: float) -> Outcome:
     return made, count, moved, f"{count} vertices dropped", at
 
 
-def _simplified(line: Line, tolerance: float) -> Line:
+def _simplified(line: LooseWall, tolerance: float) -> LooseWall:
     if line.bulges.any() or len(line.vertices) < 3 + line.closed:
         return line
     if not line.closed:
@@ -205,7 +205,7 @@ def _simplified(line: Line, tolerance: float) -> Line:
     return replace(line, vertices=points, bulges=np.zeros(len(points)))
 
 
-def _off(line: Line, new: Line) -> float:
+def _off(line: LooseWall, new: LooseWall) -> float:
     """Largest distance of the old vertices from the new line."""
     points = new.vertices if not new.closed else np.concatenate([new.vertices, new.vertices[:1]])
     return float(shapely.distance(shapely.points(line.vertices), shapely.linestrings(points)).max())

@@ -15,7 +15,7 @@ from wallkit.walls.walls import ARRAYS, Material, Sides, Walls
 
 
 @dataclass(slots=True)
-class Line:
+class LooseWall:
     """One wall on its own; arrays as in Walls.
 
     Attributes:
@@ -43,10 +43,10 @@ class Line:
     file_line: int | None = None
 
 
-def to_lines(walls: Walls, even_odd: Sequence[bool] = (), file_lines: Sequence[int | None] = ()) -> list[Line]:
+def to_lines(walls: Walls, even_odd: Sequence[bool] = (), file_lines: Sequence[int | None] = ()) -> list[LooseWall]:
     """Take walls apart."""
     return [
-        Line(
+        LooseWall(
             wall.vertices,
             wall.bulges,
             wall.closed,
@@ -62,7 +62,7 @@ def to_lines(walls: Walls, even_odd: Sequence[bool] = (), file_lines: Sequence[i
     ]
 
 
-def from_lines(walls: Walls, lines: Sequence[Line]) -> Walls:
+def from_lines(walls: Walls, lines: Sequence[LooseWall]) -> Walls:
     """Put lines together as walls that have the units, tolerance and source of ``walls``."""
     made = Walls.from_polylines(
         [line.vertices for line in lines],
@@ -77,7 +77,7 @@ def from_lines(walls: Walls, lines: Sequence[Line]) -> Walls:
     return replace(walls, **{name: getattr(made, name) for name in ARRAYS})
 
 
-def edges_of(lines: Sequence[Line], tolerance: float = 0.0) -> Edges:
+def edges_of(lines: Sequence[LooseWall], tolerance: float = 0.0) -> Edges:
     """The straight edges of lines; with a tolerance arcs become lines within it, else their chords count."""
     walls = from_lines(Walls.from_polylines([]), lines)
     if tolerance:
@@ -86,7 +86,7 @@ def edges_of(lines: Sequence[Line], tolerance: float = 0.0) -> Edges:
     return Edges(walls.vertices, walls.offsets, walls.closed)
 
 
-def like(line: Line, rings: Iterable[FloatArray]) -> list[Line]:
+def like(line: LooseWall, rings: Iterable[FloatArray]) -> list[LooseWall]:
     """Closed lines of straight edges with the marks of ``line``; rings as shapely gives them, first = last."""
     return [
         replace(line, vertices=np.ascontiguousarray(ring[:-1]), bulges=np.zeros(len(ring) - 1), closed=True)

@@ -13,11 +13,11 @@ from dataclasses import dataclass, field, replace
 from importers.problems import Problem
 from wallkit.arguments import flag, number
 from wallkit.walls.checking.self_check import straight_edges, validate
-from wallkit.walls.crossings import find_contacts
+from wallkit.walls.crossings import find_touches
 from wallkit.walls.orient import is_arena, oriented
 from wallkit.walls.repairing.areas import remove_slivers, resolve_crossings, unite
 from wallkit.walls.repairing.ends import drop_duplicates, drop_zero_length, join_ends, simplify
-from wallkit.walls.repairing.loose_walls import Line, from_lines, to_lines
+from wallkit.walls.repairing.loose_walls import LooseWall, from_lines, to_lines
 from wallkit.walls.repairing.snapping import snap_ends
 from wallkit.walls.walls import Walls, WallsError
 
@@ -127,22 +127,22 @@ def repair(
             changes.append(change)
     result = from_lines(walls, lines)
     edges = straight_edges(result)
-    contacts = find_contacts(edges)
-    result = oriented(result, room, edges, contacts)
+    touches = find_touches(edges)
+    result = oriented(result, room, edges, touches)
     moved = max((change.moved for change in changes if change.step == "simplify"), default=0.0)
     result = replace(result, measured_error=walls.measured_error + moved)
     origin = [line.file_line for line in lines]
-    return Repaired(result, changes, validate(result, lines=origin, edges=edges, contacts=contacts))
+    return Repaired(result, changes, validate(result, lines=origin, edges=edges, touches=touches))
 
 
-Pass = Callable[[list[Line]], tuple[list[Line], Change]]
+Pass = Callable[[list[LooseWall]], tuple[list[LooseWall], Change]]
 
 
 def _passes(repairs: Repairs, tolerance: float, arena: bool) -> list[Pass]:
     """The passes asked for, in order."""
 
-    def told(step: str, work: Callable[[list[Line]], tuple[list[Line], int, float, str, object]]) -> Pass:
-        def run(lines: list[Line]) -> tuple[list[Line], Change]:
+    def told(step: str, work: Callable[[list[LooseWall]], tuple[list[LooseWall], int, float, str, object]]) -> Pass:
+        def run(lines: list[LooseWall]) -> tuple[list[LooseWall], Change]:
             result, count, moved, what, at = work(lines)
             place = None if at is None else (float(at[0]), float(at[1]))  # type: ignore[index]
             return result, Change(step, count, moved, what, place)

@@ -8,14 +8,14 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.walls.checking.loose_ends import LooseEnd, landed, loose_ends
-from wallkit.walls.repairing.ends import Outcome
-from wallkit.walls.repairing.loose_walls import Line, from_lines
+from wallkit.walls.repairing.ends import Repaired
+from wallkit.walls.repairing.loose_walls import LooseWall, from_lines
 from wallkit.walls.walls import Walls
 
 _ROUNDS = 30
 
 
-def snap_ends(lines: list[Line], reach: float) -> Outcome:
+def snap_ends(lines: list[LooseWall], reach: float) -> Repaired:
     """Mend every loose end that needs at most ``reach``; no wall is bent, and none is led across another.
 
     Repeated until nothing is left within reach, so that a second run finds nothing.
@@ -49,7 +49,7 @@ def _changes(walls: Walls, found: list[LooseEnd]) -> list[tuple[int, int, LooseE
     return changes
 
 
-def _mended(line: Line, end: int, loose: LooseEnd) -> Line:
+def _mended(line: LooseWall, end: int, loose: LooseEnd) -> LooseWall:
     """The line with one of its ends mended; the end is made the last for the while."""
     if end == 0:
         return _reversed(_mended(_reversed(line), -1, loose))
@@ -78,7 +78,7 @@ def _shortened(a: FloatArray, b: FloatArray, bulge: float, at: FloatArray) -> fl
     return float(np.tan(np.arctan(bulge) + between / 2))
 
 
-def _reversed(line: Line) -> Line:
+def _reversed(line: LooseWall) -> LooseWall:
     """An open line the other way round: the edges' bulges change sign and place."""
     bulges = np.concatenate([0.0 - line.bulges[:-1][::-1], [0.0]])
     return replace(line, vertices=line.vertices[::-1].copy(), bulges=bulges)

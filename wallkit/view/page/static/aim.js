@@ -18,6 +18,8 @@
       this.foretold = null;
       this.changed = () => {};
       this.placed = () => {};
+      this.wedges = () => {}; // draws what lies under the balls
+      this.aside = null; // takes the next press: a click for something else than a ball
       this.placing = false;
       this.stage.grab = (place, event) => this.grab(place, event);
       this.stage.front.addEventListener("pointermove", (event) => this.hover(event));
@@ -77,6 +79,10 @@
 
     // A press on a ball is an aim, from where it is; in placing mode a press anywhere moves the chosen ball there.
     grab(place) {
+      if (this.aside) {
+        this.aside(place);
+        return { move: () => {}, end: () => {} };
+      }
       if (this.placing) {
         this.moveTo(place);
         return { move: (to) => this.moveTo(to), end: () => this.placed() };
@@ -120,6 +126,7 @@
     // Once balls fly, only their start is marked; else they stand there with arrow and foretold path.
     draw(ctx, colours) {
       const flying = this.player.motion && this.player.time > 0;
+      this.wedges(ctx, colours, flying);
       if (this.foretold && !this.player.motion) this.drawForetold(ctx, colours);
       this.balls.forEach((ball, index) => {
         const [x, y] = [this.stage.screenX(ball.x), this.stage.screenY(ball.y)];

@@ -15,6 +15,7 @@
       this.player = new W.Player(this.stage, $("transport"));
       this.readOut = new W.ReadOut($("read-out"), this.player);
       this.aim = new W.Aim(this.player);
+      this.windows = new W.Windows(this);
       this.document = null;
       this.shot = null; // {balls, until} of the run that is shown
       this.player.onframe = () => this.eachFrame();
@@ -75,6 +76,7 @@
         this.stage.front.focus({ preventScroll: true });
       }
       this.controls.show(document, again);
+      this.windows.show(document, again);
       if (this.shot) this.rerun();
       else this.foretell();
       this.follow();
@@ -112,7 +114,9 @@
     }
 
     foretell() {
-      if (this.document && this.aim.ball) this.aim.foretell(this.foretelling, this.question());
+      if (!this.document || !this.aim.ball) return;
+      this.aim.foretell(this.foretelling, this.question());
+      this.windows.find();
     }
 
     foretold(answer) {

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.walls.importing.segments import Arcs
+from wallkit.geometry.ellipse_arcs import Arcs
 
 ComplexArray = NDArray[np.complex128]
 BoolArray = NDArray[np.bool_]

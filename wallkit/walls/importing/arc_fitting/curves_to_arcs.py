@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ellipse_arcs import Arcs
 from wallkit.walls.importing.arc_fitting.biarcs import Fit, Spans
 from wallkit.walls.importing.arc_fitting.curves import BoolArray, Cubics, Curves, Ellipses, as_complex, cross
 from wallkit.walls.importing.arc_fitting.cuts import (
@@ -27,12 +28,12 @@ from wallkit.walls.importing.arc_fitting.cuts import (
     fitted,
     halve,
     run_together,
-    settle,
+    settled_cuts,
     strung,
 )
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, runs_on
 from wallkit.walls.importing.curves_to_lines import Pieces
-from wallkit.walls.importing.segments import ARC, CUBIC, LINE, Arcs, Strokes
+from wallkit.walls.importing.segments import KIND_ARC, KIND_CUBIC, KIND_LINE, Segments
 
 # A curve that is one arc by itself stays that where it turns by more (radians): it was drawn as an arc, and is no
 # short piece of something else.
@@ -55,7 +56,7 @@ class _Edges:
     turn: float = 0.0
 
 
-def fit_arcs(strokes: Strokes, tolerance: float) -> Pieces:
+def fit_arcs(strokes: Segments, tolerance: float) -> Pieces:
     """Turn every segment into lines and arcs within ``tolerance`` (> 0).
 
     Arcs are at most half circles (|bulge| <= 1) and join with equal directions inside of segments, and where
@@ -71,9 +72,9 @@ def fit_arcs(strokes: Strokes, tolerance: float) -> Pieces:
     Raises:
         LimitError: the result would have more than 2,000,000 vertices.
     """
-    cubic_at, arc_at = np.flatnonzero(strokes.kinds == CUBIC), np.flatnonzero(strokes.kinds == ARC)
+    cubic_at, arc_at = np.flatnonzero(strokes.kinds == KIND_CUBIC), np.flatnonzero(strokes.kinds == KIND_ARC)
     round_ = _is_circle(strokes.arcs)
-    lines = np.flatnonzero(strokes.kinds == LINE)
+    lines = np.flatnonzero(strokes.kinds == KIND_LINE)
     parts = [
         _Edges(lines, strokes.ends[lines], np.zeros(len(lines))),
         _fit(Cubics.of(strokes.cubics), strokes, cubic_at, tolerance),
@@ -109,7 +110,7 @@ def _circles(arcs: Arcs, at: IntArray) -> _Edges:
     return _Edges(at[which], ends, bulges)
 
 
-def _fit(curves: Curves, strokes: Strokes, at: IntArray, tolerance: float) -> _Edges:
+def _fit(curves: Curves, strokes: Segments, at: IntArray, tolerance: float) -> _Edges:
     """Fit curves of one kind, whose segments are ``at``; the edges of a chain count as its last segment's."""
     if not len(curves):
         return _Edges(at, np.empty((0, 2)), np.empty(0))
@@ -125,7 +126,7 @@ def _fit(curves: Curves, strokes: Strokes, at: IntArray, tolerance: float) -> _E
         spans = strung(chains, spans, stretch)
         whole = run_together(strung(chains, whole, stretch))
     spans = even_out(chains, spans, fit, whole, tolerance)
-    spans, arcs, fit = settle(chains, spans, whole, tolerance)
+    spans, arcs, fit = settled_cuts(chains, spans, whole, tolerance)
     edge_counts = np.where(arcs.single, 1, 2)
     last = np.cumsum(edge_counts) - 1
     z, bulges = np.empty(last[-1] + 1, dtype=np.complex128), np.empty(last[-1] + 1)

@@ -209,7 +209,7 @@ def _replaced(best: Spans, trial: Spans, passed: BoolArray) -> Spans:
     return joined.take(np.lexsort((joined.low, joined.ids)))
 
 
-def settle(chains: Chains, spans: Spans, whole: Spans, tolerance: float) -> tuple[Spans, Biarcs, Fit]:
+def settled_cuts(chains: Chains, spans: Spans, whole: Spans, tolerance: float) -> tuple[Spans, Biarcs, Fit]:
     """Measure closely, cut more finely what turns out wrong after all, and give the final arcs with their errors."""
     settled: list[tuple[Spans, Fit]] = []
     for depth in range(_DEEPEST):

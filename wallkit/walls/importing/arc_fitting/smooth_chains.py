@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.importing.arc_fitting.curves import ComplexArray, Curves, as_complex, unit
-from wallkit.walls.importing.segments import Strokes
+from wallkit.walls.importing.segments import Segments
 
 # Curves whose directions differ by less (radians) were drawn as one smooth line and lost the rest when coordinates
 # were rounded to a few decimals: real drawings have many joints up to 2e-3, few from there to 0.05.
@@ -141,7 +141,7 @@ class Chains:
         return low
 
 
-def runs_on(curves: Curves, strokes: Strokes, at: IntArray, apart: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def runs_on(curves: Curves, strokes: Segments, at: IntArray, apart: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Tell which curves go on smoothly from the one before, in the same subpath, with nothing else at the joint.
 
     Args:

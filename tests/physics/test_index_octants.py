@@ -7,8 +7,8 @@ import pytest
 from alone import assert_same_bits, flown
 
 from wallkit import Balls, Scene, Walls
-from wallkit.kernels.index.grid import clearing, departures_of, per_speed, way_of
-from wallkit.kernels.records import HALF, QUARTERS, WAYS, WIDEST
+from wallkit.kernels.index.grid import clearing, departures_of, octant_of, per_speed
+from wallkit.kernels.records import HALF, OCTANTS, QUADRANTS, WIDEST
 from wallkit.scene.start_overlaps import clearances
 from wallkit.simulation import build_grid
 from wallkit.simulation.modelled import Modelled
@@ -37,11 +37,11 @@ def balls_inside(walls, radius, count=300, seed=5):
     return Balls(place, 50.0 * np.stack([np.cos(turn), np.sin(turn)], axis=1), radius)
 
 
-def rectangle(grid, way, place, wide, high):
+def rectangle(grid, octant, place, wide, high):
     """(x, y) of its low and of its high corner, in units."""
     low = (place >> grid.shift) << grid.shift
     size = np.array([wide, high]) << grid.shift
-    back = np.array([way & 1, (way >> 1) & 1]) * (size - (1 << grid.shift))
+    back = np.array([octant & 1, (octant >> 1) & 1]) * (size - (1 << grid.shift))
     return low - back, low - back + size
 
 
@@ -62,13 +62,13 @@ def test_nothing_is_met_in_a_clearing(bulge, radius):
     balls = balls_inside(walls, radius)
     somewhere, modelled = flown(Scene(walls, balls), until=1.3)
     grid = modelled.model.grid
-    assert grid.ways == WAYS
+    assert grid.octants == OCTANTS
     met = in_units(grid, modelled, next_contacts(somewhere, walls, radius))
     places, through = in_units(grid, modelled, somewhere.position), 0
     for place, velocity, contact in zip(places, somewhere.velocity, met, strict=True):
-        way = way_of(*map(per_speed, velocity.tolist()))
-        wide, high = clearing(modelled.model.clearings, grid, way, *place.astype(int).tolist())
-        low, high_corner = rectangle(grid, way, place.astype(int), wide, high)
+        octant = octant_of(*map(per_speed, velocity.tolist()))
+        wide, high = clearing(modelled.model.clearings, grid, octant, *place.astype(int).tolist())
+        low, high_corner = rectangle(grid, octant, place.astype(int), wide, high)
         inside = (contact > low + 1e-9) & (contact < high_corner - 1e-9)
         assert wide == 0 or not inside.all()
         through += wide > 0 and modelled.model.cells[int(place[1]) * grid.columns + int(place[0])].tolist()[3] > 0
@@ -83,13 +83,13 @@ def test_nothing_is_met_where_a_point_departs(bulge, holes):
     bounced, modelled = flown(scene, until=1e3, bounces=1)
     again, _ = flown(scene, "none", until=1e3, bounces=2)
     grid, clearings = modelled.model.grid, modelled.model.clearings
-    assert (grid.ways, grid.departs) == (QUARTERS, 1)
+    assert (grid.octants, grid.departs) == (QUADRANTS, 1)
     places, contacts = (in_units(grid, modelled, totals.position) for totals in (bounced, again))
     departed = 0
     for place, velocity, contact in zip(places.astype(int), bounced.velocity, contacts, strict=True):
-        way = way_of(*map(per_speed, velocity.tolist()))
-        size = int(clearings[departures_of(grid, way) + int(place[1]) * grid.columns + int(place[0])])
-        low, high = rectangle(grid, way, place, size & WIDEST, size >> HALF)
+        octant = octant_of(*map(per_speed, velocity.tolist()))
+        size = int(clearings[departures_of(grid, octant) + int(place[1]) * grid.columns + int(place[0])])
+        low, high = rectangle(grid, octant, place, size & WIDEST, size >> HALF)
         assert size == 0 or not ((contact > low + 1e-9) & (contact < high - 1e-9)).all()
         departed += size > 0
     assert departed > 0.7 * len(places)
@@ -108,7 +108,7 @@ def test_interpreted_and_compiled_kernels_find_the_same_clearings(radius):
     scene = Scene(wavy(150, 0.03), Balls(np.zeros(2), [1.0, 0.0], radius))
     one, other = (Modelled(scene, machine_code=code, fine=True).model for code in (False, True))
     assert one.grid == other.grid
-    assert (one.grid.ways, one.grid.departs) == ((QUARTERS, 1) if radius == 0.0 else (WAYS, 0))
+    assert (one.grid.octants, one.grid.departs) == ((QUADRANTS, 1) if radius == 0.0 else (OCTANTS, 0))
     assert one.clearings.tobytes() == other.clearings.tobytes()
     assert one.cells.tobytes() == other.cells.tobytes()
 
@@ -133,9 +133,9 @@ def test_points_that_hit_where_two_walls_join():
     place = rng.integers(1, 300, (4000, 2)).astype(float)
     gap, _ = clearances(walls, place, np.full(4000, 0.1))
     place = place[~(gap < 0.1)]
-    way = rng.integers(-3, 4, (len(place), 2)).astype(float)
-    going = way.any(axis=1)
-    scene = Scene(walls, Balls(place[going], way[going], 0.0))
+    octant = rng.integers(-3, 4, (len(place), 2)).astype(float)
+    going = octant.any(axis=1)
+    scene = Scene(walls, Balls(place[going], octant[going], 0.0))
     one, modelled = flown(scene, **LIMITS)
     assert modelled.model.grid.departs == 1
     assert_same_bits(one, flown(scene, "none", **LIMITS)[0])

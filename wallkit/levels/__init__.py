@@ -1,0 +1,1 @@
+"""What is known of a level before it is played."""
