@@ -56,6 +56,7 @@ CALLS = {
         "position": (*NO_PAIRS, None, [(1.0, 2.0), (3.0, 4.0)]),
         "velocity": (*NO_PAIRS, None, []),
         "radius": (-1.0, "1", None, True, math.nan, math.inf, [1.0, 2.0], [[1.0]]),
+        "mass": (-1.0, "1", True, math.nan, math.inf, [1.0, 2.0], [[1.0]]),
     }),
     "Balls.take": (SCENE.balls.take, {}, {"balls": (1, -1, 0.0, "0", [True, False], [[0]], None, slice("a", None))}),
     "Material": (Material, {}, {
@@ -70,6 +71,9 @@ CALLS = {
         "rolling_friction": (-1.0, "1", math.nan, math.inf, True, (1.0,)),
         "drag": (-1.0, "1", math.nan, math.inf, True, (1.0,)),
         "sensors": ("level.svg", SQUARE, True),
+        "meeting": NO_FLAGS,
+        "ball_restitution": (*NO_NUMBERS, -0.1, 1.1),
+        "ball_tangential_restitution": (*NO_NUMBERS, -0.1, 1.1),
     }),
     "Walls": (Walls, ARRAYS, {
         "vertices": (None, "a", SQUARE[:3], [1.0], [(math.nan, 0.0)] * 4, [("0", "1")] * 4),
@@ -213,6 +217,8 @@ CALLS = {
         "tangential_restitution": (*NO_NUMBERS_BUT_NONE, -0.1, 1.1),
         "friction": (*NO_NUMBERS_BUT_NONE, -1.0),
         "drag": (*NO_NUMBERS_BUT_NONE, -1.0),
+        "meeting": ("yes", 1),
+        "ball_restitution": (*NO_NUMBERS_BUT_NONE, -0.1, 1.1),
         "until": (*NO_NUMBERS_BUT_NONE, -1.0),
         "bounces": NO_WHOLE_NUMBERS,
         "importing": (5, "lines", {"curves": "arcs"}),

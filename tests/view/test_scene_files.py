@@ -76,7 +76,7 @@ def test_scenes_fit_their_schema_and_what_does_not_is_refused_by_both(schema):
         "frogs = 1",
         "gravity = [1]",
         "[[balls]]\nradius = -1",
-        "version = 2",
+        "version = 3",
         "[import]\nsnap = 1",
         "drawing = 'x'",
     ):

@@ -120,6 +120,8 @@ class Reference:
         digits = whole_number(digits, "digits", may_be, error=PrecisionError, code="precision", least=16, most=10**6)
         if scene.drag is not None or scene.rolling_friction is not None:
             raise PrecisionError("drag and friction are not known here", code="precision", fix="take them off")
+        if scene.meeting and np.count_nonzero(scene.balls.radius) > 1:
+            raise PrecisionError("balls that meet are not known here", code="precision", fix="take one ball")
         self.mp = context(digits)
         self.digits = digits
         self.scene = scene

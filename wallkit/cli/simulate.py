@@ -55,6 +55,14 @@ Until = Annotated[float | None, _ends(metavar="T", help="End after T seconds.", 
 Bounces = Annotated[
     int | None, _ends(metavar="N", help="End after N bounces a ball (default, without --until: 100).", min=0)
 ]
+Meeting = Annotated[
+    bool | None,
+    _acts("--meeting/--no-meeting", help="Discs meet one another; points never do.", show_default=False),
+]
+BallRestitution = Annotated[
+    float | None,
+    _acts(metavar="E", help="Part of their normal speed that a contact of two discs leaves.", min=0, max=1),
+]
 Out = Annotated[
     list[str] | None,
     _output("-o", "--out", metavar="OUT", help=f"Where to; the ending decides: {' '.join(FORMATS)}. Repeatable."),
@@ -103,6 +111,8 @@ def simulate_file(
     tangential_restitution: Tangential = None,
     friction: Friction = None,
     drag: Drag = None,
+    meeting: Meeting = None,
+    ball_restitution: BallRestitution = None,
     colour: Colour = None,
     heat: Heat = False,
     theme: Theme = "light",
@@ -119,7 +129,7 @@ def simulate_file(
     wishes = Wishes(
         pairs(ball, "--ball"), None if velocity is None else pair(velocity, "--velocity"), speed, angle, radius,
         balls, seed, None if gravity is None else pair(gravity, "--gravity"), restitution, tangential_restitution,
-        friction, drag, until, bounces, drawing_options.options_of(importing or {}),
+        friction, drag, meeting, ball_restitution, until, bounces, drawing_options.options_of(importing or {}),
     )  # fmt: skip
     targets = _targets(out or [], form)
     scene = opened(file, wishes)
@@ -163,7 +173,7 @@ def _flown(scene: OpenedScene, settle: bool) -> Run:
 
 def _trust(run: Run) -> list[Any]:
     """Ask for each ball of a small run how far it is good; many balls would take longer than their flight."""
-    if not 0 < len(run.ending) <= 10 or len(run.contacts) > 20_000:
+    if run.scene.meeting or not 0 < len(run.ending) <= 10 or len(run.contacts) > 20_000:
         return []
     return list(run.trusted_until())
 

@@ -48,9 +48,11 @@ def bounce_words(run: Run) -> str:
     from wallkit.simulation.run import Kind
 
     kinds = run.contacts["kind"]
-    corners, crossings = int(np.count_nonzero(kinds == Kind.VERTEX)), int(np.count_nonzero(kinds >= Kind.ENTER))
+    corners, met = int(np.count_nonzero(kinds == Kind.VERTEX)), int(np.count_nonzero(kinds == Kind.BALL))
+    crossings = int(np.count_nonzero((kinds == Kind.ENTER) | (kinds == Kind.EXIT)))
     last = float(run.final["time"].max(initial=0.0))
     words = f"{int(run.bounces.sum()):,} in {last:.6g} s" + (f", {corners:,} of them at corners" if corners else "")
+    words += f"; balls met {counted(met, 'time')}" if run.scene.meeting else ""
     return words + (f"; {counted(crossings, 'crossing')} of sensors" if crossings else "")
 
 
@@ -63,14 +65,14 @@ def ending_words(run: Run) -> str:
 
 
 def energy_words(run: Run) -> str:
-    """Say what became of the energy of all balls together, per mass.
+    """Say what became of the energy of all balls together, per mass; where balls meet, each weighs its mass.
 
     Under gravity it is kinetic and potential energy, the potential one above the lowest place that each ball can reach,
     see :func:`wallkit.simulation.energy.energies`.
     """
-    from wallkit.simulation.energy import energies
+    from wallkit.simulation.energy import energies, mass_parts
 
-    before, change = (float(each.sum()) for each in energies(run))
+    before, change = (float(each @ mass_parts(run)) for each in energies(run))
     gravity = np.array(run.scene.gravity or (0.0, 0.0))
     if before <= 0:
         return "none, the balls do not move" if change == 0 else f"{change:+.6g} per mass"

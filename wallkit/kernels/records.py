@@ -95,7 +95,7 @@ AMBIGUOUS = -(2**62)
 RUNNING = -1
 NO_ROW = -1
 """In place of the kind of a contact: there is none to note."""
-EDGE, VERTEX, SLIDE, LEAVE = 0, 1, 2, 3
+EDGE, VERTEX, SLIDE, LEAVE, BALL = 0, 1, 2, 3, 6
 FREE, JOINING, SLIDING, LEAVING, LEFT, WEDGED, PASSING, STARTING = 0, 1, 2, 3, 4, 5, 6, 7
 """How a feature holds a ball under gravity: not; from the next moment, when its bounces have died; now; until the next
 moment; until just now; together with another one; from the next moment, without a bounce; it has still to be looked,

@@ -17,6 +17,7 @@ from wallkit.levels.unfolding import Unfolded, unfold, unfolding_at_hand
 from wallkit.levels.windows import NONE, Windows, merged
 from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.scene.start_overlaps import check_starts
+from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.walls import Walls
 
 Place = tuple[float, float]
@@ -68,6 +69,7 @@ def aim(
         LimitError: there are more beams or shots.
     """
     arguments.of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
+    refuse_meeting(scene, "an aim")
     place = _pair(start, "start")
     most = arguments.whole_number(bounces, "bounces", "a whole number, 0 or more", error=SceneError, code="bad-limit",
                                   least=0, most=MOST_BOUNCES)  # fmt: skip

@@ -21,6 +21,7 @@ from wallkit.levels.reachable import Reachable, reachable
 from wallkit.levels.statistics import bin_edges, never_bound, quantile_ranks, share_bounds
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation.count import Progress, fly_all_chunks
+from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.run import Run
 from wallkit.simulation.simulate import limits, simulate
 from wallkit.simulation.work import Draw
@@ -216,6 +217,7 @@ def check_level(
         WallkitError: as for ``count``.
     """
     of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
+    refuse_meeting(scene, "a check by balls")
     limits(until, bounces)
     if not callable(draw):
         may_be = "a function of a first number and a count that returns Balls, such as RoomBalls"

@@ -54,6 +54,8 @@ class Wishes:
         tangential_restitution: the same along the wall.
         friction: deceleration of a rolling ball, units per second squared.
         drag: rate k of dv/dt = -k v, per second.
+        meeting: discs meet one another.
+        ball_restitution: part of the speed along the line of centres that a contact of two discs leaves.
         until: end in seconds.
         bounces: end in bounces a ball.
         importing: how a drawing becomes walls; over what a scene file says of its drawing.
@@ -72,6 +74,8 @@ class Wishes:
     tangential_restitution: float | None = None
     friction: float | None = None
     drag: float | None = None
+    meeting: bool | None = None
+    ball_restitution: float | None = None
     until: float | None = None
     bounces: int | None = None
     importing: ImportOptions = USUAL
@@ -137,6 +141,8 @@ _WISHES: dict[str, Callable[[Any, str], Any]] = {
     "tangential_restitution": _number(0.0, 1.0),
     "friction": _number(least=0.0),
     "drag": _number(least=0.0),
+    "meeting": lambda value, name: arguments.flag(value, name, error=UsageError, code="usage"),
+    "ball_restitution": _number(0.0, 1.0),
     "until": _number(least=0.0),
     "bounces": _whole(0),
     "importing": _importing,
@@ -302,6 +308,8 @@ def _completed(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> Open
         gravity=scene.gravity if wishes.gravity is None else wishes.gravity,
         rolling_friction=scene.rolling_friction if wishes.friction is None else wishes.friction,
         drag=scene.drag if wishes.drag is None else wishes.drag,
+        meeting=scene.meeting if wishes.meeting is None else wishes.meeting,
+        ball_restitution=scene.ball_restitution if wishes.ball_restitution is None else wishes.ball_restitution,
     )
     about_balls = [] if opened.found_place else ball_findings(walls, balls)
     opened.problems = [*walls.problems, *opened.problems, *about_balls, *_bumpers(opened.scene.walls)]
@@ -412,15 +420,18 @@ def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, B
         raise UsageError("there is no room for a ball inside these walls", code="no-room", fix="give --ball X,Y")
     count = wishes.balls
     radius = wishes.radius
+    meeting = opened.scene.meeting if wishes.meeting is None else wishes.meeting
     if radius is None:
         radius = _sensible_radius(spot.room) / (1 if count is None else 2)
+        if meeting and count is not None:  # discs that meet take a tenth of the room at most
+            radius = min(radius, float(f"{math.sqrt(0.1 * spot.face.area / (math.pi * count)):.0e}"))
     if count is None:
         assumed.append(
             f"one ball of radius {radius:g} at the roomiest spot, ({spot.x:.6g}, {spot.y:.6g}) (--ball, --radius)"
         )
         return walls, Balls([[spot.x, spot.y]], [_velocity(wishes, assumed)], radius)
     random = np.random.default_rng(wishes.seed)
-    places = scattered(walls, spot, count, radius, random)
+    places = scattered(walls, spot, count, radius, random, apart=meeting and radius > 0.0)
     assumed.append(f"{count} balls of radius {radius:g} at random places (seed {wishes.seed}) around the roomiest spot")
     return walls, Balls(places, _random_velocities(count, wishes, random, assumed), radius)
 

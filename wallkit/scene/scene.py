@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -23,7 +24,7 @@ class SceneError(WallkitError):
 
 @dataclass(slots=True, eq=False, repr=False, init=False, frozen=True)
 class Balls:
-    """Balls that do not meet one another: discs, or points where the radius is 0.
+    """Balls: discs, or points where the radius is 0. Discs meet one another where their scene says ``meeting``.
 
     The constructor takes anything that NumPy makes such arrays of, one pair for one ball, and one radius for all.
 
@@ -31,16 +32,22 @@ class Balls:
         position: (n, 2) float64, centres, in the walls' units.
         velocity: (n, 2) float64, units per second.
         radius: (n,) float64, each >= 0.
+        mass: (n,) float64, in any unit; by default the area of each disc, pi r^2. Only the masses of discs that meet
+            matter, and each of them is above 0.
 
     Raises:
-        SceneError: a shape is wrong, something is no number or not finite, or a radius is negative.
+        SceneError: a shape is wrong, something is no number or not finite, a radius is negative, or the mass given for
+            a disc is not above 0.
     """
 
     position: FloatArray
     velocity: FloatArray
     radius: FloatArray
+    mass: FloatArray
 
-    def __init__(self, position: ArrayLike, velocity: ArrayLike, radius: ArrayLike = 0.0) -> None:
+    def __init__(
+        self, position: ArrayLike, velocity: ArrayLike, radius: ArrayLike = 0.0, mass: ArrayLike | None = None
+    ) -> None:
         positions, velocities = _pairs(position, "position"), _pairs(velocity, "velocity")
         if len(positions) != len(velocities):
             raise SceneError(
@@ -48,20 +55,16 @@ class Balls:
                 code="bad-balls",
                 fix="give one velocity a ball",
             )
-        radii = arguments.floats(
-            radius, "radius", "one number, or one a ball, 0 for a point", error=SceneError, code="bad-balls"
-        )
-        if radii.ndim > 1 or (radii.ndim == 1 and len(radii) != len(positions)):
-            raise SceneError(
-                f"radius has the shape {radii.shape} for {len(positions)} balls",
-                code="bad-balls",
-                fix="give one number, or one a ball",
-            )
+        radii = _one_a_ball(radius, "radius", "one number, or one a ball, 0 for a point", len(positions))
         if not (np.isfinite(radii).all() and (radii >= 0).all()):
             raise SceneError("a radius is negative or not finite", code="bad-balls", fix="give 0 for a point")
         object.__setattr__(self, "position", positions)
         object.__setattr__(self, "velocity", velocities)
-        object.__setattr__(self, "radius", np.ascontiguousarray(np.broadcast_to(radii, (len(positions),))))
+        object.__setattr__(self, "radius", radii)
+        masses = area_of(radii) if mass is None else _one_a_ball(mass, "mass", "one number, or one a ball", len(radii))
+        if not (np.isfinite(masses).all() and (masses[radii > 0.0] > 0.0).all() and (masses >= 0.0).all()):
+            raise SceneError("the mass of a disc is not above 0, or not finite", code="bad-balls", fix="give its mass")
+        object.__setattr__(self, "mass", masses)
 
     def __len__(self) -> int:
         return len(self.position)
@@ -77,7 +80,12 @@ class Balls:
             SceneError: there is no such ball, or the mask has another length.
         """
         chosen = arguments.chosen(balls, len(self), "balls", error=SceneError, code="bad-ball")
-        return Balls(self.position[chosen], self.velocity[chosen], self.radius[chosen])
+        return Balls(self.position[chosen], self.velocity[chosen], self.radius[chosen], self.mass[chosen])
+
+
+def area_of(radius: FloatArray) -> FloatArray:
+    """Give the area of discs, which is their mass where nobody says another."""
+    return math.pi * radius * radius
 
 
 def no_balls() -> Balls:
@@ -100,6 +108,10 @@ class Scene(Pictured):
             gravity. Drag takes for ever to stop a ball; at 2^-50 of the speed with which its flight began the ball is
             at rest.
         sensors: walls that report each crossing of a ball's centre and do not bounce it, or None.
+        meeting: whether discs meet one another; points never do.
+        ball_restitution: part of the relative speed along the line of centres that a contact of two discs leaves, 0
+            to 1.
+        ball_tangential_restitution: the same across it, 0 to 1; discs have no spin.
 
     Raises:
         SceneError: a value is of the wrong kind, out of range or not finite.
@@ -111,6 +123,9 @@ class Scene(Pictured):
     rolling_friction: float | None = None
     drag: float | None = None
     sensors: Walls | None = None
+    meeting: bool = False
+    ball_restitution: float = 1.0
+    ball_tangential_restitution: float = 1.0
 
     def __setattr__(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, _CHECKS[name](value) if name in _CHECKS else value)
@@ -145,6 +160,8 @@ class Scene(Pictured):
         parts = [repr(self.walls), repr(self.balls)]
         acting = [(name, getattr(self, name)) for name in ("gravity", "rolling_friction", "drag")]
         parts += [f"{name.replace('_', ' ')} {value}" for name, value in acting if value is not None]
+        if self.meeting:
+            parts.append("meeting")
         if self.sensors is not None:
             parts.append(f"sensors {self.sensors!r}")
         return f"<Scene: {', '.join(parts)}>"
@@ -183,6 +200,17 @@ def _slowing(name: str) -> Callable[[Any], float | None]:
     return checked
 
 
+def _meeting(value: Any) -> bool:
+    return arguments.flag(value, "meeting", error=SceneError, code="bad-scene")
+
+
+def _part(name: str) -> Callable[[Any], float]:
+    may_be = "a number from 0 to 1"
+    return lambda value: arguments.number(
+        value, name, may_be, error=SceneError, code="bad-restitution", least=0.0, most=1.0
+    )
+
+
 def _sensors(value: Any) -> Walls | None:
     if value is not None:
         arguments.of_type(value, "sensors", Walls, "Walls, or None", error=SceneError, code="bad-scene")
@@ -197,6 +225,9 @@ _CHECKS: dict[str, Callable[[Any], Any]] = {
     "rolling_friction": _slowing("rolling_friction"),
     "drag": _slowing("drag"),
     "sensors": _sensors,
+    "meeting": _meeting,
+    "ball_restitution": _part("ball_restitution"),
+    "ball_tangential_restitution": _part("ball_tangential_restitution"),
 }
 
 
@@ -210,6 +241,18 @@ def _pairs(values: ArrayLike, name: str) -> FloatArray:
     if not np.isfinite(array).all():
         raise SceneError(f"a {name} is not finite", code="bad-balls", fix="give finite numbers")
     return array
+
+
+def _one_a_ball(values: ArrayLike, name: str, may_be: str, count: int) -> FloatArray:
+    """Give (n,) numbers: as given, or one for all."""
+    array = arguments.floats(values, name, may_be, error=SceneError, code="bad-balls")
+    if array.ndim > 1 or (array.ndim == 1 and len(array) != count):
+        raise SceneError(
+            f"{name} has the shape {array.shape} for {count} balls",
+            code="bad-balls",
+            fix="give one number, or one a ball",
+        )
+    return np.ascontiguousarray(np.broadcast_to(array, (count,)))
 
 
 def _range(words: str, values: FloatArray) -> str:

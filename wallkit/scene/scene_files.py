@@ -20,7 +20,7 @@ import numpy as np
 from importers.limits import check_input_size
 from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.drawn_scene import apart, drawn_scene, together
-from wallkit.scene.scene import Balls, Scene, SceneError
+from wallkit.scene.scene import Balls, Scene, SceneError, area_of
 from wallkit.scene.scene_rules import FIT_KEYS, RULE_KEYS, Fit, Rule, Ruled, say_roles
 from wallkit.walls import Material, Walls
 from wallkit.walls.fields import MOST_RESTITUTION
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 FileKind = Literal["drawing", "walls", "scene"]
 
+BALL_RESTITUTIONS = ("ball_restitution", "ball_tangential_restitution")
 _TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
 
@@ -167,12 +168,12 @@ class _Reader:
 
     def scene_file(self, table: dict[str, Any]) -> SceneFile:
         known = {"format", "version", "walls", "drawing", "import", "gravity", "rolling_friction", "drag", "sensors",
-                 "materials", "colours", "balls", "run", "y_axis"}  # fmt: skip
+                 "materials", "colours", "balls", "run", "y_axis", "meeting", *BALL_RESTITUTIONS}  # fmt: skip
         self.known_keys(table, known, "")
         if table.get("format", "wallkit-scene") != "wallkit-scene":
             self.wrong.append(f"format: {table['format']!r} is not 'wallkit-scene'")
-        if table.get("version", 1) != 1:
-            self.wrong.append(f"version: {table['version']!r} is not 1, the one that this wallkit reads")
+        if table.get("version", 1) not in (1, 2):
+            self.wrong.append(f"version: {table['version']!r} is not 1 or 2, those that this wallkit reads")
         balls = self.balls(table["balls"]) if "balls" in table else Balls(np.empty((0, 2)), np.empty((0, 2)))
         walls, drawn = self.walls(table, balls)
         if walls is None:  # the rest is still checked, on no walls
@@ -183,7 +184,9 @@ class _Reader:
             drawn = replace(drawn, used=False, still=False)
         self.materials(walls, table)
         gravity = self.pair(table["gravity"], "gravity") if "gravity" in table else None
-        slowing = {key: self.number(table[key], key, least=0.0) for key in ("rolling_friction", "drag") if key in table}
+        slowing: dict[str, Any] = {
+            key: self.number(table[key], key, least=0.0) for key in ("rolling_friction", "drag") if key in table
+        }
         walls, sensors = apart(walls) if drawn is None else (walls, drawn.sensors)
         if "sensors" in table:
             walls, sensors = self.sensors(walls, sensors, table["sensors"])
@@ -191,8 +194,13 @@ class _Reader:
         self.known_keys(run, {"until", "bounces"}, "run.")
         until = self.number(run["until"], "run.until", least=0.0) if "until" in run else None
         bounces = self.whole(run["bounces"], "run.bounces") if "bounces" in run else None
-        scene = Scene(walls, balls, gravity, sensors=sensors, **slowing)
+        scene = Scene(walls, balls, gravity, sensors=sensors, **slowing | self.meeting(table))
         return SceneFile(scene, until, bounces, drawn, self.drawing, self.options)
+
+    def meeting(self, table: dict[str, Any]) -> dict[str, Any]:
+        """Whether discs meet, and with what restitution."""
+        said = {"meeting": self.one_of(table["meeting"], "meeting", (True, False))} if "meeting" in table else {}
+        return said | {key: self.number(table[key], key, 0.0, 1.0) for key in BALL_RESTITUTIONS if key in table}
 
     # -- values
 
@@ -382,29 +390,44 @@ class _Reader:
     def balls(self, value: Any) -> Balls:
         rows = self.rows(value, "balls")
         position, velocity, radius = np.zeros((len(rows), 2)), np.zeros((len(rows), 2)), np.zeros(len(rows))
+        mass: dict[int, float] = {}
         for index, (key, row) in enumerate(rows):
-            self.known_keys(row, {"position", "velocity", "radius"}, f"{key}.")
+            self.known_keys(row, {"position", "velocity", "radius", "mass"}, f"{key}.")
             position[index] = self.pair(row.get("position"), f"{key}.position")
             velocity[index] = self.pair(row.get("velocity", [0.0, 0.0]), f"{key}.velocity")
             radius[index] = self.number(row.get("radius", 0.0), f"{key}.radius", least=0.0)
-        return Balls(position, velocity, radius)
+            if "mass" in row:
+                mass[index] = self.number(row["mass"], f"{key}.mass", least=math.ulp(0.0))
+        masses = area_of(radius)
+        for index, one in mass.items():
+            masses[index] = one
+        return Balls(position, velocity, radius, masses)
 
 
 def scene_to_json(scene: Scene, until: float | None = None, bounces: int | None = None) -> dict[str, Any]:
-    """Give a scene as the ``wallkit-scene`` format, version 1, has it, walls and materials included."""
+    """Give a scene as the ``wallkit-scene`` format has it, walls and materials included.
+
+    Version 2 is that of scenes with what version 1 has no words for: balls that meet, and their masses.
+    """
     position = np.asarray(scene.balls.position, dtype=np.float64).reshape(-1, 2)
     velocity = np.asarray(scene.balls.velocity, dtype=np.float64).reshape(-1, 2)
     radius = np.broadcast_to(np.asarray(scene.balls.radius, dtype=np.float64), len(position))
-    balls = zip(position.tolist(), velocity.tolist(), radius.tolist(), strict=True)
+    balls = zip(position.tolist(), velocity.tolist(), radius.tolist(), scene.balls.mass.tolist(), strict=True)
+    heavy = bool((scene.balls.mass != area_of(radius)).any())
+    meeting = {"meeting": True} if scene.meeting else {}
+    meeting |= {key: getattr(scene, key) for key in BALL_RESTITUTIONS if getattr(scene, key) != 1.0}
     run = {key: value for key, value in (("until", until), ("bounces", bounces)) if value is not None}
     return {
         "format": "wallkit-scene",
-        "version": 1,
+        "version": 2 if meeting or heavy else 1,
         **({"gravity": list(scene.gravity)} if scene.gravity is not None else {}),
         **({"rolling_friction": scene.rolling_friction} if scene.rolling_friction is not None else {}),
         **({"drag": scene.drag} if scene.drag is not None else {}),
         **({"sensors": to_json(scene.sensors)} if scene.sensors is not None else {}),
+        **meeting,
         **({"run": run} if run else {}),
-        "balls": [{"position": p, "velocity": v, "radius": r} for p, v, r in balls],
+        "balls": [
+            {"position": p, "velocity": v, "radius": r, **({"mass": m} if heavy else {})} for p, v, r, m in balls
+        ],
         "walls": to_json(apart(scene.walls)[0]),
     }

@@ -10,7 +10,7 @@ import numpy as np
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.exact_edges import ExactEdges, as_complex
 from wallkit.geometry.ragged import spread
-from wallkit.scene.scene import Balls, Scene, SceneError
+from wallkit.scene.scene import Scene, SceneError
 from wallkit.walls import Walls
 
 TOUCHING = 2.0**-44
@@ -46,6 +46,54 @@ def check_starts(scene: Scene) -> None:
     )
 
 
+def check_apart(scene: Scene) -> None:
+    """Refuse discs that overlap one another where they start; those that touch, up to rounding, may.
+
+    Raises:
+        SceneError: the first two of them, with places and depth.
+    """
+    discs = np.flatnonzero(scene.balls.radius > 0.0)
+    position, radius = scene.balls.position[discs], scene.balls.radius[discs]
+    one, two = _close_pairs(position, float(radius.max(initial=0.0)))
+    gap = np.hypot(*(position[one] - position[two]).T) - (radius[one] + radius[two])
+    size = max(_size(scene.walls) if len(scene.walls) else 0.0, float(np.abs(position).max(initial=0.0)))
+    overlapping = np.flatnonzero(gap < -TOUCHING * size)
+    if not len(overlapping):
+        return
+    first = overlapping[np.lexsort((discs[two[overlapping]], discs[one[overlapping]]))[0]]
+    (x, y), (u, v) = position[one[first]].tolist(), position[two[first]].tolist()
+    more = f"; {len(overlapping) - 1} more pairs overlap" if len(overlapping) > 1 else ""
+    raise SceneError(
+        f"ball {discs[one[first]]} at ({x:g}, {y:g}) and ball {discs[two[first]]} at ({u:g}, {v:g}) overlap "
+        f"by {-gap[first]:.6g}{more}",
+        code="balls-overlap",
+        fix="move them apart, make them smaller, or leave out meeting",
+    )
+
+
+def _close_pairs(position: FloatArray, radius: float) -> tuple[IntArray, IntArray]:
+    """Pairs (lower, higher) of places that may be within two radii: those in the same cell or in neighbouring ones."""
+    if len(position) < 2:
+        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
+    low, extent = position.min(axis=0), float(np.ptp(position, axis=0).max())
+    side = max(2.0 * radius * (1.0 + 2.0**-20), extent * 2.0**-24) or 1.0
+    column, row = np.floor((position - low) / side).astype(np.int64).T
+    stride = int(column.max()) + 3
+    key = row * stride + column
+    order = np.argsort(key, kind="stable")
+    sorted_keys = key[order]
+    pairs = []
+    for first, last in ((0, 1), (stride - 1, stride + 1)):  # this cell and the next one; three in the row above
+        begin = np.searchsorted(sorted_keys, sorted_keys + first)
+        end = np.searchsorted(sorted_keys, sorted_keys + last, side="right") - 1
+        if first == 0:
+            begin = np.arange(len(order)) + 1
+        which, rank = spread(begin, end)
+        pairs.append(np.sort(np.stack([order[which], order[rank]]), axis=0))
+    found = np.concatenate(pairs, axis=1)
+    return found[0], found[1]
+
+
 def settled(scene: Scene) -> Scene:
     """Give the scene with each overlapping disc moved to the nearest free spot.
 
@@ -60,7 +108,7 @@ def settled(scene: Scene) -> Scene:
     gap, _edge = clearances(scene.walls, position, radius)
     for ball in np.flatnonzero(gap < radius):
         position[ball] = _nearest_free(scene.walls, position[ball], float(radius[ball]))
-    return replace(scene, balls=Balls(position, scene.balls.velocity, radius))
+    return replace(scene, balls=replace(scene.balls, position=position))
 
 
 def clearances(walls: Walls, position: FloatArray, reach: FloatArray) -> tuple[FloatArray, IntArray]:

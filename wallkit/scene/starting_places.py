@@ -15,6 +15,8 @@ from wallkit.walls.checking.self_check import straight_edges
 from wallkit.walls.sample import flattened
 from wallkit.walls.solid import walls_around
 
+MOST_DRAWS = 200
+"""So many times places are drawn, more of them than balls each time, before there is said to be no room."""
 _FINE_STEP = math.pi / 256  # chords of arcs are then off by at most 2e-5 of the radius
 _WAYS = 64  # directions that are tried out of a face that may be open
 _FACES = 24  # so many of the largest faces are searched for the roomiest spot
@@ -168,22 +170,43 @@ def _spot(face: Any, walls: Any) -> Spot | None:
     return Spot(float(x), float(y), room, free)
 
 
-def scattered(walls: Walls, spot: Spot, count: int, radius: float, random: np.random.Generator) -> FloatArray:
+def scattered(
+    walls: Walls, spot: Spot, count: int, radius: float, random: np.random.Generator, apart: bool = False
+) -> FloatArray:
     """Choose (count, 2) places at random, evenly over where a ball fits in the face of a spot.
 
+    Args:
+        walls: around the spot.
+        spot: in whose face they are.
+        count: so many.
+        radius: of the balls.
+        random: source of chance.
+        apart: no two balls overlap: a place that another ball takes is drawn again (random sequential addition, which
+            comes to a packing of 0.547 at most: J. Feder 1980, J. Theor. Biol. 87:237).
+
     Raises:
-        SceneError: a ball of that radius fits nowhere there.
+        SceneError: a ball of that radius fits nowhere there, or so many do not.
     """
     import shapely
+
+    from wallkit.scene.scene import SceneError
 
     room = room_for(spot, radius)
     shapely.prepare(room)
     x0, y0, x1, y1 = room.bounds
     places = np.empty((0, 2))
-    while len(places) < count:
+    for _ in range(MOST_DRAWS):
         tried = random.uniform((x0, y0), (x1, y1), (2 * count + 64, 2))
         places = np.concatenate([places, tried[shapely.contains_xy(room, tried[:, 0], tried[:, 1])]])
-    return places[:count]
+        if apart:
+            places = _without_overlaps(places, radius)
+        if len(places) >= count:
+            return places[:count]
+    raise SceneError(
+        f"{count} balls of radius {radius:g} that do not overlap were not placed: {len(places)} were",
+        code="no-room",
+        fix="give fewer of them, or a smaller --radius",
+    )
 
 
 def room_for(spot: Spot, radius: float) -> Any:
@@ -206,3 +229,16 @@ def room_for(spot: Spot, radius: float) -> Any:
             fix=f"the roomiest spot takes {spot.room:.6g}: give a smaller --radius",
         )
     return room
+
+
+def _without_overlaps(places: FloatArray, radius: float) -> FloatArray:
+    """Leave out each place that is within two radii of one before it that stays."""
+    taken: dict[tuple[int, int], list[tuple[float, float]]] = {}
+    kept = []
+    for x, y in places.tolist():
+        column, row = math.floor(x / (2.0 * radius)), math.floor(y / (2.0 * radius))
+        near = (taken.get((column + i, row + j), ()) for i in (-1, 0, 1) for j in (-1, 0, 1))
+        if all(math.hypot(x - u, y - v) > 2.0 * radius for others in near for u, v in others):
+            taken.setdefault((column, row), []).append((x, y))
+            kept.append((x, y))
+    return np.array(kept).reshape(-1, 2)

@@ -16,6 +16,7 @@ from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation import checkpoints
 from wallkit.simulation.checkpoints import Done
 from wallkit.simulation.counts import Counts
+from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.pools import Pool, check_executor, open_pool
 from wallkit.simulation.simulate import limits
 from wallkit.simulation.work import Draw, Result, SurveyWork, Work
@@ -74,6 +75,7 @@ def count(
         WallkitError: a chunk failed again and again (it is named), or the checkpoint is of another survey.
     """
     of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
+    refuse_meeting(scene, "a count in chunks")
     limits(until, bounces)
     if not callable(draw):
         may_be = "a function of a first number and a count that returns Balls, such as RandomBalls"

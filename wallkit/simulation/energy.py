@@ -33,6 +33,13 @@ def energies(run: Run) -> tuple[FloatArray, FloatArray]:
     return before, kinetic_end - kinetic - (at - start[:, 0:2]) @ gravity
 
 
+def mass_parts(run: Run) -> FloatArray:
+    """(n,) mass of each ball over the mean of all where balls meet and share their energy; else 1."""
+    mass = run.scene.balls.mass
+    whole = float(mass.sum())
+    return mass * (len(mass) / whole) if run.scene.meeting and whole > 0.0 else np.ones(len(mass))
+
+
 def lowest(run: Run) -> FloatArray:
     """(n,) g.x at the lowest place x that each ball's centre can reach; 0 without gravity."""
     if run.scene.gravity is None:

@@ -14,7 +14,8 @@ from wallkit.kernels.index.start_overlaps import all_clear, all_clear_in_cells
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.records import Model
 from wallkit.scene.scene import Balls, Scene, SceneError
-from wallkit.scene.start_overlaps import check_starts
+from wallkit.scene.start_overlaps import check_apart, check_starts
+from wallkit.simulation.meeting_rules import check_modelled
 from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.sensors import modelled_sensors
 
@@ -71,6 +72,10 @@ def prepare_again(ready: Prepared, balls: Balls, *, check: bool = True) -> Prepa
 def _prepared(scene: Scene, modelled: Modelled, *, check: bool) -> Prepared:
     if flag(check, "check", error=SceneError, code="bad-argument") and not _surely_clear(scene, modelled):
         check_starts(scene)
+    if scene.meeting:
+        check_modelled(scene)
+        if check:
+            check_apart(scene)
     order = _neighbours_together(scene.balls.position) if _is_wide(modelled.model) else None
     sensors = None
     if scene.sensors is not None and len(scene.sensors):
@@ -110,10 +115,10 @@ def _neighbours_together(position: FloatArray) -> NDArray[np.int64]:
         return np.empty(0, dtype=np.int64)
     x, y = position[:, 0] - position[:, 0].min(), position[:, 1] - position[:, 1].min()
     per_extent = 1023.0 / (max(float(x.max()), float(y.max())) or 1.0)
-    return np.argsort(_spaced((x * per_extent).astype(np.int64)) | _spaced((y * per_extent).astype(np.int64)) << 1)
+    return np.argsort(spaced((x * per_extent).astype(np.int64)) | spaced((y * per_extent).astype(np.int64)) << 1)
 
 
-def _spaced(number: NDArray[np.int64]) -> NDArray[np.int64]:
+def spaced(number: NDArray[np.int64]) -> NDArray[np.int64]:
     """Put a zero before each of ten bits."""
     for shift, mask in ((8, 0x300FF), (4, 0x30F0F), (2, 0x33333), (1, 0x55555)):
         number = (number | number << shift) & mask

@@ -43,6 +43,20 @@ CONTACT = np.dtype(
 """One contact: time; ball; centre x, y; velocity vx, vy after; contact point px, py; unit normal nx, ny (towards
 the ball); wall; edge within that wall, -1 for a corner; kind, see :class:`Kind`. 88 bytes or fewer."""
 
+MEETING_CONTACT = np.dtype(
+    [
+        *((name, CONTACT[name]) for name in CONTACT.names or ()),
+        ("other", np.int32),
+        ("other_x", np.float64),
+        ("other_y", np.float64),
+        ("other_vx", np.float64),
+        ("other_vy", np.float64),
+    ]
+)
+"""One contact of a scene whose balls meet: as ``CONTACT``, then the other ball, its centre, and its velocity after;
+-1 and zeros at a wall. Two balls that meet make one row of the kind ``BALL``: ball is the lower of their numbers,
+the normal points to it, and wall and edge are -1."""
+
 FINAL = np.dtype(
     [("time", np.float64), ("x", np.float64), ("y", np.float64), ("vx", np.float64), ("vy", np.float64)],
 )
@@ -63,6 +77,8 @@ class Kind(enum.IntEnum):
     """The centre crosses a sensor against its outward normal; wall and edge are the sensor's."""
     EXIT = 5
     """The centre crosses a sensor along its outward normal."""
+    BALL = 6
+    """Two balls meet."""
 
     @property
     def label(self) -> str:
@@ -96,7 +112,8 @@ class Run(Pictured):
 
     Attributes:
         scene: what was simulated.
-        contacts: (m,) of ``CONTACT``, by time over all balls; at equal times by ball, then in order.
+        contacts: (m,) of ``CONTACT``, by time over all balls; at equal times by ball, then in order. Of
+            ``MEETING_CONTACT`` where balls meet, at equal times in order.
         final: (n,) of ``FINAL``, one a ball. A ball that left the scene has its last contact here, unless the
             run was given an end time.
         ending: n endings, one a ball.
@@ -121,12 +138,12 @@ class Run(Pictured):
 
     @property
     def bounces(self) -> NDArray[np.int64]:
-        """(n,) bounces of each ball: its contacts with edges and corners."""
-        bounced = self.contacts["ball"][self.contacts["kind"] <= Kind.VERTEX]
+        """(n,) bounces of each ball: its contacts with edges, corners and other balls."""
+        bounced = self._rows["ball"][bounces_in(self._rows)]
         return np.bincount(bounced, minlength=len(self.final)).astype(np.int64)
 
     def contacts_of(self, ball: int) -> NDArray[Any]:
-        """Contacts of one ball, in order.
+        """Contacts of one ball, in order; where it meets another one, seen from it: it is ``ball`` in each row.
 
         Raises:
             WallkitError: there is no such ball.
@@ -136,7 +153,7 @@ class Run(Pictured):
             ball, "ball", may_be, error=WallkitError, code="bad-ball", least=0, most=len(self.final) - 1
         )
         order, offsets = self._by_ball
-        return self.contacts[order[offsets[ball] : offsets[ball + 1]]]
+        return self._rows[order[offsets[ball] : offsets[ball + 1]]]
 
     def position(self, time: ArrayLike) -> NDArray[np.float64]:
         """Exact centres at a time from 0, or at many at once; after a ball's end, where it ended.
@@ -160,7 +177,9 @@ class Run(Pictured):
         return self._states(time)[..., 2:4]
 
     def take(self, balls: ArrayLike | slice) -> Run:
-        """Choose balls: the run that these alone would have made, since balls do not meet.
+        """Choose balls: what these did. It is the run that they alone would have made, unless they met others.
+
+        Where one of them met a ball that is not among them, its contact stays, with -1 for the other.
 
         Args:
             balls: their numbers, each once, in the order wanted; a mask of n truth values; or a slice.
@@ -173,9 +192,7 @@ class Run(Pictured):
         number[kept] = np.arange(len(kept), dtype=np.int32)
         if np.count_nonzero(number >= 0) < len(kept):
             raise arguments.refused("balls", balls, "each number once", WallkitError, "bad-ball")
-        contacts = self.contacts[number[self.contacts["ball"]] >= 0]
-        contacts["ball"] = number[contacts["ball"]]
-        contacts = contacts[np.lexsort((contacts["ball"], contacts["time"]))]
+        contacts = _of_balls(self.contacts, number)
         scene = replace(self.scene, balls=self.scene.balls.take(kept))
         ending = tuple(self.ending[ball] for ball in kept.tolist())
         return Run(scene, contacts, self.final[kept], ending, np.asarray(self.start)[kept])
@@ -207,7 +224,8 @@ class Run(Pictured):
                 walls are off by their ``measured_error``.
 
         Raises:
-            WallkitError: the tolerance is not above 0, or the source is none of the two.
+            WallkitError: the tolerance is not above 0, the source is none of the two, or balls meet: how the error of
+                one becomes that of another is not known here.
         """
         from wallkit.simulation.horizon import trusted_until
 
@@ -220,6 +238,12 @@ class Run(Pictured):
             least=arguments.ABOVE_0,
         )
         arguments.word(source, "source", ("rounding", "drawing"), error=WallkitError, code="bad-source")
+        if self.scene.meeting and np.count_nonzero(self.scene.balls.radius) > 1:
+            raise WallkitError(
+                "balls meet: how the error of one becomes that of another is not known here",
+                code="meeting-not-modelled",
+                fix="compare with a run whose start is off by a rounding",
+            )
         ends = self.final["time"].tolist()
         return [
             trusted_until(self.scene, self.contacts_of(ball), ball, tolerance, source, end)
@@ -227,10 +251,16 @@ class Run(Pictured):
         ]
 
     @cached_property
+    def _rows(self) -> NDArray[Any]:
+        """Contacts, with a row for each of two balls that meet."""
+        return one_a_ball(self.contacts)
+
+    @cached_property
     def _by_ball(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        order = np.argsort(self.contacts["ball"], kind="stable")
+        ball = self._rows["ball"]
+        order = np.argsort(ball, kind="stable")
         offsets = np.zeros(len(self.final) + 1, dtype=np.int64)
-        np.cumsum(np.bincount(self.contacts["ball"], minlength=len(self.final)), out=offsets[1:])
+        np.cumsum(np.bincount(ball, minlength=len(self.final)), out=offsets[1:])
         return order, offsets
 
     def _states(self, time: ArrayLike) -> NDArray[np.float64]:
@@ -286,11 +316,58 @@ class Run(Pictured):
     @cached_property
     def _turns(self) -> list[NDArray[Any]]:
         """By ball the contacts that change its flight; sensors do not."""
-        return [own[own["kind"] < Kind.ENTER] for own in map(self.contacts_of, range(len(self.final)))]
+        return [own[turns_in(own)] for own in map(self.contacts_of, range(len(self.final)))]
 
     def pull_after(self, contact: Any) -> NDArray[np.float64]:
         """Acceleration after a contact (None: at the start): gravity, or the part of it along a wall that holds."""
         return pull_of(self.scene, contact)
+
+
+def one_a_ball(contacts: NDArray[Any]) -> NDArray[Any]:
+    """Give contacts with a row for each ball of two that meet, each seen from its ball, one after the other."""
+    if "other" not in (contacts.dtype.names or ()):
+        return contacts
+    met = np.flatnonzero(contacts["other"] >= 0)
+    seen = contacts[met]
+    for own, other in (("ball", "other"), *((name, f"other_{name}") for name in ("x", "y", "vx", "vy"))):
+        seen[own], seen[other] = contacts[other][met], contacts[own][met]
+    seen["nx"], seen["ny"] = -seen["nx"], -seen["ny"]
+    order = np.argsort(np.concatenate([np.arange(len(contacts)), met]), kind="stable")
+    whole: NDArray[Any] = np.concatenate([contacts, seen])[order]
+    return whole
+
+
+def in_order(contacts: NDArray[Any]) -> NDArray[Any]:
+    """Sort contacts by time; at equal times by ball, or, where balls meet, as they come."""
+    if "other" in (contacts.dtype.names or ()):
+        return contacts[np.argsort(contacts["time"], kind="stable")]
+    return contacts[np.lexsort((contacts["ball"], contacts["time"]))]
+
+
+def bounces_in(contacts: NDArray[Any]) -> NDArray[np.bool_]:
+    """Tell which contacts are bounces: with edges, corners or balls."""
+    found: NDArray[np.bool_] = (contacts["kind"] <= Kind.VERTEX) | (contacts["kind"] == Kind.BALL)
+    return found
+
+
+def turns_in(contacts: NDArray[Any]) -> NDArray[np.bool_]:
+    """Tell which contacts change a flight: all but crossings of sensors."""
+    found: NDArray[np.bool_] = (contacts["kind"] != Kind.ENTER) & (contacts["kind"] != Kind.EXIT)
+    return found
+
+
+def _of_balls(contacts: NDArray[Any], number: NDArray[np.int32]) -> NDArray[Any]:
+    """Contacts of the balls whose new number is not -1, under these numbers."""
+    kept: NDArray[Any] = contacts[number[contacts["ball"]] >= 0]
+    if "other" in (contacts.dtype.names or ()):
+        rows = one_a_ball(contacts)
+        kept = rows[number[rows["ball"]] >= 0]
+        other = np.where(kept["other"] >= 0, number[kept["other"]], -1)
+        again = (other >= 0) & (other < number[kept["ball"]])  # the same contact, seen from the other one
+        kept, other = kept[~again], other[~again]
+        kept["other"] = other
+    kept["ball"] = number[kept["ball"]]
+    return in_order(kept)
 
 
 def pull_of(scene: Scene, contact: Any) -> NDArray[np.float64]:

@@ -9,20 +9,26 @@ from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from importers.errors import WallkitError
 from wallkit.scene.scene import Scene
 from wallkit.scene.scene_files import read_scene, scene_to_json
-from wallkit.simulation.run import CONTACT, FINAL, Ending, Kind, Run
+from wallkit.simulation.run import CONTACT, FINAL, MEETING_CONTACT, Ending, Kind, Run, one_a_ball
 from wallkit.write_file import write_whole
 
 COLUMNS: tuple[str, ...] = CONTACT.names or ()
 
 
+def columns_of(contacts: NDArray[Any]) -> tuple[str, ...]:
+    """Names of the columns: ``COLUMNS``, and those of the other ball where balls meet."""
+    return contacts.dtype.names or ()
+
+
 def columns(run: Run) -> dict[str, list[Any]]:
     """Give the contacts as columns of plain numbers, the kind as its word."""
     words = {int(kind): kind.label for kind in Kind}
-    table = {name: run.contacts[name].tolist() for name in COLUMNS}
+    table = {name: run.contacts[name].tolist() for name in columns_of(run.contacts)}
     table["kind"] = [words[kind] for kind in table["kind"]]
     return table
 
@@ -30,13 +36,15 @@ def columns(run: Run) -> dict[str, list[Any]]:
 def to_csv(run: Run) -> str:
     """Write the contacts as CSV with a header; each number reads back to the same bits."""
     table = columns(run)
-    texts = [table[name] if name == "kind" else list(map(repr, table[name])) for name in COLUMNS]
-    lines = [",".join(COLUMNS), *map(",".join, zip(*texts, strict=True)), ""]
+    texts = [table[name] if name == "kind" else list(map(repr, table[name])) for name in table]
+    lines = [",".join(table), *map(",".join, zip(*texts, strict=True)), ""]
     return "\n".join(lines)
 
 
 def to_json(run: Run, trusted: list[Any] | None = None, until: float | None = None, bounces: int | None = None) -> str:
-    """Write a run as the ``wallkit-run`` format, version 1: scene, contacts by column, and how each ball ended.
+    """Write a run as the ``wallkit-run`` format: scene, contacts by column, and how each ball ended.
+
+    Version 2, where balls meet, has the columns of the other ball too.
 
     Args:
         run: what was simulated.
@@ -47,7 +55,7 @@ def to_json(run: Run, trusted: list[Any] | None = None, until: float | None = No
     names = run.final.dtype.names or ()
     whole = {
         "format": "wallkit-run",
-        "version": 1,
+        "version": 2 if "other" in columns_of(run.contacts) else 1,
         "scene": scene_to_json(run.scene, until, bounces),
         "contacts": columns(run),
         "final": [dict(zip(names, row, strict=True)) for row in run.final.tolist()],
@@ -93,17 +101,18 @@ def _run_of(value: dict[str, Any], scene: Scene) -> Run:
     """Make a run of the parsed file and of its scene, which was checked on its own."""
     kinds = {kind.label: int(kind) for kind in Kind}
     table, balls = value["contacts"], len(scene.balls)
-    contacts = np.zeros(len(table["time"]), dtype=CONTACT)
-    if any(len(table[column]) != len(contacts) for column in COLUMNS):
+    contacts = np.zeros(len(table["time"]), dtype=MEETING_CONTACT if "other" in table else CONTACT)
+    if any(len(table[column]) != len(contacts) for column in columns_of(contacts)):
         raise ValueError("its columns of contacts differ in length")
-    for column in COLUMNS:
+    for column in columns_of(contacts):
         contacts[column] = [kinds[word] for word in table["kind"]] if column == "kind" else table[column]
     final = np.zeros(balls, dtype=FINAL)
     for column in FINAL.names or ():
         final[column] = [row[column] for row in value["final"]]
     endings = {ending.label: ending for ending in Ending}
     ending = tuple(endings[word] for word in value["ending"])
-    if len(ending) != balls or not ((contacts["ball"] >= 0) & (contacts["ball"] < balls)).all():
+    number = one_a_ball(contacts)["ball"]
+    if len(ending) != balls or not ((number >= 0) & (number < balls)).all():
         raise ValueError(f"its contacts or endings are not those of {balls} balls")
     return Run(scene, contacts, final, ending, np.hstack([scene.balls.position, scene.balls.velocity]))
 
@@ -115,7 +124,7 @@ def to_npz(run: Run) -> bytes:
     """
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name in COLUMNS:
+        for name in columns_of(run.contacts):
             column = io.BytesIO()
             np.save(column, np.ascontiguousarray(run.contacts[name]), allow_pickle=False)
             archive.writestr(zipfile.ZipInfo(f"{name}.npy"), column.getvalue(), zipfile.ZIP_DEFLATED, 1)

@@ -16,7 +16,7 @@ from wallkit.kernels.records import NO_HIT
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation.gliding import guides
 from wallkit.simulation.modelled import Modelled
-from wallkit.simulation.run import CONTACT, Kind, Run, pull_of
+from wallkit.simulation.run import CONTACT, Kind, Run, in_order, pull_of
 from wallkit.walls import Walls
 
 
@@ -36,13 +36,17 @@ def with_crossings(run: Run) -> Run:
         for flight in _flights(run, ball)
         for row in sensors.crossings_on(run.scene, ball, *flight)
     ]
-    return Run(run.scene, in_order(run.contacts, rows), run.final, run.ending, run.start) if rows else run
+    return Run(run.scene, together(run.contacts, rows), run.final, run.ending, run.start) if rows else run
 
 
-def in_order(contacts: NDArray[Any], rows: list[tuple[Any, ...]]) -> NDArray[Any]:
+def together(contacts: NDArray[Any], rows: list[tuple[Any, ...]]) -> NDArray[Any]:
     """Give contacts together with rows of ``CONTACT``, by time."""
-    contacts = np.concatenate([contacts, np.array(rows, dtype=CONTACT)])
-    return contacts[np.lexsort((contacts["ball"], contacts["time"]))]
+    crossed = np.zeros(len(rows), dtype=contacts.dtype)
+    if "other" in (contacts.dtype.names or ()):
+        crossed["other"] = -1
+    for name, column in zip(CONTACT.names or (), zip(*rows, strict=True), strict=True):
+        crossed[name] = column
+    return in_order(np.concatenate([contacts, crossed]))
 
 
 def _flights(run: Run, ball: int) -> Iterator[tuple[float, NDArray[np.float64], float, Any, float]]:

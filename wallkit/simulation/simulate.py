@@ -30,7 +30,7 @@ from wallkit.kernels.records import (
     Counts,
 )
 from wallkit.scene.scene import Scene, SceneError
-from wallkit.scene.start_overlaps import check_starts, settled
+from wallkit.scene.start_overlaps import check_apart, check_starts, settled
 from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.run import CONTACT, FINAL, Ending, Run
 from wallkit.simulation.sensors import with_crossings
@@ -88,6 +88,11 @@ def simulate(
     if flag(settle, "settle", error=SceneError, code="bad-argument"):
         scene = settled(scene)
     check_starts(scene)
+    if scene.meeting:
+        check_apart(scene)
+        from wallkit.simulation.meeting_run import simulate_meeting
+
+        return with_crossings(simulate_meeting(scene, limit_time, limit_bounces, mode=mode, progress=progress))
     return flown(Flights(scene, mode=mode), limit_time, limit_bounces, progress)
 
 
@@ -257,6 +262,11 @@ class Flights:
         final["time"] = states[:, STATE.time] + states[:, STATE.lost]
         return final
 
+    @property
+    def bounces(self) -> NDArray[np.int64]:
+        """(n,) bounces of each ball so far."""
+        return np.array([counts[COUNT.bounces] for counts in self._counts], dtype=np.int64)
+
     def endings(self) -> tuple[Ending, ...]:
         """How each ball ended."""
         final = self.final()
@@ -282,7 +292,7 @@ class Flights:
         contacts["px"], contacts["py"] = log[:, LOG.px] + ox, log[:, LOG.py] + oy
         contacts["nx"], contacts["ny"] = log[:, LOG.nx], log[:, LOG.ny]
         contacts["kind"] = log[:, LOG.kind].astype(np.uint8)
-        wall, edge = self._places(log[:, LOG.feature].astype(np.int64))
+        wall, edge = self.places(log[:, LOG.feature].astype(np.int64))
         contacts["wall"], contacts["edge"] = wall, edge
         return contacts
 
@@ -291,7 +301,7 @@ class Flights:
         walls, edge_in_wall = self.modelled.index_of_edge(self.scene)
         return walls, edge_in_wall, np.repeat(np.arange(len(self.scene.walls)), np.diff(self.scene.walls.offsets))
 
-    def _places(self, feature: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def places(self, feature: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Wall of each feature, and edge within it, -1 for a corner."""
         walls, edge_in_wall, corner_wall = self._wall_tables
         is_edge = feature >= 0

@@ -10,6 +10,7 @@ import numpy as np
 
 from wallkit.arguments import floats, number, of_type, refused, whole_number
 from wallkit.scene.scene import Balls, Scene, SceneError
+from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.prepared import prepare, prepare_again
 from wallkit.simulation.simulate import limits
 from wallkit.simulation.survey import Totals, check_threads, survey
@@ -82,6 +83,7 @@ def survey_stream(
         SceneError: at once for an argument that is none of what may be; with the first chunk as ``survey``.
     """
     of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
+    refuse_meeting(scene, "a survey in chunks")
     if not callable(draw):
         may_be = "a function of a first number and a count that returns Balls, such as RandomBalls"
         raise refused("draw", draw, may_be, SceneError, "bad-argument")

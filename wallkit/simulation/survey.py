@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import concurrent.futures
+from collections.abc import Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from typing import overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.arguments import flag, of_type, whole_number
+from wallkit.arguments import flag, of_type, refused, whole_number
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.batches.lockstep import Outcome
 from wallkit.scene.scene import Scene, SceneError
+from wallkit.simulation.meeting_rules import refuse_meeting
+from wallkit.simulation.meeting_survey import fly_together, survey_each
 from wallkit.simulation.prepared import Prepared, prepare
 from wallkit.simulation.run import Ending
 from wallkit.simulation.simulate import limits
@@ -26,7 +30,7 @@ class Totals:
     """What is left of a survey.
 
     Attributes:
-        bounces: (n,) int64, of each ball.
+        bounces: (n,) int64, of each ball; where two balls meet, one for each of them.
         position: (n, 2) where each ball ended.
         velocity: (n, 2) its last velocity.
         time: (n,) when it ended.
@@ -58,6 +62,7 @@ class Totals:
         return f"<Totals: {', '.join(parts)}>"
 
 
+@overload
 def survey(
     scene: Scene | Prepared,
     until: float | None = None,
@@ -67,14 +72,41 @@ def survey(
     executor: Executor | None = None,
     check: bool = True,
     by_edge: bool = False,
-) -> Totals:
+) -> Totals: ...
+
+
+@overload
+def survey(
+    scene: Sequence[Scene | Prepared],
+    until: float | None = None,
+    bounces: int | None = None,
+    *,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    check: bool = True,
+    by_edge: bool = False,
+) -> list[Totals]: ...
+
+
+def survey(
+    scene: Scene | Prepared | Sequence[Scene | Prepared],
+    until: float | None = None,
+    bounces: int | None = None,
+    *,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    check: bool = True,
+    by_edge: bool = False,
+) -> Totals | list[Totals]:
     """Fly every ball until a time, a number of bounces, or an ending of its own, and keep only totals.
 
-    Balls do not meet, so each is flown alone; the result is the same, bit for bit, for any number of threads, and
-    the same as that of :func:`wallkit.simulate`. Kernels are compiled and release the interpreter's lock.
+    Balls that do not meet are flown each alone. Those that meet (``Scene(meeting=True)``) are flown together, on one
+    thread; of a list of scenes each is a piece of work for a thread. The result is the same, bit for bit, for any
+    number of threads, and the same as that of :func:`wallkit.simulate`. Kernels are compiled and release the
+    interpreter's lock.
 
     Args:
-        scene: walls, balls, and what acts; from :func:`prepare`, it is not prepared again.
+        scene: walls, balls, and what acts; from :func:`prepare`, it is not prepared again. Or a list of such.
         until: seconds; None for no end in time.
         bounces: bounces a ball; None for the guard of ``simulate``. At least one of the two must be given.
         threads: how many to use; None for one a core.
@@ -83,26 +115,48 @@ def survey(
         check: look whether a disc overlaps a wall at the start; False where that is known, to save the time.
         by_edge: count bounces by edge and by vertex too.
 
+    Returns:
+        The totals; of a list of scenes a list, in their order.
+
     Raises:
         SceneError: neither limit was given, an argument is none of what may be, or the scene cannot be simulated.
     """
     limit_time, limit_bounces = limits(until, bounces)
     threads = check_threads(threads)
     _check_executor(executor)
-    of_type(
-        scene, "scene", (Scene, Prepared), "a Scene, or what prepare() made of one", error=SceneError, code="bad-scene"
-    )
+    may_be = "a Scene, or what prepare() made of one, or a list of such"
+    if isinstance(scene, list | tuple):
+        for one in scene:
+            of_type(one, "scene", (Scene, Prepared), may_be, error=SceneError, code="bad-scene")
+        many = [one if isinstance(one, Prepared) else prepare(one, check=check) for one in scene]
+
+        def alone(one: Prepared) -> Totals:
+            return survey(one, until, bounces, threads=1, by_edge=by_edge)
+
+        return survey_each(many, alone, cores() if threads is None else threads, executor)
+    if not isinstance(scene, Scene | Prepared):
+        raise refused("scene", scene, may_be, SceneError, "bad-scene")
     ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
     if flag(by_edge, "by_edge", error=SceneError, code="bad-argument"):
         ready = replace(ready, modelled=ready.modelled.by_edge())
-    walls, modelled = ready.scene.walls, ready.modelled
+    modelled = ready.modelled
     threads = max(1, min(cores() if threads is None else threads, len(modelled.radii) // LEAST))
     outcome = _room_for(len(modelled.radii))
+    if ready.scene.meeting:
+        if by_edge:
+            refuse_meeting(ready.scene, "a count by edge")
+        found = fly_together(ready, limit_time, limit_bounces, outcome)
+        return _totals(ready, outcome, found, by_edge)
     with way_to_fly(ready)(ready, limit_time, limit_bounces, outcome, threads) as work:
         found, *others = in_threads(work, threads, executor)
     for other in others:
         found += other
-    hits, crossings = found[: modelled.tallies], found[modelled.tallies :].reshape(-1, 2)
+    return _totals(ready, outcome, found, by_edge)
+
+
+def _totals(ready: Prepared, outcome: Outcome, found: NDArray[np.int64], by_edge: bool) -> Totals:
+    walls, tallies = ready.scene.walls, ready.modelled.tallies
+    hits, crossings = found[:tallies], found[tallies:].reshape(-1, 2)
     totals = Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings)
     if by_edge:
         totals.edge_hits, totals.vertex_hits = hits[: len(walls.edge_starts)], hits[len(walls.edge_starts) :]

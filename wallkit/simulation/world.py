@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,8 +17,11 @@ from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation.damping import carried_on, damping_of
 from wallkit.simulation.gliding import glide, guides
 from wallkit.simulation.run import CONTACT, Kind
-from wallkit.simulation.sensors import in_order, sensors_of
+from wallkit.simulation.sensors import sensors_of, together
 from wallkit.simulation.simulate import Flights
+
+if TYPE_CHECKING:
+    from wallkit.simulation.meeting_world import Together
 
 _NO_CONTACTS = np.empty(0, dtype=CONTACT)
 _NO_CONTACTS.flags.writeable = False
@@ -66,6 +69,14 @@ class World:
         self.scene = scene
         self.way: Way = way
         self.time = 0.0
+        self._lost = 0.0  # what the sum of the frames loses to rounding
+        self._together: Together | None = None
+        if scene.meeting:
+            from wallkit.simulation.meeting_world import Together
+
+            self._together = Together(scene, way, "compiled" if compile else "interpreted")
+            self._base = np.hstack([scene.balls.position, scene.balls.velocity])
+            return
         self._flights = Flights(scene, mode="compiled" if compile else "interpreted")
         self._damping = damping_of(scene)
         self._base = self._flights.start.copy()  # where each ball was, and its velocity, ...
@@ -84,7 +95,6 @@ class World:
             self._base
         )  # next crossing of a sensor before that, ...
         self._later: list[Iterator[tuple[Any, ...]]] = [iter(())] * len(self._base)  # ... and those after it
-        self._lost = 0.0  # what the sum of the frames loses to rounding
         for ball in range(len(self)):
             self._look_ahead(ball)
         self._soonest = float(self._next_time.min(initial=math.inf))
@@ -106,6 +116,8 @@ class World:
         return self._state()[:, 2:4]
 
     def _state(self) -> FloatArray:
+        if self._together is not None:
+            return self._together.state(self.time)
         span = np.minimum(self.time, self._end) - self._since
         if self._damping is not None:
             return np.array([carried_on(self._damping, *now) for now in zip(self._base, span.tolist(), strict=True)])
@@ -122,7 +134,8 @@ class World:
         """Move everything on by ``dt`` seconds.
 
         Returns:
-            (k,) of ``run.CONTACT``: the contacts of this frame, and crossings of sensors, in order of time.
+            (k,) of ``run.CONTACT``: the contacts of this frame, and crossings of sensors, in order of time; with the
+            columns of the other ball where balls meet.
 
         Raises:
             SceneError: ``dt`` is negative or not finite.
@@ -131,6 +144,9 @@ class World:
         whole = dt + self._lost  # Kahan's sum: what one frame loses to rounding the next one gets
         end = self.time + whole
         self._lost = whole - (end - self.time)
+        if self._together is not None:
+            self.time = end
+            return self._together.go(end)
         if self._soonest > end:
             self.time = end
             return _NO_CONTACTS
@@ -150,7 +166,7 @@ class World:
                     break
         self.time, self._soonest = end, float(self._next_time.min(initial=math.inf))
         contacts = self._flights.contacts(rows, [np.array([ball], dtype=np.int32) for ball in owners])
-        return in_order(contacts, crossed) if crossed else contacts
+        return together(contacts, crossed) if crossed else contacts
 
     def place(self, ball: int, position: ArrayLike | None = None, velocity: ArrayLike | None = None) -> None:
         """Put a ball somewhere else, or give it another velocity, now: a kick, a flipper, a new ball.
@@ -164,6 +180,9 @@ class World:
         ball = whole_number(ball, "ball", may_be, error=SceneError, code="bad-ball", least=0, most=most)
         here = self.position[ball] if position is None else _pair(position, "position")
         speed = self.velocity[ball] if velocity is None else _pair(velocity, "velocity")
+        if self._together is not None:
+            self._together.place(ball, here, speed, self.time)
+            return
         touched, normal = (NO_HIT, None) if position is not None else self._contact(ball, here)
         if normal is None or touched == NO_HIT:
             self._restart(ball, here, speed, self.time, NO_HIT)

@@ -21,7 +21,7 @@ from PIL import Image
 from importers.errors import WallkitError
 from wallkit.arguments import ABOVE_0, number, of_type, refused, whole_number, word
 from wallkit.geometry.arrays import FloatArray
-from wallkit.simulation.run import Run
+from wallkit.simulation.run import Run, one_a_ball
 from wallkit.view.canvas import Command, Disc, Item, Label, Shape
 from wallkit.view.frame import Frame
 from wallkit.view.picture import draw_walls, finish, round_length, started
@@ -148,7 +148,7 @@ class _Frames:
         return f"{time:.2f} s{pace or part}"
 
     def __iter__(self) -> Iterator[Image.Image]:
-        contacts = self.run.contacts
+        contacts = one_a_ball(self.run.contacts)
         times = contacts["time"]
         trails: list[deque[tuple[float, float, float]]] = [deque() for _ in self.run.ending[:_TRAILS]]
         passed = 0

@@ -11,7 +11,7 @@ import numpy as np
 
 from importers.errors import WallkitError
 from wallkit.arguments import of_type, text, whole_number
-from wallkit.simulation.run import Run
+from wallkit.simulation.run import Run, one_a_ball
 from wallkit.view.frame import Box
 from wallkit.view.page import look
 from wallkit.view.page.payload import inlined, run_table, starts, walls_table
@@ -70,7 +70,7 @@ def thinned(run: Run, most: int) -> tuple[Run, str]:
     total = int(run.bounces.sum())
     balls = len(run.final)
     stride = 2
-    contacts = np.bincount(run.contacts["ball"], minlength=balls)
+    contacts = np.bincount(one_a_ball(run.contacts)["ball"], minlength=balls)
     while stride < balls and contacts[::stride].sum() > most:
         stride += 1
     kept = np.arange(0, balls, min(stride, balls))

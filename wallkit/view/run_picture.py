@@ -230,10 +230,11 @@ def _draw_ghosts(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: 
     shown = shown[np.argsort(flight.time[shown], kind="stable")][-MAX_GHOSTS:]
     radius = flight.radius[flight.ball[shown]] * frame.scale
     for rank, (index, size) in enumerate(zip(shown.tolist(), radius.tolist(), strict=True)):
-        contact = run.contacts[int(flight.contact[index])]
+        contact = flight.contacts[int(flight.contact[index])]
         x, y = frame.point(float(contact["x"]), float(contact["y"]))
         opacity = round(0.12 + 0.68 * (rank + 1) / len(shown), 2)
-        told = f"bounce at {contact['time']:.6g} s, wall {contact['wall']}"
+        met = f"wall {contact['wall']}" if contact["wall"] >= 0 else f"ball {contact['other']}"
+        told = f"bounce at {contact['time']:.6g} s, {met}"
         canvas.add(Disc("ghost", x, y, max(size, _POINT), int(steps[index]), size < _POINT, opacity, told))
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.simulation.gliding import glide, guides
-from wallkit.simulation.run import Ending, Kind
+from wallkit.simulation.run import Ending, Kind, one_a_ball, turns_in
 
 if TYPE_CHECKING:
     from wallkit.scene.scene import Balls
@@ -38,7 +39,8 @@ class Tracks:
             friction, against the velocity. Where a ball glides along an arc, or pivots about a vertex, its stretch
             is cut into short ones, each a parabola, and only the first of them begins with a contact.
         drag: the rate k, or 0.
-        contact: (m,) index into ``run.contacts`` of the contact it begins with, -1 for the start.
+        contact: (m,) index into ``contacts`` of the contact it begins with, -1 for the start.
+        contacts: those of the run, with a row for each of two balls that meet.
         radius: (n,) of the balls.
         whole: the number of stretches before thinning.
     """
@@ -52,6 +54,7 @@ class Tracks:
     pull: FloatArray
     drag: float
     contact: IntArray
+    contacts: NDArray[Any]
     radius: FloatArray
     whole: int
 
@@ -76,8 +79,8 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
     """
     start, velocity, radius = arrays_of(run.scene.balls)
     count = len(start)
-    contacts = run.contacts
-    turns = np.flatnonzero(contacts["kind"] < Kind.ENTER)  # a sensor changes no flight
+    contacts = one_a_ball(run.contacts)
+    turns = np.flatnonzero(turns_in(contacts))
     # Contacts come in order of time; a stable sort by ball keeps that for each.
     order = turns[np.argsort(contacts["ball"][turns], kind="stable")]
     per_ball = np.bincount(contacts["ball"][turns], minlength=count).astype(np.int64) + 1
@@ -104,9 +107,10 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
         position=column(("x", "y"), contact, start[ball]),
         target=column(("x", "y"), following, final[ball]),
         velocity=column(("vx", "vy"), contact, velocity[ball]),
-        pull=_pulls(run, contact, column(("vx", "vy"), contact, velocity[ball])),
+        pull=_pulls(run, contacts, contact, column(("vx", "vy"), contact, velocity[ball])),
         drag=run.scene.drag or 0.0,
         contact=contact.astype(np.int64),
+        contacts=contacts,
         radius=radius,
         whole=whole,
     )
@@ -133,7 +137,7 @@ def _in_chords(run: Run, flights: Tracks, bent: FloatArray) -> Tracks:
     pull, last = flights.pull[own].copy(), rank == pieces[own] - 1
     until[last] = flights.until[own[last]]
     for index in np.flatnonzero(bent[own]).tolist():
-        contact = run.contacts[flights.contact[own[index]]]
+        contact = flights.contacts[flights.contact[own[index]]]
         state = np.concatenate([flights.position[own[index]], flights.velocity[own[index]]])
         normal = np.array([contact["nx"], contact["ny"]])
         begin, end = (
@@ -161,14 +165,14 @@ def _in_chords(run: Run, flights: Tracks, bent: FloatArray) -> Tracks:
     )
 
 
-def _pulls(run: Run, contact: IntArray, velocity: FloatArray) -> FloatArray:
+def _pulls(run: Run, contacts: NDArray[Any], contact: IntArray, velocity: FloatArray) -> FloatArray:
     if run.scene.rolling_friction is not None:
         speed = np.hypot(*velocity.T)[:, None]
         direction: FloatArray = np.divide(velocity, speed, out=np.zeros_like(velocity), where=speed > 0)
         return -run.scene.rolling_friction * direction
     pull = np.tile(np.array(run.scene.gravity or (0.0, 0.0), dtype=np.float64), (len(contact), 1))
-    if run.scene.gravity is not None and len(run.contacts):
-        begun = run.contacts[contact]
+    if run.scene.gravity is not None and len(contacts):
+        begun = contacts[contact]
         slides = (contact >= 0) & (begun["kind"] == Kind.SLIDE)
         along = np.stack([-begun["ny"], begun["nx"]], axis=1)[slides]
         pull[slides] = along * (along * pull[slides]).sum(axis=1)[:, None]
@@ -205,7 +209,8 @@ def _ends(run: Run) -> tuple[FloatArray, FloatArray]:
     x0, y0, x1, y1 = run.scene.walls.box()
     reach = 1.5 * float(np.hypot(x1 - x0, y1 - y0)) + float(np.abs(final).max(initial=0.0) > 0)
     touched = np.zeros(len(time))
-    np.maximum.at(touched, run.contacts["ball"], run.contacts["time"])
+    contacts = one_a_ball(run.contacts)
+    np.maximum.at(touched, contacts["ball"], contacts["time"])
     for ball, ending in enumerate(run.ending):
         speed = float(np.hypot(*velocity[ball]))
         if ending is Ending.LEFT_SCENE and speed > 0 and time[ball] == touched[ball]:

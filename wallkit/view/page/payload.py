@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from wallkit.geometry.arrays import FloatArray
-from wallkit.simulation.energy import lowest
+from wallkit.simulation.energy import lowest, mass_parts
 from wallkit.simulation.gliding import guides
-from wallkit.simulation.run import Ending, Kind, Run
+from wallkit.simulation.run import Ending, Run, one_a_ball, turns_in
 from wallkit.view.frame import walls_box
 from wallkit.view.outline import solid_areas
 from wallkit.view.picture import shades
@@ -75,7 +75,8 @@ def run_table(run: Run, *, left_out: str = "", horizon: bool = True) -> Table:
         left_out: a sentence on what of the run is not in it, for people.
         horizon: say how far a single ball's run can be trusted.
     """
-    contacts, final = run.contacts[run.contacts["kind"] < Kind.ENTER], run.final  # a sensor changes no flight
+    contacts, final = one_a_ball(run.contacts), run.final
+    contacts = contacts[turns_in(contacts)]
     start = starts(run)
     full = len(contacts) <= FULL_PRECISION_CONTACTS
     real = "f8" if full else "f4"
@@ -87,6 +88,7 @@ def run_table(run: Run, *, left_out: str = "", horizon: bool = True) -> Table:
         "drag": run.scene.drag,
         "radius": column(run.scene.balls.radius, "f8"),
         "lowest": column(lowest(run), "f8"),
+        **({"mass": column(mass_parts(run), "f8")} if run.scene.meeting else {}),
         "start": {name: column(start[:, index], "f8") for index, name in enumerate(("x", "y", "vx", "vy"))},
         "end": {name: column(final[name], "f8") for name in ("time", "x", "y", "vx", "vy")},
         "ending": [Ending(ending).label for ending in run.ending],

@@ -44,6 +44,7 @@
       this.duration = run.duration;
       this.radius = W.column(run.radius);
       this.lowest = W.column(run.lowest);
+      this.mass = run.mass ? W.column(run.mass) : null; // over the mean of all, where balls meet
       Object.assign(this, columns(run.contacts)); // time, ball, x, y, vx, vy, nx, ny, wall, kind
       [this.originX, this.originY] = run.origin;
       this.count = this.time.length;
@@ -51,10 +52,11 @@
       this.countBounces();
     }
 
-    // bounced[k]: how many of the first k contacts are bounces; a slide that begins or ends is none.
+    // bounced[k]: how many of the first k contacts are bounces, for each of two balls that meet one; a slide that begins
+    // or ends is none.
     countBounces() {
       this.bounced = new Int32Array(this.count + 1);
-      for (let i = 0; i < this.count; i++) this.bounced[i + 1] = this.bounced[i] + (this.kind[i] < SLIDE);
+      for (let i = 0; i < this.count; i++) this.bounced[i + 1] = this.bounced[i] + (this.kind[i] < SLIDE || this.kind[i] === BALL);
     }
 
     // Lists each ball's contacts: ball b has ofBall[first[b]] to ofBall[first[b + 1] - 1].

@@ -55,8 +55,9 @@
     energy(motion, time) {
       let [now, first] = [0, 0];
       for (let b = 0; b < motion.balls; b++) {
-        now += motion.energy(b, time);
-        first += motion.energy(b, 0);
+        const mass = motion.mass ? motion.mass[b] : 1;
+        now += mass * motion.energy(b, time);
+        first += mass * motion.energy(b, 0);
       }
       if (!(first > 0)) return `${W.number(now / motion.balls)}`;
       return `${W.number(now / motion.balls)} (${((100 * now) / first).toFixed(2)} %)`;
@@ -67,7 +68,7 @@
       if (!k) return "none yet";
       const { picture } = this.player;
       const name = picture ? picture.label(motion.wall[k - 1]) : `wall ${motion.wall[k - 1]}`;
-      const where = [name, `a corner of ${name}`, `slides on ${name}`, `leaves ${name}`][motion.kind[k - 1]];
+      const where = [name, `a corner of ${name}`, `slides on ${name}`, `leaves ${name}`][motion.kind[k - 1]] ?? "another ball";
       return motion.balls > 1 ? `ball ${motion.ball[k - 1] + 1}: ${where}` : where;
     }
 

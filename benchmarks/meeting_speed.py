@@ -1,0 +1,127 @@
+"""Speed of discs that meet, and answers that take long, beside what is published.
+
+    python benchmarks/meeting_speed.py            # speed by number of discs and packing
+    python benchmarks/meeting_speed.py pi         # Galperin: contacts of masses 100^d : 1, d up to 7
+    python benchmarks/meeting_speed.py pressure   # equation of state beside the virial series
+    python benchmarks/meeting_speed.py room       # a room of 10,000 edges beside a box
+
+Times are those of the processor, of one thread, without compiling.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+from typing import Any
+
+import numpy as np
+
+import wallkit
+from wallkit.kernels.jit import compiled
+from wallkit.kernels.meeting.meet import meet
+from wallkit.simulation.meeting import Meeting
+from wallkit.simulation.simulate import START
+
+VIRIAL = (1.0, 1.0, 0.78200442, 0.53223180, 0.33355604, 0.1988425, 0.1148728, 0.0649930, 0.0362193, 0.0199537)
+"""B_k / B_2^(k-1) of hard discs, k = 1 to 10 (N. Clisby, B. M. McCoy 2006, J. Stat. Phys. 122:15); with the packing y,
+Z = sum of B_k / B_2^(k-1) (2 y)^(k-1)."""
+
+
+def filled(count: int, packing: float, seed: int = 0) -> tuple[wallkit.Balls, float]:
+    """Discs of radius 1/2 on a disturbed lattice in a square box: (discs, side of the box)."""
+    random = np.random.default_rng(seed)
+    side = math.sqrt(count * math.pi / 4.0 / packing)
+    columns = math.ceil(math.sqrt(count))
+    step = side / columns
+    place = np.stack(np.meshgrid(np.arange(columns), np.arange(columns)), axis=-1).reshape(-1, 2)[:count]
+    free = max(0.0, step / 2.0 - 0.5)
+    position = (place + 0.5) * step + random.uniform(-0.99, 0.99, (count, 2)) * free
+    velocity = random.normal(size=(count, 2))
+    return wallkit.Balls(position, velocity - velocity.mean(axis=0), 0.5), side
+
+
+def box(side: float, notches: int = 0) -> wallkit.Walls:
+    """A square box, each of whose sides is cut into edges that bow out by a little."""
+    corners = np.array([(0.0, 0.0), (0.0, side), (side, side), (side, 0.0)])
+    if not notches:
+        return wallkit.Walls.from_polylines([corners])
+    ring: list[Any] = []
+    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        along = np.linspace(0.0, 1.0, notches + 1)[:-1, None]
+        out = np.array([-(b - a)[1], (b - a)[0]]) / side
+        ring += list(a + along * (b - a) + 0.02 * (np.arange(notches) % 2)[:, None] * out)
+    return wallkit.Walls.from_polylines([ring])
+
+
+def go(meeting: Meeting, contacts: int, until: float = math.inf) -> float:
+    """Make so many contacts: the seconds of the processor."""
+    model = meeting.modelled.model
+    begun = time.process_time()
+    compiled(meet)(model, None, meeting._discs, until, 2**31, meeting.hits, np.empty(0), contacts, 2**62)
+    return time.process_time() - begun
+
+
+def pairs_a_second(scene: wallkit.Scene, contacts: int) -> tuple[float, Meeting]:
+    """Contacts of two discs a second, the best of five rounds after the first disorder."""
+    meeting = Meeting(scene, START, mode="compiled")
+    go(meeting, 10 * len(scene.balls))
+    meeting._bring_into_order()
+    best = 0.0
+    for _ in range(5):
+        before = meeting.hits.sum()
+        seconds = go(meeting, contacts)
+        best = max(best, (contacts - int(meeting.hits.sum() - before)) / seconds)
+    return best, meeting
+
+
+def speed(counts: tuple[int, ...] = (100, 1_000, 10_000, 100_000, 1_000_000)) -> None:
+    for packing in (0.1, 0.3, 0.6):
+        for count in counts:
+            balls, side = filled(count, packing)
+            best, meeting = pairs_a_second(wallkit.Scene(box(side), balls, meeting=True), max(200_000, count))
+            size = sum(part.nbytes for part in meeting._discs if isinstance(part, np.ndarray)) / count
+            words = f"{best / 1e6:.2f} M pairs a second, {size:.0f} bytes a disc"
+            print(f"N {count:>9,}, packing {packing}: {words}", flush=True)
+
+
+def pi() -> None:
+    wall = wallkit.Walls.from_polylines([[(0, -5), (0, 5)]], closed=False)
+    for digits in range(8):
+        balls = wallkit.Balls([(2, 0), (4, 0)], [(0, 0), (-1, 0)], 0.5, mass=[1.0, 100.0**digits])
+        meeting = Meeting(wallkit.Scene(wall, balls, meeting=True), START, mode="compiled")
+        seconds = go(meeting, 10**9)
+        met = int(meeting.bounces.sum() - meeting.hits.sum()) // 2 + int(meeting.hits.sum())
+        known = int(math.pi * 10**digits)
+        print(f"masses 100^{digits} : 1: {met:,} contacts in {seconds:.1f} s, floor(pi 10^{digits}) = {known:,}")
+
+
+def pressure() -> None:
+    """Z = 1 + sqrt(pi) d c / (2 N t sqrt(kT / m)), c contacts of N discs in the time t: the virial of contacts."""
+    for packing in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7):
+        count = 10_000
+        balls, side = filled(count, packing)
+        meeting = Meeting(wallkit.Scene(box(side), balls, meeting=True), START, mode="compiled")
+        go(meeting, 50 * count)
+        begun, walls = float(meeting._discs.key[1]), int(meeting.hits.sum())
+        go(meeting, 200 * count)
+        span = float(meeting._discs.key[1]) - begun
+        met = 200 * count - (int(meeting.hits.sum()) - walls)
+        heat = float((meeting._discs.ball[:, 2:4] ** 2).sum()) / (2.0 * count)
+        z = 1.0 + math.sqrt(math.pi) / 2.0 * met / count / span / math.sqrt(heat)
+        inner = packing * (side / (side - 1.0)) ** 2  # centres are kept off the walls by a radius
+        series = sum(b * (2.0 * packing) ** k for k, b in enumerate(VIRIAL))
+        words = f"Z {z:.4f}, virial series to B10 {series:.4f}"
+        print(f"packing {packing} ({inner:.4f} of where centres are): {words}", flush=True)
+
+
+def room() -> None:
+    balls, side = filled(10_000, 0.3)
+    plain, _ = pairs_a_second(wallkit.Scene(box(side), balls, meeting=True), 500_000)
+    drawn, _ = pairs_a_second(wallkit.Scene(box(side, 2_500), balls, meeting=True), 500_000)
+    words = f"room of 10,000 edges {drawn / 1e6:.2f} M pairs a second: {plain / drawn:.2f} times slower"
+    print(f"box {plain / 1e6:.2f}, {words}")
+
+
+if __name__ == "__main__":
+    {"pi": pi, "pressure": pressure, "room": room}.get("".join(sys.argv[1:2]), speed)()

@@ -1,0 +1,1 @@
+"""Discs that meet: one queue of events for all of them."""

@@ -1,0 +1,79 @@
+"""What the kernels see of discs that meet: two short rows a disc, cells, and the queue of what is due.
+
+A disc's state is that of its last contact and stands until the next one: neither a border of a cell nor another disc's
+contact changes a bit of it. So the contacts are the same, bit for bit, for any size of the cells.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+X, Y, VX, VY, TIME, LOST, DUE, RADIUS = range(8)
+"""Row of floats of a disc, a line of the cache: its state after its last contact; the time of that and what the time
+lost to rounding; when its next contact is due; its radius."""
+CELL, PARTNER, NUMBER, BOUNCES, STILL, MET, BEING, SPARE = range(8)
+"""Row of whole numbers of a disc: its cell; with what its next contact is; its number in
+the scene; contacts so far; contacts in a row that rounding does not tell apart; the disc that it met last and has not
+parted from by another contact; how it is, see FLYING and the following."""
+
+NOBODY, WALL, LOOK, NOTHING = 2**32 - 1, 2**32 - 2, 2**32 - 3, 2**32 - 4
+"""In place of a disc: none; and what is due otherwise: a contact with a wall, a search for what is due, nothing."""
+DISCS = 2**32 - 4
+"""All below are discs."""
+FLYING, FRESH, FIXED, OUT = 0, 1, 2, 3
+"""How a disc is: flying since a contact with a wall; flying since a contact with a disc (its cold state is to be made
+anew); ended where it stands, and met as if it had no end of mass; ended and taken out: no disc meets it."""
+ROW = 17
+"""Floats of a contact in the log: those of a contact with a wall (``LOG_STRIDE``), then ball, other (-1 for none), and
+the other's centre and velocity."""
+NEVER = math.inf
+
+
+class Cells(NamedTuple):
+    """Square cells, row by row; those at the border reach out to infinity."""
+
+    x0: float
+    y0: float
+    side: float
+    columns: int
+    rows: int
+    shift: int
+    """Row r begins at the cell r << shift."""
+
+
+class Discs(NamedTuple):
+    """All that meeting needs to know of the discs of a scene; coordinates are local, as in ``Model``."""
+
+    ball: Any
+    """(n, 8) floats: see X and the following."""
+    link: Any
+    """(n, 8) unsigned: see CELL and the following."""
+    after: Any
+    """(n,) the next disc of its cell, or NOBODY."""
+    mass: Any
+    """(n,)."""
+    leave: Any
+    """(n,) when it leaves its cell."""
+    step: Any
+    """(n,) by how much the number of its cell changes then."""
+    key: Any
+    """(2 m,) by node of the tournament, m = max(n, 2): from m on that of each disc, the lesser of when it leaves its
+    cell and of what is due (infinite beyond n); before, that of the winner of 2 k and 2 k + 1."""
+    tree: Any
+    """(2 m,) who that is; at node 1 the first of all."""
+    head: Any
+    """By cell: its first disc, or NOBODY."""
+    near: Any
+    """By cell: 1 where a disc whose centre is in it may touch a wall."""
+    cells: Cells
+    restitution: Any
+    """(normal, tangential) between discs; None where both are 1."""
+    states: Any
+    """(n, STATE_SIZE) cold state, as ``fly`` knows it."""
+    counts: Any
+    """(n, len(Counts)) the same in whole numbers."""
+    tries: Any
+    """((STATE_SIZE,), (len(Counts),), (W,), (LOG_STRIDE,)): a state, counts, hits and log to try a flight with."""
+    start: Any
+    """(len(Counts),) counts of a ball at its start."""

@@ -1,0 +1,238 @@
+"""The discs of a scene in which balls meet, in flight together; see ``wallkit.kernels.meeting.meet``."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.kernels.jit import compiled
+from wallkit.kernels.meeting.meet import begin, lay_out, meet
+from wallkit.kernels.meeting.records import (
+    BEING,
+    BOUNCES,
+    CELL,
+    DISCS,
+    FLYING,
+    FRESH,
+    MET,
+    NOBODY,
+    NOTHING,
+    NUMBER,
+    PARTNER,
+    ROW,
+    Discs,
+)
+from wallkit.kernels.meeting.wall_contacts import states_at
+from wallkit.kernels.records import LOG_STRIDE, STATE_SIZE, Counts, in_lists
+from wallkit.scene.scene import Scene
+from wallkit.simulation.meeting_cells import along_a_curve, box_of, cell_of, cells_for, near_walls
+from wallkit.simulation.meeting_rules import check_modelled
+from wallkit.simulation.modelled import Modelled
+
+PER_DISC = 2.0
+"""Cells a disc, where the discs themselves do not set their size."""
+CHUNK = 1 << 16
+"""Contacts in one piece of a log."""
+SOON = 40_000
+"""Events that interpreted kernels take, some 50 microseconds each, before a run waits for the compiler."""
+FEW = 500
+"""Discs up to which it is worth while to interpret at all."""
+MANY, OFTEN = 2_000, 50
+"""Discs from which on they are brought into order again, so that neighbours are close in memory, and after how many
+contacts a disc."""
+_compiled: set[tuple[bool, ...]] = set()
+
+
+class Meeting:
+    """The discs of a scene, flown on together up to a time or a number of contacts.
+
+    Attributes:
+        modelled: what the kernels see of the scene.
+        numbers: (k,) of the discs in the scene, in the order in which they lie in memory.
+        hits: (W,) contacts by wall so far.
+        now: time of the last event.
+        reached: 1 where the end in time is reached, 2 where a disc has made as many contacts as it may, else 0.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        start: Counts,
+        *,
+        mode: str = "auto",
+        per_disc: float = PER_DISC,
+        modelled: Modelled | None = None,
+    ) -> None:
+        check_modelled(scene)
+        self.modelled = modelled or Modelled(scene, machine_code=mode == "compiled")
+        self.mode = mode
+        self.numbers = np.flatnonzero(self.modelled.radii > 0.0)
+        self.hits = np.zeros(len(scene.walls), dtype=np.int64)
+        self.now, self.reached = 0.0, 0
+        self._count = len(self.numbers)
+        self._features = tuple(part is None for part in (*self.modelled.model, _restitution(scene)))
+        self._discs = self._made(scene, start, per_disc)
+        self._lists: Discs | None = None
+        if self._interprets():
+            self._lists = in_lists(self._discs)
+            begin(self.modelled.lists.gravity, self._lists, 0.0)
+        else:
+            compiled(begin)(self.modelled.model.gravity, self._discs, 0.0)
+        self._since, self._interpreted = 0, 0
+
+    def __len__(self) -> int:
+        return self._count
+
+    def _made(self, scene: Scene, start: Counts, per_disc: float) -> Discs:
+        from wallkit.simulation.simulate import initial_states
+
+        balls = scene.balls
+        place = balls.position[self.numbers] - self.modelled.origin
+        radii = self.modelled.radii[self.numbers]
+        cells = cells_for(box_of(self.modelled, place), radii, per_disc)
+        order = along_a_curve(cell_of(cells, place))
+        self.numbers, radii = self.numbers[order], radii[order]
+        states = initial_states(self.modelled, balls.position[self.numbers], balls.velocity[self.numbers])
+        count, size = self._count, max(self._count, 2)
+        ball, link = np.zeros((count, 8)), np.zeros((count, 8), dtype=np.uint32)
+        ball[:, 0:4], ball[:, 7] = states[:, 0:4], radii
+        link[:, PARTNER], link[:, NUMBER], link[:, MET], link[:, BEING] = NOTHING, self.numbers, NOBODY, FLYING
+        counts = np.array(start, dtype=np.int64)
+        near = near_walls(scene.walls, self.modelled.origin, cells, float(radii.max(initial=0.0)))
+        hits = np.zeros(max(len(scene.walls), 1), dtype=np.int64)
+        return Discs(
+            ball=ball,
+            link=link,
+            after=np.full(count, NOBODY, dtype=np.uint32),
+            mass=balls.mass[self.numbers],
+            leave=np.full(count, math.inf),
+            step=np.zeros(count, dtype=np.int32),
+            key=np.full(2 * size, math.inf),
+            tree=np.concatenate([np.zeros(size), np.arange(size)]).astype(np.uint32),
+            head=np.full(cells.rows << cells.shift, NOBODY, dtype=np.uint32),
+            near=near,
+            cells=cells,
+            restitution=_restitution(scene),
+            states=states,
+            counts=np.tile(counts, (count, 1)),
+            tries=(np.zeros(STATE_SIZE), counts.copy(), hits, np.zeros(LOG_STRIDE)),
+            start=counts,
+        )
+
+    def _interprets(self) -> bool:
+        if self.mode == "auto":
+            return self._count <= FEW and self._features not in _compiled
+        return self.mode == "interpreted"
+
+    def go(self, until: float, limit: int, *, keep: bool = True, most: int = 0) -> Iterator[FloatArray]:
+        """Fly on; yield the contacts in pieces, (k, ROW) each, in local coordinates; empty ones unless they are kept.
+
+        Args:
+            until: time at which to stop, or inf.
+            limit: contacts of a disc at which to stop.
+            keep: whether contacts are kept.
+            most: contacts in a piece; 0 for as many as it takes to be quick.
+        """
+        self.reached = 0 if self._count else 1
+        while not self.reached:
+            room = (most or CHUNK) if keep else max(CHUNK, OFTEN * self._count)
+            budget = 2**62
+            if self._lists is not None:
+                room, budget = min(room, 1024), SOON if self.mode == "auto" else budget
+                log: Any = [0.0] * (ROW * room if keep else 0)
+                gravity = self.modelled.lists.gravity
+                made, now, self.reached = meet(
+                    self.modelled.lists, gravity, self._lists, until, limit, self.hits, log, room, budget
+                )
+                self._interpreted += made
+                if self.mode == "auto" and not self.reached and (made < room or self._interpreted > SOON // 4):
+                    self._compile()
+            else:
+                _compiled.add(self._features)
+                log = np.empty(ROW * room if keep else 0)
+                gravity = self.modelled.model.gravity
+                made, now, self.reached = compiled(meet)(
+                    self.modelled.model, gravity, self._discs, until, limit, self.hits, log, room, budget
+                )
+            self.now = max(self.now, now)
+            self._since += made
+            if self._count >= MANY and self._since > OFTEN * self._count:
+                self._bring_into_order()
+            yield np.array(log).reshape(-1, ROW)[:made]
+
+    def _compile(self) -> None:
+        """Go on with machine code from where the interpreted kernels are."""
+        _copy_back(self._discs, self._lists)
+        self._lists = None
+
+    def _bring_into_order(self) -> None:
+        """Lay neighbours next to one another in memory; no bit of what is to come depends on it."""
+        discs = self._discs
+        cell = discs.link[:, CELL].astype(np.int64)
+        order = along_a_curve(np.stack([cell & ((1 << discs.cells.shift) - 1), cell >> discs.cells.shift], axis=1))
+        place = np.empty(self._count, dtype=np.uint32)
+        place[order] = np.arange(self._count, dtype=np.uint32)
+        for part in (discs.ball, discs.link, discs.mass, discs.leave, discs.step, discs.states, discs.counts):
+            part[:] = part[order]
+        leaves = discs.key[len(discs.key) // 2 :][: self._count]
+        leaves[:] = leaves[order]
+        self.numbers = self.numbers[order]
+        for column, above in ((PARTNER, DISCS), (MET, NOBODY)):
+            named = discs.link[:, column] < above
+            discs.link[named, column] = place[discs.link[named, column]]
+        compiled(lay_out)(discs)
+        self._since = 0
+
+    def place(self, ball: int, position: FloatArray, velocity: FloatArray, time: float) -> None:
+        """Let a disc, by its number in the scene, go on from elsewhere (local coordinates); all look again then."""
+        row = int(np.flatnonzero(self.numbers == ball)[0])
+        discs = self._discs if self._lists is None else self._lists
+        for column, value in enumerate((*position.tolist(), *velocity.tolist(), time, 0.0)):
+            discs.ball[row][column] = value
+        discs.link[row][MET], discs.link[row][BEING] = NOBODY, FRESH
+        if self._lists is None:
+            compiled(begin)(self.modelled.model.gravity, discs, time)
+        else:
+            begin(self.modelled.lists.gravity, discs, time)
+
+    def states(self, time: float) -> tuple[FloatArray, IntArray]:
+        """(n, STATE_SIZE) states of the discs at a time, and (n,) how they ended or are: RUNNING; by number.
+
+        At inf: after their last contact.
+        """
+        states, endings = np.zeros((self._count, STATE_SIZE)), np.zeros(self._count, dtype=np.int64)
+        if self._lists is not None:
+            rows, codes = states.tolist(), endings.tolist()
+            states_at(self.modelled.lists, self.modelled.lists.gravity, self._lists, time, rows, codes)
+            states, endings = np.array(rows).reshape(-1, STATE_SIZE), np.array(codes, dtype=np.int64)
+        else:
+            model = self.modelled.model
+            compiled(states_at)(model, model.gravity, self._discs, time, states, endings)
+        back = np.argsort(self.numbers)
+        return states[back], endings[back]
+
+    @property
+    def bounces(self) -> NDArray[np.int64]:
+        """(n,) contacts of each disc so far, by number."""
+        link = self._discs.link if self._lists is None else np.array(self._lists.link).reshape(-1, 8)
+        found: NDArray[np.int64] = link[np.argsort(self.numbers), BOUNCES].astype(np.int64)
+        return found
+
+
+def _restitution(scene: Scene) -> FloatArray | None:
+    pair = (scene.ball_restitution, scene.ball_tangential_restitution)
+    return None if pair == (1.0, 1.0) else np.array(pair, dtype=np.float64)
+
+
+def _copy_back(arrays: Any, lists: Any) -> None:
+    """Write lists into the arrays that they were made of."""
+    for array, values in zip(arrays, lists, strict=True):
+        if isinstance(array, np.ndarray):
+            array[...] = np.array(values, dtype=array.dtype).reshape(array.shape)
+        elif isinstance(array, tuple):
+            _copy_back(array, values)
