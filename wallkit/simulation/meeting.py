@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.kernels.jit import compiled
+from wallkit.kernels.compile_aside import at_hand
+from wallkit.kernels.jit import compile_for, compiled, types_of
 from wallkit.kernels.meeting.meet import begin, lay_out, meet
 from wallkit.kernels.meeting.records import (
     BEING,
@@ -39,7 +40,7 @@ PER_DISC = 2.0
 CHUNK = 1 << 16
 """Contacts in one piece of a log."""
 SOON = 40_000
-"""Events that interpreted kernels take, some 50 microseconds each, before a run waits for the compiler."""
+"""Events that interpreted kernels take, some 50 microseconds each, before a run asks for machine code."""
 FEW = 500
 """Discs up to which it is worth while to interpret at all."""
 MANY, OFTEN = 2_000, 50
@@ -87,6 +88,20 @@ class Meeting:
 
     def __len__(self) -> int:
         return self._count
+
+    def machine_code_at_hand(self) -> bool:
+        """Tell whether compiled kernels would begin at once; where not, they are compiled aside from now on."""
+        if self._features in _compiled:
+            return True
+        model, discs, log = self.modelled.model, self._discs, np.empty(ROW)
+        states, endings = np.zeros((self._count, STATE_SIZE)), np.zeros(self._count, dtype=np.int64)
+        called: list[tuple[Any, tuple[Any, ...]]] = [
+            (begin, (model.gravity, discs, 0.0)),
+            (meet, (model, model.gravity, discs, 0.0, 1, self.hits, log, 1, 1)),
+            (states_at, (model, model.gravity, discs, 0.0, states, endings)),
+            (lay_out, (discs,)),
+        ]
+        return at_hand(compile_each, *((entry, types_of(arguments)) for entry, arguments in called))
 
     def _made(self, scene: Scene, start: Counts, per_disc: float) -> Discs:
         from wallkit.simulation.simulate import initial_states
@@ -150,7 +165,8 @@ class Meeting:
                     self.modelled.lists, gravity, self._lists, until, limit, self.hits, log, room, budget
                 )
                 self._interpreted += made
-                if self.mode == "auto" and not self.reached and (made < room or self._interpreted > SOON // 4):
+                long = made < room or self._interpreted > SOON // 4
+                if self.mode == "auto" and not self.reached and long and self.machine_code_at_hand():
                     self._compile()
             else:
                 _compiled.add(self._features)
@@ -222,6 +238,12 @@ class Meeting:
         link = self._discs.link if self._lists is None else np.array(self._lists.link).reshape(-1, 8)
         found: NDArray[np.int64] = link[np.argsort(self.numbers), BOUNCES].astype(np.int64)
         return found
+
+
+def compile_each(*wanted: tuple[Any, tuple[Any, ...]]) -> None:
+    """Compile kernels, each given with Numba's types of its arguments."""
+    for entry, types in wanted:
+        compile_for(entry, *types)
 
 
 def _restitution(scene: Scene) -> FloatArray | None:

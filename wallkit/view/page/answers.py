@@ -14,7 +14,7 @@ from importers.errors import WallkitError
 from importers.limits import MAX_COORDINATE
 from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
 from wallkit.scene.samples import samples
-from wallkit.scene.scene import Balls, Scene
+from wallkit.scene.scene import Balls, Scene, area_of
 from wallkit.simulation.run import Ending, Run
 from wallkit.view.page import aiming
 from wallkit.view.page.documents import Document, Reader
@@ -31,7 +31,7 @@ MOST_CONTACTS = 100_000
 INTERPRETED_CONTACTS = 1_000
 """The same, as long as the compiler is at work; a tenth of a second, with gravity one."""
 MOST_PROBLEMS = 500
-MOST_TIME = 1e12
+MOST_TIME, MOST_MASS = 1e12, 1e100
 
 
 class QuestionError(WallkitError):
@@ -90,9 +90,9 @@ class Answers:
         """Fly balls: to a time, or for a number of bounces each."""
         scene = scene_of(body, document)
         until, bounces = limits_of(body, len(scene.balls))
-        flights, ready = self._worlds.flights(body, document, scene)
+        fly, ready = self._worlds.flight(body, document, scene)
         most = bounces if ready else min(bounces, max(1, INTERPRETED_CONTACTS // len(scene.balls)))
-        run = self._worlds.run(flights, until, most)
+        run = fly(until, most)
         table = run_table(run, horizon="until" in body)
         if most < bounces and Ending.BOUNCE_LIMIT in run.ending:  # the page asks again, the compiler ready by then
             table |= {"partial": True, "duration": float(run.final["time"].min())}
@@ -130,10 +130,10 @@ class Answers:
         if what == "replay":
             from wallkit.view.replay import replay_html
 
-            flights, ready = self._worlds.flights(body, document, scene)
+            fly, ready = self._worlds.flight(body, document, scene)
             if not ready:  # a file is whole, or is none
                 raise CompilingError
-            page = replay_html(self._worlds.run(flights, until, bounces), title=document.name)
+            page = replay_html(fly(until, bounces), title=document.name)
             return Download(f"{stem}.html", page, "text/html; charset=utf-8")
         raise QuestionError(f"what is {what!r}", code="bad-request", fix='give "scene", "replay" or "walls"')
 
@@ -230,18 +230,19 @@ def pair_or_none(value: object, name: str) -> tuple[float, float] | None:
 
 
 def balls_of(body: Table) -> Balls:
-    """Take the balls of a question: ``[{"x", "y", "vx", "vy", "radius"}, ...]``."""
+    """Take the balls of a question: ``[{"x", "y", "vx", "vy", "radius", "mass"}, ...]``, the mass if it is no area."""
     rows = body.get("balls")
     if not isinstance(rows, list) or not 0 < len(rows) <= MOST_BALLS:
         raise QuestionError("balls is not a list of balls", code="bad-request", fix=f"give 1 to {MOST_BALLS}")
-    table = np.empty((len(rows), 5))
+    table = np.empty((len(rows), 6))
     for row, ball in zip(table, rows, strict=True):
         if not isinstance(ball, dict):
             raise QuestionError("a ball is not an object", code="bad-request")
         for index, name in enumerate(("x", "y", "vx", "vy")):
             row[index] = number(ball.get(name), name, -MAX_COORDINATE, MAX_COORDINATE)
         row[4] = number(ball.get("radius", 0.0), "radius", 0.0, MAX_COORDINATE)
-    return Balls(table[:, 0:2].copy(), table[:, 2:4].copy(), table[:, 4].copy())
+        row[5] = area_of(row[4]) if ball.get("mass") is None else number(ball["mass"], "mass", 0.0, MOST_MASS)
+    return Balls(table[:, 0:2].copy(), table[:, 2:4].copy(), table[:, 4].copy(), table[:, 5].copy())
 
 
 def with_material(walls: Walls, body: Table) -> Walls:
@@ -280,7 +281,11 @@ def balls_table(balls: Balls) -> list[Table]:
         np.asarray(part)[:MOST_BALLS] for part in (balls.position, balls.velocity, balls.radius)
     )
     rows = np.column_stack([position, velocity, np.broadcast_to(radius, len(position))])
-    return [dict(zip(("x", "y", "vx", "vy", "radius"), row, strict=True)) for row in rows.tolist()]
+    table = [dict(zip(("x", "y", "vx", "vy", "radius"), row, strict=True)) for row in rows.tolist()]
+    for ball, mass in zip(table, balls.mass.tolist(), strict=False):
+        if mass != area_of(ball["radius"]):
+            ball["mass"] = mass
+    return table
 
 
 def facts(walls: Walls, kind: str) -> str:

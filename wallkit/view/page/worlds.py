@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from wallkit.scene.scene import Scene
@@ -12,8 +13,9 @@ from wallkit.view.page.payload import Table
 if TYPE_CHECKING:
     from wallkit.simulation.modelled import Modelled
     from wallkit.simulation.run import Run
-    from wallkit.simulation.simulate import Flights
 
+Fly = Callable[[float | None, int], "Run"]
+"""Flies all balls to a time, or for so many bounces each."""
 WORLD = ("restitution", "tangential_restitution", "gravity")
 """What of a question changes the world that balls fly in; the balls alone differ while somebody aims."""
 
@@ -41,29 +43,38 @@ class Worlds:
         self._key: Any = None
         self._modelled: Modelled | None = None
 
-    def flights(self, body: Table, document: Document, scene: Scene) -> tuple[Flights, bool]:
-        """Give the flights of a scene, and whether machine code is at hand for them; else it is being compiled.
+    def flight(self, body: Table, document: Document, scene: Scene) -> tuple[Fly, bool]:
+        """Give what flies a scene, and whether machine code is at hand for it; else that is being compiled.
 
         Raises:
             CompilingError: there are so many edges that nothing can be said without machine code.
             WallkitError: a disc overlaps a wall at the start, or the scene cannot be simulated.
         """
         from wallkit.scene.start_overlaps import check_starts
-        from wallkit.simulation.modelled import Modelled
-        from wallkit.simulation.simulate import Flights
+        from wallkit.simulation.simulate import Flights, flown
 
         check_starts(scene)
         check_index(scene)
+        if scene.meeting:
+            return _together(scene)
+        flights = Flights(scene, mode="interpreted", modelled=self._model(body, document, scene))
+        if ready := flights.machine_code_at_hand():
+            flights.mode = "auto"
+        return (lambda until, bounces: flown(flights, math.inf if until is None else until, bounces)), ready
+
+    def _model(self, body: Table, document: Document, scene: Scene) -> Modelled:
+        from wallkit.simulation.modelled import Modelled
+
         key = (document.edition, *(repr(body.get(name)) for name in WORLD))
         known = self._modelled.with_balls(scene.balls) if self._modelled is not None and key == self._key else None
         self._key, self._modelled = key, known or Modelled(scene)
-        flights = Flights(scene, mode="interpreted", modelled=self._modelled)
-        if ready := flights.machine_code_at_hand():
-            flights.mode = "auto"
-        return flights, ready
+        return self._modelled
 
-    def run(self, flights: Flights, until: float | None, bounces: int) -> Run:
-        """Fly them to a time, or for so many bounces each."""
-        from wallkit.simulation.simulate import flown
 
-        return flown(flights, math.inf if until is None else until, bounces)
+def _together(scene: Scene) -> tuple[Fly, bool]:
+    """The same where balls meet."""
+    from wallkit.simulation.meeting import Meeting
+    from wallkit.simulation.simulate import START, simulate
+
+    ready = Meeting(scene, START, mode="interpreted").machine_code_at_hand()
+    return (lambda until, bounces: simulate(scene, until, bounces, mode="auto" if ready else "interpreted")), ready
