@@ -174,6 +174,12 @@ sys.path[:0] = [".", "tests/importers"]
 from test_svg_hostile import *
 from importers.read import read_drawing_text
 from importers.errors import WallkitError
+
+def most_memory():
+    # KiB so far, of this program alone: what getrusage says begins with what the parent held at the fork
+    with open("/proc/self/status") as status:
+        return next(int(line.split()[1]) for line in status if line.startswith("VmHWM"))
+
 for name, (expression, _) in HOSTILE.items():
     data = eval(expression)
     start = time.process_time()
@@ -184,7 +190,7 @@ for name, (expression, _) in HOSTILE.items():
         said = f"{type(error).__name__} {error.message}"
     seconds = time.process_time() - start
     data = drawing = None  # what one file holds is no cost of the next
-    print(json.dumps([name, said, seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024]), flush=True)
+    print(json.dumps([name, said, seconds, most_memory() // 1024]), flush=True)
 """
 
 

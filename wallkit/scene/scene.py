@@ -62,8 +62,8 @@ class Balls:
         object.__setattr__(self, "velocity", velocities)
         object.__setattr__(self, "radius", radii)
         masses = area_of(radii) if mass is None else _one_a_ball(mass, "mass", "one number, or one a ball", len(radii))
-        if not (np.isfinite(masses).all() and (masses[radii > 0.0] > 0.0).all() and (masses >= 0.0).all()):
-            raise SceneError("the mass of a disc is not above 0, or not finite", code="bad-balls", fix="give its mass")
+        if mass is not None:
+            check_masses(radii, masses)
         object.__setattr__(self, "mass", masses)
 
     def __len__(self) -> int:
@@ -85,7 +85,18 @@ class Balls:
 
 def area_of(radius: FloatArray) -> FloatArray:
     """Give the area of discs, which is their mass where nobody says another."""
-    return math.pi * radius * radius
+    with np.errstate(over="ignore"):  # of discs so large that nothing can be said of them, see ``check_masses``
+        return math.pi * radius * radius
+
+
+def check_masses(radii: FloatArray, masses: FloatArray) -> None:
+    """Refuse masses that no disc can have.
+
+    Raises:
+        SceneError: one is not above 0, or not finite; areas are so for radii beyond 1e-162 and 1e153.
+    """
+    if not (np.isfinite(masses).all() and (masses[radii > 0.0] > 0.0).all() and (masses >= 0.0).all()):
+        raise SceneError("the mass of a disc is not above 0, or not finite", code="bad-balls", fix="give its mass")
 
 
 def no_balls() -> Balls:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wallkit.scene.scene import Scene, SceneError
+from wallkit.scene.scene import Scene, SceneError, check_masses
 from wallkit.scene.start_overlaps import clearances
 
 NEAR = 1.0 + 2.0**-20
@@ -20,6 +20,7 @@ def check_modelled(scene: Scene) -> None:
     Raises:
         SceneError: it names what acts, and what to leave out.
     """
+    check_masses(scene.balls.radius, scene.balls.mass)
     for name in ("rolling_friction", "drag"):
         if getattr(scene, name):
             acts = name.replace("_", " ")

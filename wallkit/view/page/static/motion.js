@@ -14,6 +14,7 @@
   };
 
   const SLIDE = 2; // the kind of contact from which on a ball keeps to the wall (wallkit.Kind)
+  const BALL = 6; // that of two balls that meet
   const FLY_ON = ["left the scene", "swings for ever"];
 
   // How many entries of the rising `times` are at most t (or below t); `at` maps a place to an index into times.
