@@ -40,3 +40,12 @@ def test_a_mass_that_is_said_comes_back_and_others_are_areas():
     balls = answers.document_table(document)["balls"]
     areas = np.pi * scene.balls.radius**2
     assert [ball.get("mass", area) for ball, area in zip(balls, areas, strict=True)] == scene.balls.mass.tolist()
+
+
+def test_a_fan_from_one_place_flies_alone():
+    answers = Answers(reader())
+    document = answers.sample({"name": "cradle.toml"})
+    ball = answers.document_table(document)["balls"][0]
+    fan = [{**ball, "vx": 10.0, "vy": float(k)} for k in range(3)]
+    answer = answers.simulate({"balls": fan, "alone": True, "bounces": 2}, document)
+    assert answer["ending"] == ["bounce limit"] * 3

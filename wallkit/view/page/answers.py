@@ -193,7 +193,8 @@ def scene_of(body: Table, document: Document) -> Scene:
     """Make the scene that a question is about: the document's, with the balls and the world of the page."""
     scene = document.opened.scene
     walls = with_material(scene.walls, body)
-    return replace(scene, walls=walls, balls=balls_of(body), gravity=pair_or_none(body.get("gravity"), "gravity"))
+    gravity, meeting = pair_or_none(body.get("gravity"), "gravity"), scene.meeting and body.get("alone") is not True
+    return replace(scene, walls=walls, balls=balls_of(body), gravity=gravity, meeting=meeting)
 
 
 def limits_of(body: Table, balls: int) -> tuple[float | None, int]:

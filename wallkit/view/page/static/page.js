@@ -17,7 +17,7 @@
       this.aim = new W.Aim(this.player);
       this.windows = new W.Windows(this);
       this.document = null;
-      this.shot = null; // {balls, until} of the run that is shown
+      this.shot = null; // {balls, until, alone} of the run that is shown
       this.player.onframe = () => this.eachFrame();
       this.player.more = () => this.wantsMore();
       this.aim.changed = () => this.aimed();
@@ -189,17 +189,18 @@
       this.fly(Array.from({ length: FAN }, (_, i) => {
         const way = middle + spread * (i / (FAN - 1) - 0.5);
         return { ...ball, vx: speed * Math.cos(way), vy: speed * Math.sin(way) };
-      }));
+      }), true);
     }
 
-    fly(balls) {
+    // Balls of a fan start at one place: they fly alone, where others meet.
+    fly(balls, alone = false) {
       this.say("");
       this.togglePlacing(false);
       const speed = Math.max(...balls.map((ball) => Math.hypot(ball.vx, ball.vy)));
       const { gravity } = this.controls.world();
       const falling = gravity ? Math.sqrt(Math.hypot(...gravity) * this.size) : 0;
       const until = (FIRST * this.size) / Math.max(speed, falling, 1e-6 * this.size);
-      this.shot = { balls, until };
+      this.shot = { balls, until, alone };
       this.asking = false;
       this.flying.ask({ ...this.question(), ...this.shot });
       this.sayWhenSlow();
@@ -212,7 +213,7 @@
       motion.partial = answer.partial;
       this.asking = false;
       if (answer.partial) setTimeout(() => this.wantsMore(), 1500); // meanwhile the compiler works
-      this.shot = { balls: asked.balls, until: asked.until };
+      this.shot = { balls: asked.balls, until: asked.until, alone: asked.alone };
       if (asked.again) return this.player.load(motion);
       this.player.time = 0;
       this.player.load(motion);
@@ -227,7 +228,7 @@
       if (!this.asking) {
         this.asking = true;
         const until = (motion.partial ? 1 : 2) * this.shot.until;
-        this.flying.ask({ ...this.question(), balls: this.shot.balls, until, again: true });
+        this.flying.ask({ ...this.question(), ...this.shot, until, again: true });
       }
       return true;
     }
@@ -276,9 +277,9 @@
     async save(what) {
       if (!this.document) return;
       const until = this.player.motion ? this.player.motion.duration : undefined;
-      const balls = this.shot ? this.shot.balls : this.aim.balls;
+      const { balls, alone } = this.shot ?? this.aim;
       try {
-        const response = await W.ask("api/save", { ...this.question(), balls, until, what });
+        const response = await W.ask("api/save", { ...this.question(), balls, alone, until, what });
         const name = /filename="([^"]+)"/.exec(response.headers.get("Content-Disposition"))[1];
         const link = document.createElement("a");
         link.href = URL.createObjectURL(await response.blob());
