@@ -18,7 +18,7 @@ from wallkit.view.page.answers import Answers
 from wallkit.view.page.bounds import HEAVY, LIGHT, LIGHT_CONTACTS
 from wallkit.view.page.questions import Opening
 from wallkit.view.page.server import PageServer
-from wallkit.view.page.workers import GoneError, LostError, Workers, is_light
+from wallkit.view.page.workers import GoneError, LostError, Worker, Workers, is_light
 from wallkit.view.page.worlds import CompilingError
 
 ROOM = b'<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100"><path id="room" d="M0 0H200V100H0Z"/></svg>'
@@ -159,6 +159,28 @@ def test_what_waits_for_a_compiler_is_asked_again_and_others_have_their_turn(wor
     saving.join()
     assert replies[0].download == "room.html"
     assert "<canvas" in replies[0].content
+
+
+def test_closing_waits_for_a_process_that_is_just_being_followed_by_another(monkeypatch):
+    beginning, closing = threading.Event(), threading.Event()
+    begin = Worker._begin
+
+    def slow(worker):
+        beginning.set()
+        closing.wait(10.0)  # as if the next process took its time to start
+        begin(worker)
+
+    worker = Worker(LIGHT, Held, reader())
+    monkeypatch.setattr(Worker, "_begin", slow)
+    renewing = threading.Thread(target=worker._renew)
+    renewing.start()
+    beginning.wait()
+    ending = threading.Thread(target=worker.close)
+    ending.start()
+    closing.set()
+    renewing.join()
+    ending.join()
+    assert worker._process.exitcode is not None
 
 
 def test_an_answer_that_takes_too_long_is_refused_with_the_figure():

@@ -154,6 +154,7 @@ class Worker:
         self._make = make
         self._reader = reader
         self._turn = threading.Lock()
+        self._life = threading.Lock()  # a process is ended and followed by another as one step, or ended for good
         self._closed = False
         self._started = False
         self._begin()
@@ -186,9 +187,10 @@ class Worker:
 
     def close(self) -> None:
         """End the process for good."""
-        self._closed = True
-        self._process.kill()
-        self._process.join()
+        with self._life:
+            self._closed = True
+            self._process.kill()
+            self._process.join()
 
     def _replied(self, question: Question, kept: Kept | None, gone: Gone, *, bounded: bool) -> Reply:
         self._let_start(gone)
@@ -226,11 +228,13 @@ class Worker:
                 raise _too_long(self.bounds)
 
     def _renew(self) -> None:
-        self.ended += 1
-        self._process.kill()
-        self._process.join()
-        self._pipe.close()
-        if not self._closed:
+        with self._life:
+            if self._closed:
+                return
+            self.ended += 1
+            self._process.kill()
+            self._process.join()
+            self._pipe.close()
             self._begin()
 
     def _begin(self) -> None:
