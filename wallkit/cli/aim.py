@@ -64,7 +64,7 @@ def aim_at(
 ) -> None:
     """Find all directions that reach a target within K bounces, and how wide each window is."""
     from wallkit.cli.progress import progress_bar
-    from wallkit.cli.scene_input import opened, pair
+    from wallkit.cli.scene_input import opened, pair, pair_or_none
     from wallkit.levels.aim import aim
     from wallkit.scene.opening import Wishes
     from wallkit.view.write import check_picture_ending
@@ -72,9 +72,10 @@ def aim_at(
     if out:
         check_picture_ending(Path(out).suffix, out)
     wishes = Wishes(
-        ball=() if start is None else (pair(start, "--from"),), radius=radius, speed=speed, gravity=_vector(gravity),
-        restitution=restitution, tangential_restitution=tangential_restitution, friction=friction, drag=drag,
-        bounces=bounces, importing=drawing_options.options_of(importing or {}),
+        ball=() if start is None else (pair(start, "--from"),), radius=radius, speed=speed, bounces=bounces,
+        gravity=pair_or_none(gravity, "--gravity"), restitution=restitution,
+        tangential_restitution=tangential_restitution, friction=friction, drag=drag,
+        importing=drawing_options.options_of(importing or {}),
     )  # fmt: skip
     level = opened(file, wishes)
     ball = level.scene.balls
@@ -89,12 +90,6 @@ def aim_at(
     if as_json:
         print(json.dumps(windows.to_json(), ensure_ascii=False, allow_nan=False))
     _tell(file, level, windows, out, sys.stderr if as_json else sys.stdout)
-
-
-def _vector(text: str | None) -> tuple[float, float] | None:
-    from wallkit.cli.scene_input import pair
-
-    return None if text is None else pair(text, "--gravity")
 
 
 def _target(text: str) -> tuple[float, ...] | str:

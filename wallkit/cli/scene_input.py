@@ -50,6 +50,11 @@ def pair(text: str, option: str) -> tuple[float, float]:
     return x, y
 
 
+def pair_or_none(text: str | None, option: str) -> tuple[float, float] | None:
+    """Read ``X,Y``, if the option was given; see :func:`pair`."""
+    return None if text is None else pair(text, option)
+
+
 def pairs(texts: Sequence[str] | None, option: str) -> tuple[tuple[float, float], ...]:
     """Read each ``X,Y``."""
     return tuple(pair(text, option) for text in texts or ())

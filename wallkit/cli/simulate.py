@@ -123,12 +123,12 @@ def simulate_file(
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
-    from wallkit.cli.scene_input import opened, pair, pairs
+    from wallkit.cli.scene_input import opened, pair_or_none, pairs
     from wallkit.scene.opening import Wishes
 
     wishes = Wishes(
-        pairs(ball, "--ball"), None if velocity is None else pair(velocity, "--velocity"), speed, angle, radius,
-        balls, seed, None if gravity is None else pair(gravity, "--gravity"), restitution, tangential_restitution,
+        pairs(ball, "--ball"), pair_or_none(velocity, "--velocity"), speed, angle, radius,
+        balls, seed, pair_or_none(gravity, "--gravity"), restitution, tangential_restitution,
         friction, drag, meeting, ball_restitution, until, bounces, drawing_options.options_of(importing or {}),
     )  # fmt: skip
     targets = _targets(out or [], form)

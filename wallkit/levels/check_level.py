@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from importers.problems import Problem
-from wallkit.arguments import of_type, refused
+from wallkit.arguments import of_type
 from wallkit.levels import findings
 from wallkit.levels.check_counts import CheckCounts, Fate
 from wallkit.levels.check_work import COVERING, CheckWork, Squares
@@ -24,7 +24,7 @@ from wallkit.simulation.count import Progress, fly_all_chunks
 from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.run import Run
 from wallkit.simulation.simulate import limits, simulate
-from wallkit.simulation.work import Draw
+from wallkit.simulation.work import Draw, check_draw
 
 PARTS = (0.05, 0.5, 0.95)
 """Quantiles of the time to the target that are told."""
@@ -219,9 +219,7 @@ def check_level(
     of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
     refuse_meeting(scene, "a check by balls")
     limits(until, bounces)
-    if not callable(draw):
-        may_be = "a function of a first number and a count that returns Balls, such as RoomBalls"
-        raise refused("draw", draw, may_be, SceneError, "bad-argument")
+    check_draw(draw)
     goal = None if target is None else goal_of(scene, target)
     work = CheckWork(scene, draw, until, bounces, goal)
     counts = fly_all_chunks(

@@ -19,7 +19,7 @@ from wallkit.simulation.counts import Counts
 from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.pools import Pool, check_executor, open_pool
 from wallkit.simulation.simulate import limits
-from wallkit.simulation.work import Draw, Result, SurveyWork, Work
+from wallkit.simulation.work import Draw, Result, SurveyWork, Work, check_draw
 
 PILOT = 256
 """Balls that are flown first, here, to see how many bounces one makes."""
@@ -77,9 +77,7 @@ def count(
     of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
     refuse_meeting(scene, "a count in chunks")
     limits(until, bounces)
-    if not callable(draw):
-        may_be = "a function of a first number and a count that returns Balls, such as RandomBalls"
-        raise refused("draw", draw, may_be, SceneError, "bad-argument")
+    check_draw(draw)
     work = SurveyWork(scene, draw, until, bounces)
     return fly_all_chunks(
         work, balls, executor=executor, workers=workers, chunk=chunk, checkpoint=checkpoint, progress=progress

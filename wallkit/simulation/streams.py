@@ -14,6 +14,7 @@ from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.prepared import prepare, prepare_again
 from wallkit.simulation.simulate import limits
 from wallkit.simulation.survey import Totals, check_threads, survey
+from wallkit.simulation.work import check_draw
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,9 +85,7 @@ def survey_stream(
     """
     of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
     refuse_meeting(scene, "a survey in chunks")
-    if not callable(draw):
-        may_be = "a function of a first number and a count that returns Balls, such as RandomBalls"
-        raise refused("draw", draw, may_be, SceneError, "bad-argument")
+    check_draw(draw)
     may_be = "a whole number, 0 or more"
     count = whole_number(count, "count", may_be, error=SceneError, code="bad-argument", least=0)
     may_be = "a whole number, 1 or more"

@@ -13,7 +13,8 @@ from typing import Any, Generic, Protocol, TypeVar
 import numpy as np
 
 from importers.errors import WallkitError
-from wallkit.scene.scene import Balls, Scene, no_balls
+from wallkit.arguments import refused
+from wallkit.scene.scene import Balls, Scene, SceneError, no_balls
 from wallkit.simulation.counts import Counts
 from wallkit.simulation.prepared import Prepared, prepare, prepare_again
 from wallkit.simulation.survey import survey
@@ -25,6 +26,17 @@ PROBED = 4
 """So many first balls of a draw tell it from others."""
 KEPT = 2
 """Works that a process keeps prepared."""
+
+
+def check_draw(draw: object) -> None:
+    """Refuse what is no function that draws balls.
+
+    Raises:
+        SceneError: it cannot be called.
+    """
+    if not callable(draw):
+        may_be = "a function of a first number and a count that returns Balls, such as RandomBalls"
+        raise refused("draw", draw, may_be, SceneError, "bad-argument")
 
 
 class Part(Protocol):
