@@ -71,12 +71,10 @@ def aim_at(
 
     if out:
         check_picture_ending(Path(out).suffix, out)
-    wishes = Wishes(
-        ball=() if start is None else (pair(start, "--from"),), radius=radius, speed=speed, bounces=bounces,
-        gravity=pair_or_none(gravity, "--gravity"), restitution=restitution,
-        tangential_restitution=tangential_restitution, friction=friction, drag=drag,
-        importing=drawing_options.options_of(importing or {}),
-    )  # fmt: skip
+    wishes = Wishes(ball=() if start is None else (pair(start, "--from"),), radius=radius, speed=speed, bounces=bounces,
+                    gravity=pair_or_none(gravity, "--gravity"), restitution=restitution,
+                    tangential_restitution=tangential_restitution, friction=friction, drag=drag,
+                    importing=drawing_options.options_of(importing or {}))  # fmt: skip
     level = opened(file, wishes)
     ball = level.scene.balls
     place, size = (float(ball.position[0, 0]), float(ball.position[0, 1])), float(ball.radius[0])
