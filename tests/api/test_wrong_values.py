@@ -272,6 +272,7 @@ CALLS = {
         "pace": (*(wrong for wrong in NO_NUMBERS if wrong is not None), 0.0, -1.0),
         "colour": (None, "red"),
         "theme": (None, "grey"),
+        "stepped": ("stop", RUN),
         "progress": ("bar", 1, True),
     }),
     "replay_html": (wallkit.replay_html, {"run": RUN}, {
