@@ -119,6 +119,12 @@ CALLS = {
         "way": ("exactly", None, 1, ["exact"]),
         "compile": NO_FLAGS,
     }),
+    "step_through": (wallkit.step_through, {"scene": SCENE, "way": "stop", "dt": 0.1, "until": 1.0}, {
+        "scene": (None, ROOM),
+        "way": ("exactly", None, 1, ["exact"]),
+        "dt": (*NO_NUMBERS, 0.0, -1.0, 1e-9),
+        "until": (*NO_NUMBERS, -1.0, 1e9),
+    }),
     "World.step": (World(SCENE).step, {}, {"dt": (*NO_NUMBERS, -1.0)}),
     "World.place": (World(SCENE).place, {"ball": 0}, {
         "ball": (*NO_WHOLE_NUMBERS, 1, None),
@@ -300,6 +306,7 @@ RESULTS = {
     "LevelCheck",
     "OpenedScene",
     "Prepared",
+    "Stepped",
     "Totals",
     "Wall",
     "Window",
