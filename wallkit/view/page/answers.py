@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import numpy as np
 
 from importers.errors import WallkitError
 from importers.limits import MAX_COORDINATE
+from importers.problems import Problem
 from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
 from wallkit.scene.samples import samples
 from wallkit.scene.scene import Balls, Scene, area_of
@@ -98,6 +100,19 @@ class Answers:
             table |= {"partial": True, "duration": float(run.final["time"].min())}
         return table
 
+    def check(self, document: Document) -> Table:
+        """Give all that is doubtful, leaks among it: what `wallkit check` finds, in its words."""
+        from wallkit.scene.look_over import given_of, look_over
+
+        found = look_over(given_of(document.opened), None).problems
+        return {"problems": self.problems_table(found, document.name)}
+
+    def settle(self, body: Table, document: Document) -> Table:
+        """Move discs that overlap a wall to the nearest free spot, as `simulate --settle` does."""
+        from wallkit.scene.start_overlaps import settled
+
+        return {"balls": balls_table(settled(scene_of(body, document)).balls)}
+
     def aim(self, body: Table, document: Document) -> Table:
         """Find all shots of a ball that reach a target."""
         scene = scene_of(body, document)
@@ -158,7 +173,7 @@ class Answers:
             "curves": document.importing.curves if opened.drawing is not None else curves_of(walls),
             "tolerance": walls.tolerance,
             "walls": walls_table(walls, begin[:, :2], opened.scene.sensors),
-            "problems": self.problems_table(document),
+            "problems": self.problems_table(opened.problems, document.name),
             "balls": balls_table(opened.scene.balls),
             "targets": aiming.targets_of(opened.scene),
             "gravity": opened.scene.gravity,
@@ -170,11 +185,10 @@ class Answers:
             "box": united([*boxes, *((x, y, x, y) for x, y, _, _ in begin.tolist())]),
         }
 
-    def problems_table(self, document: Document) -> list[Table]:
-        """Give the findings with the command line's words; of very many the first, and how many there are more."""
-        problems = document.opened.problems
+    def problems_table(self, problems: Sequence[Problem], name: str) -> list[Table]:
+        """Give findings with the command line's words; of very many the first, and how many there are more."""
         table = [
-            {**problem.to_json(), "text": self.reader.describe_problem(problem, document.name)}
+            {**problem.to_json(), "text": self.reader.describe_problem(problem, name)}
             for problem in problems[:MOST_PROBLEMS]
         ]
         if len(problems) > MOST_PROBLEMS:

@@ -28,7 +28,8 @@ from wallkit.view.page.workers import QUESTIONS, InternalError, LostError, Worke
 
 MAX_BODY = 32 * 1024 * 1024
 PATIENCE = 30.0  # seconds that a connection may say nothing
-PAGE_SCRIPTS = (*look.SHARED_SCRIPTS, "desk.js", "windows.js", "aim.js", "panel.js", "gallery.js", "page.js")
+_OWN_SCRIPTS = ("desk.js", "windows.js", "aim.js", "panel.js", "checks.js", "gallery.js", "page.js")
+PAGE_SCRIPTS = (*look.SHARED_SCRIPTS, *_OWN_SCRIPTS)
 PAGE_STYLES = ("theme.css", "look.css", "page.css")
 
 POLICY = (
@@ -144,7 +145,9 @@ class Handler(BaseHTTPRequestHandler):
             self._refuse(refused.status, refused.words)
         except WallkitError as error:
             words = self.server.workers.reader.describe(error)
-            self._send_json({"error": words}, _STATUS.get(type(error), HTTPStatus.UNPROCESSABLE_ENTITY))
+            self._send_json(
+                {"error": words, "code": error.code}, _STATUS.get(type(error), HTTPStatus.UNPROCESSABLE_ENTITY)
+            )
         except OSError:  # the browser went away, or said nothing for too long
             self.close_connection = True
         except Exception as error:  # whatever it is, the page hears of it and the server goes on

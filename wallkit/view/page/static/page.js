@@ -23,14 +23,15 @@
       this.aim.changed = () => this.aimed();
       this.aim.placed = () => this.togglePlacing(false);
       this.stage.tap = (place) => this.tapped(place);
-      this.foretelling = new W.Lane("api/simulate", (answer) => this.foretold(answer), (words) => this.unclear(words));
-      this.flying = new W.Lane("api/simulate", (answer, asked) => this.flown(answer, asked), (words) => this.complain(words));
+      this.foretelling = new W.Lane("api/simulate", (answer) => this.foretold(answer), (words, code) => this.unclear(words, code));
+      this.flying = new W.Lane("api/simulate", (answer, asked) => this.flown(answer, asked), (words, code) => this.unflown(words, code));
       this.importing = new W.Lane("api/walls", (answer) => this.show(answer, true), (words) => this.complain(words));
       this.following = new W.Lane("api/saved", (answer) => this.followed(answer), (words) => this.unread(words));
       W.viewButtons(this.stage);
       W.showBoxes(this.player);
       this.gallery = new W.Gallery(this);
       this.controls = new W.Panel(this);
+      this.checks = new W.Checks(this);
       this.listen();
     }
 
@@ -79,6 +80,7 @@
       this.windows.show(document, again);
       if (this.shot) this.rerun();
       else this.foretell();
+      this.checks.look();
       this.follow();
     }
 
@@ -126,15 +128,21 @@
     }
 
     // The library cannot tell (a ball inside a wall, mostly): said quietly, since aiming goes on.
-    unclear(words) {
+    unclear(words, code) {
       this.aim.foretold = null;
-      this.say(words.split("\n")[0].replace(/^wallkit: /, ""));
+      this.say(words.split("\n")[0].replace(/^wallkit: /, ""), code);
       this.player.wake();
     }
 
-    say(words) {
+    unflown(words, code) {
+      if (code === "overlap") this.unclear(words, code);
+      else this.complain(words);
+    }
+
+    say(words, code) {
       $("toast").textContent = words;
       $("toast").hidden = !words;
+      this.checks.offer(code);
     }
 
     complain(words) {
