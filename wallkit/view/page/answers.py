@@ -18,7 +18,9 @@ from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
 from wallkit.scene.samples import samples
 from wallkit.scene.scene import Balls, Scene, area_of
 from wallkit.simulation.run import Ending, Run
-from wallkit.view.page import aiming
+from wallkit.simulation.ways import Stepped
+from wallkit.simulation.world import Way
+from wallkit.view.page import aiming, ways
 from wallkit.view.page.documents import Document, Reader
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
 from wallkit.view.page.questions import Opening
@@ -54,7 +56,7 @@ class Answers:
 
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
-        self._worlds = Worlds()
+        self._worlds, self._other_worlds = Worlds(), Worlds()
 
     def open(self, file: Opening, watched: bool = False) -> Document:
         """Open a file's bytes; only a file of this machine's own owner may name others, in its folder."""
@@ -89,16 +91,32 @@ class Answers:
         return document.anew(opened, importing=importing)
 
     def simulate(self, body: Table, document: Document) -> Table:
-        """Fly balls: to a time, or for a number of bounces each."""
+        """Fly balls: to a time, or for a number of bounces each; in a second panel's world, too, if asked for one."""
+        run, stepped, table = self._shown(body, document, self._worlds)
+        other = body.get("other")
+        if other is None:
+            return table
+        if not isinstance(other, dict):
+            raise QuestionError("other is no object", code="bad-request", fix="give the second panel's settings")
+        run_2, stepped_2, table["other"] = self._shown(ways.own_settings(body, other), document, self._other_worlds)
+        table["apart"] = ways.panels_part(run, stepped, run_2, stepped_2)
+        return table | {"partial": True} if table["other"].get("partial") else table
+
+    def _shown(self, body: Table, document: Document, worlds: Worlds) -> tuple[Run, Stepped | None, Table]:
+        """Fly what one panel shows: the exact run, and the frames over it where a way is asked for."""
         scene = scene_of(body, document)
         until, bounces = limits_of(body, len(scene.balls))
-        fly, ready = self._worlds.flight(body, document, scene)
+        way, dt = way_of(body)
+        fly, ready = worlds.flight(body, document, scene)
         most = bounces if ready else min(bounces, max(1, INTERPRETED_CONTACTS // len(scene.balls)))
         run = fly(until, most)
         table = run_table(run, horizon="until" in body)
         if most < bounces and Ending.BOUNCE_LIMIT in run.ending:  # the page asks again, the compiler ready by then
             table |= {"partial": True, "duration": float(run.final["time"].min())}
-        return table
+        stepped = None if way == "exact" else ways.stepped_of(run, way, dt)
+        if stepped is not None:
+            table["stepped"] = ways.stepped_table(run, stepped)
+        return run, stepped, table
 
     def check(self, document: Document) -> Table:
         """Give all that is doubtful, leaks among it: what `wallkit check` finds, in its words."""
@@ -219,6 +237,15 @@ def limits_of(body: Table, balls: int) -> tuple[float | None, int]:
     most = MOST_CONTACTS // max(balls, 1)
     asked = most if bounces is None else int(number(bounces, "bounces", 0, MOST_CONTACTS))
     return end, min(asked, most)
+
+
+def way_of(body: Table) -> tuple[Way, float]:
+    """Take the way in which contacts within a frame are treated, ``"exact"`` if none is asked for, and dt."""
+    said = body.get("way") or "exact"
+    way = next((way for way in ways.WAYS if way == said), None)
+    if way is None:
+        raise QuestionError(f"way is {str(said)[:60]}", code="bad-request", fix=f"give one of {', '.join(ways.WAYS)}")
+    return way, 1.0 if way == "exact" else number(body.get("dt"), "dt", ways.LEAST_DT, ways.MOST_DT)
 
 
 def number(value: object, name: str, least: float = -math.inf, most: float = math.inf) -> float:

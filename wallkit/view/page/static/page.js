@@ -31,6 +31,8 @@
       W.showBoxes(this.player);
       this.gallery = new W.Gallery(this);
       this.controls = new W.Panel(this);
+      this.ways = new W.Ways(this);
+      this.panels = new W.Panels(this);
       this.checks = new W.Checks(this);
       this.listen();
     }
@@ -115,6 +117,11 @@
       return { document: this.document.id, ...this.controls.world() };
     }
 
+    // The same with the frames to be shown, in one panel or two.
+    flight() {
+      return { ...this.question(), ...this.ways.question(), ...this.panels.question() };
+    }
+
     foretell() {
       if (!this.document || !this.aim.ball) return;
       this.aim.foretell(this.foretelling, this.question());
@@ -164,6 +171,8 @@
       this.player.pause();
       this.player.time = 0;
       this.player.load(null);
+      this.ways.load(null);
+      this.panels.load(null);
       this.readOut.refresh(true);
     }
 
@@ -174,7 +183,7 @@
     }
 
     rerun() {
-      this.flying.ask({ ...this.question(), ...this.shot, again: true });
+      this.flying.ask({ ...this.flight(), ...this.shot, again: true });
       this.sayWhenSlow();
     }
 
@@ -210,7 +219,7 @@
       const until = (FIRST * this.size) / Math.max(speed, falling, 1e-6 * this.size);
       this.shot = { balls, until, alone };
       this.asking = false;
-      this.flying.ask({ ...this.question(), ...this.shot });
+      this.flying.ask({ ...this.flight(), ...this.shot });
       this.sayWhenSlow();
     }
 
@@ -222,6 +231,8 @@
       this.asking = false;
       if (answer.partial) setTimeout(() => this.wantsMore(), 1500); // meanwhile the compiler works
       this.shot = { balls: asked.balls, until: asked.until, alone: asked.alone };
+      this.ways.load(answer);
+      this.panels.load(answer);
       if (asked.again) return this.player.load(motion);
       this.player.time = 0;
       this.player.load(motion);
@@ -236,7 +247,7 @@
       if (!this.asking) {
         this.asking = true;
         const until = (motion.partial ? 1 : 2) * this.shot.until;
-        this.flying.ask({ ...this.question(), ...this.shot, until, again: true });
+        this.flying.ask({ ...this.flight(), ...this.shot, until, again: true });
       }
       return true;
     }
@@ -245,6 +256,7 @@
       const { motion } = this.player;
       if (this.player.playing && motion && !motion.partial && this.player.time > 0.6 * motion.duration) this.wantsMore();
       this.readOut.refresh();
+      this.panels.follow();
     }
 
     tapped(place) {
