@@ -35,6 +35,8 @@ MOST_CONTACTS = 100_000
 INTERPRETED_CONTACTS = 1_000
 """The same, as long as the compiler is at work; a tenth of a second, with gravity one."""
 MOST_PROBLEMS = 500
+SAVED = ("scene", "replay", "picture", "film", "walls")
+FILM_SECONDS = 8.0
 MOST_TIME, MOST_MASS = 1e12, 1e100
 
 
@@ -47,7 +49,7 @@ class Download:
     """A file for the person to keep."""
 
     name: str
-    content: str
+    content: str | bytes
     media: str
 
 
@@ -146,7 +148,7 @@ class Answers:
         return aiming.windows_table(windows)
 
     def save(self, body: Table, document: Document) -> Download:
-        """Give the scene, the replay of its run or the walls as a file."""
+        """Give the scene, the walls, or the run: as a replay, or with the frames of its way as a picture or a film."""
         stem = re.sub(r"[^A-Za-z0-9_-]+", "-", Path(document.name).stem).strip("-")[:60] or "wallkit"
         what = body.get("what")
         if what == "walls":
@@ -160,15 +162,18 @@ class Answers:
 
             content = json.dumps(scene_to_json(scene, until), allow_nan=False)
             return Download(f"{stem}.scene.json", content, "application/json")
-        if what == "replay":
-            from wallkit.view.replay import replay_html
-
+        if what in ("replay", "picture", "film"):
             fly, ready = self._worlds.flight(body, document, scene)
             if not ready:  # a file is whole, or is none
                 raise CompilingError
-            page = replay_html(fly(until, bounces), title=document.name)
-            return Download(f"{stem}.html", page, "text/html; charset=utf-8")
-        raise QuestionError(f"what is {what!r}", code="bad-request", fix='give "scene", "replay" or "walls"')
+            run, (way, dt) = fly(until, bounces), way_of(body)
+            if what == "replay":
+                from wallkit.view.replay import replay_html
+
+                return Download(f"{stem}.html", replay_html(run, title=document.name), "text/html; charset=utf-8")
+            stepped = None if way == "exact" else ways.stepped_of(run, way, dt)
+            return _film(stem, run, stepped) if what == "film" else _picture(stem, run, stepped, document.name)
+        raise QuestionError(f"what is {what!r}", code="bad-request", fix=f"give one of {', '.join(SAVED)}")
 
     def document_table(self, document: Document) -> Table:
         """Give all that the page shows of a document."""
@@ -214,6 +219,20 @@ class Answers:
             table.append({**table[-1], "severity": "info", "message": more, "fix": "", "text": more, "layer": "",
                           "name": "", "x": None, "y": None})  # fmt: skip
         return table
+
+
+def _picture(stem: str, run: Run, stepped: Stepped | None, title: str) -> Download:
+    from wallkit.view.run_picture import run_canvas
+    from wallkit.view.ways_picture import ways_canvas
+
+    canvas = run_canvas(run, title=title) if stepped is None else ways_canvas(run, stepped, title=title)
+    return Download(f"{stem}.svg", canvas.to_svg(), "image/svg+xml")
+
+
+def _film(stem: str, run: Run, stepped: Stepped | None) -> Download:
+    from wallkit.view.film import film
+
+    return Download(f"{stem}.gif", film(run, "gif", seconds=FILM_SECONDS, stepped=stepped), "image/gif")
 
 
 def wishes_of(importing: ImportOptions) -> Wishes:

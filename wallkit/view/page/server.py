@@ -256,9 +256,15 @@ class Handler(BaseHTTPRequestHandler):
         self._send(words + "\n", "text/plain; charset=utf-8", status=status)
 
     def _send(
-        self, text: str, media: str, policy: str = POLICY, *, status: HTTPStatus = HTTPStatus.OK, download: str = ""
+        self,
+        body: str | bytes,
+        media: str,
+        policy: str = POLICY,
+        *,
+        status: HTTPStatus = HTTPStatus.OK,
+        download: str = "",
     ) -> None:
-        content = text.encode("utf-8")
+        content = body.encode("utf-8") if isinstance(body, str) else body
         self.send_response(status)
         self.send_header("Content-Type", media)
         self.send_header("Content-Length", str(len(content)))

@@ -296,10 +296,12 @@
 
     async save(what) {
       if (!this.document) return;
-      const until = this.player.motion ? this.player.motion.duration : undefined;
+      const { motion, time } = this.player;
+      const seen = ["picture", "film"].includes(what) && time > 0;
+      const until = seen ? time : motion ? motion.duration : undefined;
       const { balls, alone } = this.shot ?? this.aim;
       try {
-        const response = await W.ask("api/save", { ...this.question(), balls, alone, until, what });
+        const response = await W.ask("api/save", { ...this.flight(), balls, alone, until, what });
         const name = /filename="([^"]+)"/.exec(response.headers.get("Content-Disposition"))[1];
         const link = document.createElement("a");
         link.href = URL.createObjectURL(await response.blob());

@@ -23,17 +23,12 @@
       this.page = page;
       this.on = false;
       this.frames = null;
-      this.mirror = new Mirror(new W.Stage($("stage-b")), $("stage-b"));
-      this.mirror.wake = () => page.player.wake(); // it is drawn with the first one
-      this.mirror.pins = false;
-      this.mirror.decorate = (ctx, colours) => this.decorate(ctx, colours);
-      const fields = { way: $("way-b"), slider: $("dt-slider-b"), number: $("dt-b") };
-      this.choice = new W.WayChoice(fields, () => page.changed());
-      for (const id of ["restitution-b", "gravity-b"]) $(id).addEventListener("input", () => page.changed());
+      this.mirror = null;
       $("two-panels").addEventListener("click", () => this.open(!this.on));
     }
 
     open(on) {
+      if (!this.mirror) this.make();
       this.on = on;
       $("two-panels").setAttribute("aria-pressed", String(on));
       document.body.classList.toggle("two-panels", on);
@@ -42,6 +37,25 @@
       this.page.stage.fit();
       this.caption();
       this.page.changed();
+    }
+
+    // The second stage and its controls, once somebody wants them.
+    make() {
+      const { page } = this;
+      $("other").append($("second-panel").content.cloneNode(true));
+      for (const layer of ["back", "front"]) {
+        const canvas = W.element("canvas");
+        canvas.dataset.layer = layer;
+        canvas.setAttribute("aria-hidden", "true");
+        $("stage-b").append(canvas);
+      }
+      this.mirror = new Mirror(new W.Stage($("stage-b")), $("stage-b"));
+      this.mirror.wake = () => page.player.wake(); // it is drawn with the first one
+      this.mirror.pins = false;
+      this.mirror.decorate = (ctx, colours) => this.decorate(ctx, colours);
+      const fields = { way: $("way-b"), slider: $("dt-slider-b"), number: $("dt-b") };
+      this.choice = new W.WayChoice(fields, () => page.changed());
+      for (const id of ["restitution-b", "gravity-b"]) $(id).addEventListener("input", () => page.changed());
     }
 
     // What the second panel has of its own; an empty field is as in the first.
@@ -61,6 +75,7 @@
     }
 
     load(answer) {
+      if (!this.mirror) return;
       const other = answer?.other;
       this.frames = other?.stepped ? new W.Frames(other.stepped) : null;
       this.mirror.load(other ? new W.Motion(other) : null);

@@ -51,6 +51,10 @@
       ctx.globalAlpha = 1;
       disc(ctx, stage.screenX(frames.x(last, b)), stage.screenY(frames.y(last, b)), player.shownRadius(b));
       ctx.fill();
+      ctx.strokeStyle = colours.paper; // so that balls that overlap can be told apart
+      ctx.lineWidth = 1;
+      ctx.stroke();
+      ctx.strokeStyle = colours.normal;
     }
     if (frames.balls <= MANY) drawMarks(ctx, player, frames, colours);
   };
