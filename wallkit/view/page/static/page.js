@@ -32,6 +32,7 @@
       this.gallery = new W.Gallery(this);
       this.controls = new W.Panel(this);
       this.checks = new W.Checks(this);
+      W.sheet("Controls", [$("shots")]);
       this.listen();
     }
 
@@ -77,6 +78,8 @@
         this.stage.front.focus({ preventScroll: true });
       }
       this.controls.show(document, again);
+      W.showLesson(document.lesson);
+      W.showLegend(document.walls.legend);
       this.windows.show(document, again);
       if (this.shot) this.rerun();
       else this.foretell();
