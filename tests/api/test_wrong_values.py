@@ -272,12 +272,14 @@ CALLS = {
         "pace": (*(wrong for wrong in NO_NUMBERS if wrong is not None), 0.0, -1.0),
         "colour": (None, "red"),
         "theme": (None, "grey"),
+        "stepped": ("stop", RUN),
         "progress": ("bar", 1, True),
     }),
     "replay_html": (wallkit.replay_html, {"run": RUN}, {
         "run": (None, SCENE),
         "title": NO_TEXTS,
         "max_contacts": (*NO_WHOLE_NUMBERS, None, 0),
+        "lesson": ("The mirror law", 3),
     }),
     "Reference": (wallkit.Reference, {"scene": SCENE}, {
         "scene": (None, ROOM, Scene(ROOM, SCENE.balls, drag=0.5)),

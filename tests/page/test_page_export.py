@@ -105,18 +105,18 @@ def test_balls_and_frames_are_where_the_library_says(opened, folder):
     for time in [0.0, 0.1, 0.2025, 0.3, *stepped.time[[3, 14, -1]].tolist()]:
         x, y, ghost_x = page.evaluate(
             """(t) => { const {player, frames} = Wallkit.replay; const s = player.motion.state(0, t);
-            return [s.x, s.y, frames.x[frames.at(t)]]; }""",
+            return [s.x, s.y, frames.x(frames.at(t), 0)]; }""",
             time,
         )
         assert [x, y] == pytest.approx(run.position(time)[0], abs=1e-9)
         assert ghost_x == stepped.shown(time)[0, 0]
-    pixel = page.evaluate(  # the hollow ball is drawn, beyond the wall
+    pixel = page.evaluate(  # its ball is drawn, beyond the wall
         """() => { const {player, stage, frames} = Wallkit.replay; player.ghosts = player.trails = false;
         player.seek(0.3); player.draw(); const k = stage.ratio;
-        const x = stage.screenX(frames.x[frames.at(0.3)] + 12), y = stage.screenY(60);
+        const x = stage.screenX(frames.x(frames.at(0.3), 0)), y = stage.screenY(60);
         return [...stage.front.getContext("2d").getImageData(Math.round(x * k), Math.round(y * k), 1, 1).data]; }"""
     )
-    assert pixel[3] > 100
+    assert pixel[3] == 255
 
 
 @pytest.mark.browser

@@ -229,3 +229,36 @@ def _chords(stepped: Stepped, asked: Sensors, ball: int) -> Iterator[tuple[Any, 
 def _stops(walls: Walls, row: tuple[Any, ...]) -> bool:
     """Tell whether a wall is solid for a ball that crosses it so."""
     return bool(row[12] == Kind.ENTER or walls.sides[row[10]] == "both")
+
+
+def sentence(stepped: Stepped, parted: list[Parting], through: list[FlownThrough]) -> str:
+    """Say for people when and where balls part from their exact runs, and what they went through."""
+    words = [_parted_words(stepped, parted), *([_through_words(stepped, through)] if through else [])]
+    return f"{stepped.way} in frames of {stepped.dt:.4g} s: {'; '.join(words)}"
+
+
+def _parted_words(stepped: Stepped, parted: list[Parting]) -> str:
+    balls, units = stepped.state.shape[1], stepped.scene.walls.units or "units"
+    if not parted:
+        return f"never {100 * WRONG:g} % of the drawing off the exact path, up to {stepped.time[-1]:.6g} s"
+    first = min(parted, key=_when)
+    x, y = first.place
+    where = f"at {first.time:.6g} s at ({x:.6g}, {y:.6g}), {first.distance:.3g} {units} off"
+    if balls == 1:
+        return f"parts from the exact path {where}"
+    return f"{len(parted):,} of {balls:,} balls part from their exact paths, the first (ball {first.ball}) {where}"
+
+
+def _through_words(stepped: Stepped, through: list[FlownThrough]) -> str:
+    first, lost = min(through, key=_when), sum(each.lost for each in through)
+    name = stepped.scene.walls.names[first.wall]
+    wall = f"wall {first.wall}{f' ({name})' if name else ''} at {first.time:.6g} s"
+    if stepped.state.shape[1] == 1:
+        return f"goes through {wall}" + (", and is lost" if lost else "")
+    return f"{len(through):,} through walls, the first (ball {first.ball}) through {wall}" + (
+        f"; {lost:,} lost" if lost else ""
+    )
+
+
+def _when(event: Parting | FlownThrough) -> tuple[float, int]:
+    return event.time, event.ball

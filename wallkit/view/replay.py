@@ -16,7 +16,7 @@ from wallkit.scene.lesson import Lesson
 from wallkit.simulation.run import Run, one_a_ball
 from wallkit.view.frame import Box
 from wallkit.view.page import look
-from wallkit.view.page.payload import Table, column, duration, inlined, run_table, starts, walls_table
+from wallkit.view.page.payload import Table, inlined, run_table, starts, walls_table
 
 if TYPE_CHECKING:
     from wallkit.simulation.world import Way
@@ -39,7 +39,7 @@ def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS, 
         title: the document's title; the source's name by default.
         max_contacts: the largest number of contacts to carry.
         lesson: a text with questions that stands beside it, as ``open_scene`` gives it; where it names a way to step by
-            frames, a hollow ball shows that.
+            frames, these are shown over it.
 
     Raises:
         WallkitError: an argument is none of what may be.
@@ -68,18 +68,16 @@ def replay_page(
         "frames": frames_table(run, lesson) if lesson is not None and lesson.way else None,
     }
     style = look.theme_css() + "".join(look.part(name) for name in ("look.css", "replay.css", "sheet.css"))
-    script = "\n".join(look.part(name) for name in (*look.SHARED_SCRIPTS, "frames.js", "replay.js"))
+    script = "\n".join(look.part(name) for name in (*look.SHARED_SCRIPTS, "ways.js", "replay.js"))
     values = {"title": escape(name), "policy": policy(style, script), "links": links, "style": style, "script": script}
     return look.filled("replay.html", {**values, "data": inlined(data)})
 
 
 def frames_table(run: Run, lesson: Lesson) -> Table:
-    """Give where a program that steps by frames has the balls, as static/frames.js reads it."""
-    from wallkit.simulation.ways import step_through
+    """Give the balls as a program that steps by frames has them, as static/ways.js reads it."""
+    from wallkit.view.page.ways import stepped_of, stepped_table
 
-    stepped = step_through(run.scene, cast("Way", lesson.way), lesson.dt, duration(run))
-    places = {name: column(stepped.state[:, :, index], "f8") for index, name in enumerate("xy")}
-    return {"dt": stepped.dt, "balls": len(run.final), **places}
+    return stepped_table(run, stepped_of(run, cast("Way", lesson.way), lesson.dt))
 
 
 def policy(style: str, script: str = "") -> str:

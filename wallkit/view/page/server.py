@@ -27,9 +27,19 @@ from wallkit.view.page.workers import QUESTIONS, InternalError, LostError, Worke
 
 MAX_BODY = 32 * 1024 * 1024
 PATIENCE = 30.0  # seconds that a connection may say nothing
-_OWN_SCRIPTS = ("desk.js", "windows.js", "aim.js", "panel.js", "checks.js", "gallery.js", "page.js")
+_OWN_SCRIPTS = (
+    "desk.js",
+    "windows.js",
+    "aim.js",
+    "panel.js",
+    "checks.js",
+    "ways.js",
+    "panels.js",
+    "gallery.js",
+    "page.js",
+)
 PAGE_SCRIPTS = (*look.SHARED_SCRIPTS, *_OWN_SCRIPTS)
-PAGE_STYLES = ("theme.css", "look.css", "page.css", "cards.css", "sheet.css")
+PAGE_STYLES = ("theme.css", "look.css", "page.css", "ways.css", "cards.css", "sheet.css")
 
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
@@ -229,9 +239,15 @@ class Handler(BaseHTTPRequestHandler):
         self._send(words + "\n", "text/plain; charset=utf-8", status=status)
 
     def _send(
-        self, text: str, media: str, policy: str = POLICY, *, status: HTTPStatus = HTTPStatus.OK, download: str = ""
+        self,
+        body: str | bytes,
+        media: str,
+        policy: str = POLICY,
+        *,
+        status: HTTPStatus = HTTPStatus.OK,
+        download: str = "",
     ) -> None:
-        content = text.encode("utf-8")
+        content = body.encode("utf-8") if isinstance(body, str) else body
         self.send_response(status)
         self.send_header("Content-Type", media)
         self.send_header("Content-Length", str(len(content)))

@@ -31,6 +31,8 @@
       W.showBoxes(this.player);
       this.gallery = new W.Gallery(this);
       this.controls = new W.Panel(this);
+      this.ways = new W.Ways(this);
+      this.panels = new W.Panels(this);
       this.checks = new W.Checks(this);
       W.sheet("Controls", [$("shots")]);
       this.listen();
@@ -79,6 +81,7 @@
       }
       this.controls.show(document, again);
       W.showLesson(document.lesson);
+      if (!again) this.ways.choice.set(document.lesson?.way ?? "exact", document.lesson?.dt);
       W.showLegend(document.walls.legend);
       this.windows.show(document, again);
       if (this.shot) this.rerun();
@@ -116,6 +119,11 @@
 
     question() {
       return { document: this.document.id, ...this.controls.world() };
+    }
+
+    // The same with the frames to be shown, in one panel or two.
+    flight() {
+      return { ...this.question(), ...this.ways.question(), ...this.panels.question() };
     }
 
     foretell() {
@@ -167,6 +175,8 @@
       this.player.pause();
       this.player.time = 0;
       this.player.load(null);
+      this.ways.load(null);
+      this.panels.load(null);
       this.readOut.refresh(true);
     }
 
@@ -177,7 +187,7 @@
     }
 
     rerun() {
-      this.flying.ask({ ...this.question(), ...this.shot, again: true });
+      this.flying.ask({ ...this.flight(), ...this.shot, again: true });
       this.sayWhenSlow();
     }
 
@@ -213,7 +223,7 @@
       const until = (FIRST * this.size) / Math.max(speed, falling, 1e-6 * this.size);
       this.shot = { balls, until, alone };
       this.asking = false;
-      this.flying.ask({ ...this.question(), ...this.shot });
+      this.flying.ask({ ...this.flight(), ...this.shot });
       this.sayWhenSlow();
     }
 
@@ -225,6 +235,8 @@
       this.asking = false;
       if (answer.partial) setTimeout(() => this.wantsMore(), 1500); // meanwhile the compiler works
       this.shot = { balls: asked.balls, until: asked.until, alone: asked.alone };
+      this.ways.load(answer);
+      this.panels.load(answer);
       if (asked.again) return this.player.load(motion);
       this.player.time = 0;
       this.player.load(motion);
@@ -239,7 +251,7 @@
       if (!this.asking) {
         this.asking = true;
         const until = (motion.partial ? 1 : 2) * this.shot.until;
-        this.flying.ask({ ...this.question(), ...this.shot, until, again: true });
+        this.flying.ask({ ...this.flight(), ...this.shot, until, again: true });
       }
       return true;
     }
@@ -248,6 +260,7 @@
       const { motion } = this.player;
       if (this.player.playing && motion && !motion.partial && this.player.time > 0.6 * motion.duration) this.wantsMore();
       this.readOut.refresh();
+      this.panels.follow();
     }
 
     tapped(place) {
@@ -287,10 +300,12 @@
 
     async save(what) {
       if (!this.document) return;
-      const until = this.player.motion ? this.player.motion.duration : undefined;
+      const { motion, time } = this.player;
+      const seen = ["picture", "film"].includes(what) && time > 0;
+      const until = seen ? time : motion ? motion.duration : undefined;
       const { balls, alone } = this.shot ?? this.aim;
       try {
-        const response = await W.ask("api/save", { ...this.question(), balls, alone, until, what });
+        const response = await W.ask("api/save", { ...this.flight(), balls, alone, until, what });
         const name = /filename="([^"]+)"/.exec(response.headers.get("Content-Disposition"))[1];
         const link = document.createElement("a");
         link.href = URL.createObjectURL(await response.blob());

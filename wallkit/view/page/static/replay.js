@@ -18,7 +18,7 @@
     W.showLegend(W.data.walls.legend);
     W.sheet(W.data.lesson ? "Lesson and numbers" : "Numbers");
     const frames = W.data.frames && new W.Frames(W.data.frames);
-    if (frames) player.decorate = (ctx, colours) => frames.draw(ctx, player, colours);
+    if (frames) player.decorate = (ctx, colours) => W.drawFrames(ctx, player, frames, colours);
     W.showBoxes(player);
     W.viewButtons(stage);
     player.onframe = () => readOut.refresh();
