@@ -279,6 +279,7 @@ CALLS = {
         "run": (None, SCENE),
         "title": NO_TEXTS,
         "max_contacts": (*NO_WHOLE_NUMBERS, None, 0),
+        "lesson": ("The mirror law", 3),
     }),
     "Reference": (wallkit.Reference, {"scene": SCENE}, {
         "scene": (None, ROOM, Scene(ROOM, SCENE.balls, drag=0.5)),

@@ -113,6 +113,16 @@ def _draw_flight(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: 
     _draw_ends(canvas, flight, frame)
 
 
+def run_thumbnail(run: Run, width: float = 420.0) -> str:
+    """Draw a run as a small picture without words, as one SVG document."""
+    canvas, frame = scene_base(run.scene, "", width)
+    flight = tracks(run, MAX_STRETCHES)
+    steps, _, _ = _steps(flight, "ball")
+    _draw_flight(canvas, run, frame, flight, steps)
+    canvas.height = frame.height + 2 * frame.top
+    return canvas.to_svg()
+
+
 def scene_svg(scene: Scene, *, title: str = "", width: float = WIDTH) -> str:
     """Draw a scene as one SVG document: its walls, and its balls with an arrow each."""
     canvas, frame = scene_base(scene, title, width)
@@ -244,7 +254,7 @@ def _draw_ghosts(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: 
 
 
 def draw_starts(canvas: Canvas, scene: Scene, frame: Frame) -> None:
-    """Draw balls where they start, with an arrow each."""
+    """Draw the balls of a scene where they start, each with an arrow along its velocity."""
     position, velocity, radius = (array[:MAX_GHOSTS] for array in arrays_of(scene.balls))
     for (x, y), v, r in zip(frame.points(position), velocity, radius.tolist(), strict=True):
         arrow = v * np.array([1.0, -1.0 if frame.up else 1.0]) * frame.scale * _ARROW

@@ -15,7 +15,7 @@ from importers.errors import WallkitError
 from importers.limits import MAX_COORDINATE
 from importers.problems import Problem
 from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
-from wallkit.scene.samples import samples
+from wallkit.scene.samples import shown
 from wallkit.scene.scene import Balls, Scene, area_of
 from wallkit.simulation.run import Ending, Run
 from wallkit.simulation.ways import Stepped
@@ -74,7 +74,7 @@ class Answers:
 
     def sample(self, body: Table) -> Document:
         """Open a sample by name."""
-        for sample in samples():
+        for sample in shown():
             if sample.name == body.get("name"):
                 return self.open(Opening(sample.path.read_bytes(), sample.name, sample.path.parent, USUAL))
         raise QuestionError("there is no such sample", code="no-sample", fix="choose one of the gallery")
@@ -160,7 +160,9 @@ class Answers:
         if what == "scene":
             from wallkit.scene.scene_files import scene_to_json
 
-            content = json.dumps(scene_to_json(scene, until), allow_nan=False)
+            lesson = document.opened.lesson
+            said = {"lesson": lesson.to_json()} if lesson is not None else {}
+            content = json.dumps(scene_to_json(scene, until) | said, allow_nan=False)
             return Download(f"{stem}.scene.json", content, "application/json")
         if what in ("replay", "picture", "film"):
             fly, ready = self._worlds.flight(body, document, scene)
@@ -170,7 +172,8 @@ class Answers:
             if what == "replay":
                 from wallkit.view.replay import replay_html
 
-                return Download(f"{stem}.html", replay_html(run, title=document.name), "text/html; charset=utf-8")
+                page = replay_html(run, title=document.name, lesson=document.opened.lesson)
+                return Download(f"{stem}.html", page, "text/html; charset=utf-8")
             stepped = None if way == "exact" else ways.stepped_of(run, way, dt)
             return _film(stem, run, stepped) if what == "film" else _picture(stem, run, stepped, document.name)
         raise QuestionError(f"what is {what!r}", code="bad-request", fix=f"give one of {', '.join(SAVED)}")
@@ -198,6 +201,7 @@ class Answers:
             "walls": walls_table(walls, begin[:, :2], opened.scene.sensors),
             "problems": self.problems_table(opened.problems, document.name),
             "balls": balls_table(opened.scene.balls),
+            "lesson": opened.lesson.to_json() if opened.lesson is not None else None,
             "targets": aiming.targets_of(opened.scene),
             "gravity": opened.scene.gravity,
             "materials": {

@@ -34,6 +34,7 @@
       this.ways = new W.Ways(this);
       this.panels = new W.Panels(this);
       this.checks = new W.Checks(this);
+      W.sheet("Controls", [$("shots")]);
       this.listen();
     }
 
@@ -79,6 +80,9 @@
         this.stage.front.focus({ preventScroll: true });
       }
       this.controls.show(document, again);
+      W.showLesson(document.lesson);
+      if (!again) this.ways.choice.set(document.lesson?.way ?? "exact", document.lesson?.dt);
+      W.showLegend(document.walls.legend);
       this.windows.show(document, again);
       if (this.shot) this.rerun();
       else this.foretell();
