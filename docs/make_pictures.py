@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from wallkit import ImportOptions, Run, aim, simulate
+from wallkit import ImportOptions, Run, aim, simulate, step_through
 from wallkit.scene.opening import Wishes, open_scene
 from wallkit.view.aim_picture import aim_canvas
 from wallkit.view.film import film
 from wallkit.view.picture import walls_svg
 from wallkit.view.raster import png
 from wallkit.view.run_picture import run_canvas, run_svg
+from wallkit.view.ways_picture import ways_canvas
 from wallkit.write_file import write_whole
 
 HERE = Path(__file__).parent
@@ -55,6 +56,14 @@ def sinai_film() -> bytes:
     return film(run, "gif", seconds=8.0)
 
 
+def overlap() -> str:
+    """A ball of a game with a plain overlap test, over the exact path."""
+    run = flown("room.svg", Wishes(until=4))
+    return ways_canvas(
+        run, step_through(run.scene, "overlap", 0.2, 4), title="samples/room.svg, as a first game"
+    ).to_svg()
+
+
 def aimed() -> str:
     """All shots through a room that reach a target."""
     scene = open_scene(SAMPLES / "room.svg", Wishes(importing=ImportOptions(curves="lines"))).scene
@@ -69,6 +78,7 @@ PICTURES: dict[str, Callable[[], str | bytes]] = {
     "stadium-heat.png": stadium_heat,
     "aim.svg": aimed,
     "sinai.gif": sinai_film,
+    "overlap.svg": overlap,
 }
 
 

@@ -106,12 +106,25 @@ def phone(page: Any) -> None:
     flying(page, "#shoot", 0.5)
 
 
+def ways(page: Any) -> None:
+    """A ball of a game beside the exact one."""
+    opened(page, "Sinai")
+    page.locator("#two-panels").click()
+    page.select_option("#way-b", "overlap")
+    page.locator("#dt-b").fill("0.2")
+    flying(page, "#shoot", 0.1)
+    page.evaluate("Wallkit.page.player.seek(2.3)")
+    page.locator("#other").scroll_into_view_if_needed()
+    wait(page, "!Wallkit.page.player.asked")
+
+
 SHOTS = (
     Shot("page-gallery", DESKTOP, "light", gallery),
     Shot("page-aim", DESKTOP, "light", aiming),
     Shot("page-fan", DESKTOP, "dark", fan),
     Shot("page-bounce", DESKTOP, "light", stepping),
     Shot("page-problem", DESKTOP, "dark", problems),
+    Shot("page-ways", DESKTOP, "light", ways),
     Shot("page-phone", PHONE, "light", phone),
 )
 

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from wallkit.simulation.simulate import simulate
     from wallkit.simulation.streams import RandomBalls, survey_stream
     from wallkit.simulation.survey import Totals, survey
+    from wallkit.simulation.ways import Stepped, step_through
     from wallkit.simulation.world import World
     from wallkit.view.film import film
     from wallkit.view.replay import replay_html
@@ -79,6 +80,7 @@ _HOMES = {
     "wallkit.walls.walls": ("WallsError",),
     "wallkit.walls.importing.pipeline": ("import_walls",),
     "wallkit.walls.import_options": ("ImportOptions",),
+    "wallkit.simulation.ways": ("Stepped", "step_through"),
     "wallkit.simulation.world": ("World",),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
@@ -111,6 +113,7 @@ __all__ = [
     "Run",
     "Scene",
     "SceneError",
+    "Stepped",
     "Subpath",
     "Totals",
     "Wall",
@@ -135,6 +138,7 @@ __all__ = [
     "read_drawing_text",
     "replay_html",
     "simulate",
+    "step_through",
     "sure_events",
     "survey",
     "survey_stream",

@@ -1,6 +1,7 @@
 """The report: its figures are those of the contestants, its files are whole, its errors are for people."""
 
 import json
+import re
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -15,7 +16,7 @@ from wallkit.accuracy.own import flattened, of_scene
 from wallkit.accuracy.report import Report, machine
 from wallkit.cli.app import _register_commands, app
 from wallkit.view.report_page import report_html
-from wallkit.view.work_precision import work_precision_svg
+from wallkit.view.work_precision import WIDTH, work_precision_svg
 
 SMALL = Effort(bounces=8, runs=1, steps=(1 / 30,), tolerances=(1e-3,))
 
@@ -75,6 +76,21 @@ def test_the_diagram_is_xml_with_a_panel_a_scene(box):
     words = "".join(root.itertext())
     assert words.count("nothing grows but the rounding") == 2
     assert "machine & versions" in words
+
+
+@pytest.mark.parametrize("scenes", [1, 2, 3, 4, 7])
+def test_the_diagram_leaves_no_third_of_its_width_blank(box, scenes):
+    svg = work_precision_svg([box] * scenes)
+    groups = re.findall(r'<g transform="translate\(([\d.]+) ([\d.]+)\)">(.*?)</g>\n?(?=<g transform|</svg>)', svg, re.S)
+    assert len(groups) == scenes + 1
+    ends = {}  # of what stands in each row: panels, and words of the legend of some 5 pixels a letter
+    for x, y, inside in groups:
+        own = [float(width) for width in re.findall(r'<rect class="field" width="([\d.]+)"', inside)]
+        own += [float(a) + 5 * len(b) for a, b in re.findall(r'<text class="ink" x="([\d.]+)"[^>]*>([^<]*)', inside)]
+        ends[y] = max(ends.get(y, 0.0), float(x) + max(own))
+    assert min(ends.values()) > 2 / 3 * WIDTH
+    bottom = max(float(y) for _, y, _ in groups)
+    assert float(re.search(r'height="([\d.]+)"', svg)[1]) - bottom < 400  # nor a row below
 
 
 def test_points_without_a_figure_are_left_out_of_the_diagram():

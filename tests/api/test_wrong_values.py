@@ -119,6 +119,12 @@ CALLS = {
         "way": ("exactly", None, 1, ["exact"]),
         "compile": NO_FLAGS,
     }),
+    "step_through": (wallkit.step_through, {"scene": SCENE, "way": "stop", "dt": 0.1, "until": 1.0}, {
+        "scene": (None, ROOM),
+        "way": ("exactly", None, 1, ["exact"]),
+        "dt": (*NO_NUMBERS, 0.0, -1.0, 1e-9),
+        "until": (*NO_NUMBERS, -1.0, 1e9),
+    }),
     "World.step": (World(SCENE).step, {}, {"dt": (*NO_NUMBERS, -1.0)}),
     "World.place": (World(SCENE).place, {"ball": 0}, {
         "ball": (*NO_WHOLE_NUMBERS, 1, None),
@@ -266,12 +272,14 @@ CALLS = {
         "pace": (*(wrong for wrong in NO_NUMBERS if wrong is not None), 0.0, -1.0),
         "colour": (None, "red"),
         "theme": (None, "grey"),
+        "stepped": ("stop", RUN),
         "progress": ("bar", 1, True),
     }),
     "replay_html": (wallkit.replay_html, {"run": RUN}, {
         "run": (None, SCENE),
         "title": NO_TEXTS,
         "max_contacts": (*NO_WHOLE_NUMBERS, None, 0),
+        "lesson": ("The mirror law", 3),
     }),
     "Reference": (wallkit.Reference, {"scene": SCENE}, {
         "scene": (None, ROOM, Scene(ROOM, SCENE.balls, drag=0.5)),
@@ -300,6 +308,7 @@ RESULTS = {
     "LevelCheck",
     "OpenedScene",
     "Prepared",
+    "Stepped",
     "Totals",
     "Wall",
     "Window",

@@ -1,18 +1,12 @@
 """Windows on the page: what the library finds is drawn around the ball, for targets of the level and clicked ones."""
 
 import math
-import threading
-from dataclasses import replace
 
 import pytest
-from test_page_browser import PATIENCE, on_screen
+from test_page_browser import on_screen
 
 import wallkit
-from wallkit.cli.play import reader
 from wallkit.scene.opening import open_scene
-from wallkit.view.page.bounds import HEAVY
-from wallkit.view.page.server import PageServer
-from wallkit.view.page.workers import Workers
 
 pytestmark = pytest.mark.browser
 
@@ -20,14 +14,6 @@ LEVEL = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 300" width="
 <path id="room" d="M0 0H400V300H0Z" fill="none" stroke="black"/>
 <circle id="goal" data-target="hole" cx="300" cy="200" r="12"/>
 <g id="balls" data-role="ball"><circle cx="80" cy="120" r="6"/></g></svg>"""
-
-
-@pytest.fixture(scope="module")
-def server():
-    with PageServer(Workers(reader(), replace(HEAVY, seconds=PATIENCE))) as running:
-        threading.Thread(target=running.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True).start()
-        yield running
-        running.shutdown()
 
 
 def test_the_windows_of_a_target_are_those_of_the_library(opened, server, until):

@@ -1,18 +1,12 @@
 """The page of `wallkit play` in a real browser: drop, aim, shoot, step, and every control."""
 
 import json
-import threading
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from wallkit import Balls, Scene, Walls, simulate
-from wallkit.cli.play import reader
 from wallkit.scene.opening import open_scene
-from wallkit.view.page.bounds import HEAVY
-from wallkit.view.page.server import PageServer
-from wallkit.view.page.workers import Workers
 from wallkit.walls.walls_json import to_json
 
 pytestmark = pytest.mark.browser
@@ -23,41 +17,9 @@ ROOM = """<svg xmlns="http://www.w3.org/2000/svg" width="400" height="300">
 <path id="screen" d="M60 240L120 240" fill="none" stroke="black"/>
 <g id="balls" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" inkscape:groupmode="layer"
  inkscape:label="balls"><circle cx="80" cy="120" r="6"/><path d="M80 120L130 150"/></g></svg>"""
-PATIENCE = 240.0  # seconds for one answer, on a machine with other work
 NAME = (
     "&lt;img src=x onerror=&quot;document.title='owned'&quot;&gt;&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;"
 )
-
-
-@pytest.fixture(scope="module")
-def server():
-    with PageServer(Workers(reader(), replace(HEAVY, seconds=PATIENCE))) as running:  # bounds have tests of their own
-        threading.Thread(target=running.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True).start()
-        yield running
-        running.shutdown()
-
-
-@pytest.fixture
-def page(opened, server):
-    return opened(server.url)
-
-
-@pytest.fixture
-def drop(until):
-    """Drop a file on the page, as a hand would: a drag with a file in it."""
-
-    def dropped(page, name, text, waits=True):
-        data = page.evaluate_handle(
-            """([name, text]) => { const transfer = new DataTransfer();
-            transfer.items.add(new File([text], name)); return transfer; }""",
-            [name, text],
-        )
-        page.dispatch_event("body", "dragover", {"dataTransfer": data})
-        page.dispatch_event("body", "drop", {"dataTransfer": data})
-        if waits:
-            until(page, f"Wallkit.page.document && Wallkit.page.document.name === {json.dumps(name)}")
-
-    return dropped
 
 
 @pytest.fixture
@@ -99,12 +61,14 @@ def test_it_opens_on_the_samples(page, until):
     assert "sinai" in page.title()
     page.get_by_role("button", name="Samples").click()
     assert page.locator("#gallery").is_visible()
-    until(page, "[...document.images].every((image) => image.complete && image.naturalWidth > 1)")
+    page.locator("#sample-list li").last.scroll_into_view_if_needed()  # pictures load when they come near
+    until(page, "[...document.images].slice(-4).every((image) => image.complete && image.naturalWidth > 1)")
 
 
 def test_a_dropped_drawing_shows_its_walls_and_problems(room, until):
     assert room.locator("#file-name").inner_text() == "room.svg"
     assert room.evaluate("Wallkit.page.player.picture.count") == 3
+    until(room, "!Wallkit.page.checks.looking.busy")
     count = int(room.locator("#problem-count").inner_text())
     assert count == room.locator("#problems button").count() > 0
     at = room.evaluate("Wallkit.page.document.problems.findIndex((p) => p.code === 'open-path')")
@@ -355,7 +319,7 @@ def test_hostile_names_do_nothing(page, drop, until):
     until(page, FLYING)
     page.evaluate("(() => { const {player} = Wallkit.page; player.seek(player.motion.duration / 2); })()")
     assert "onerror" in page.locator("#problems").inner_text()
-    assert page.locator("img:not(#sample-list img)").count() == 0
+    assert page.locator("img:not(.cards img)").count() == 0
     assert page.title() == "<img src=x onerror=alert(1)>.svg"
 
 

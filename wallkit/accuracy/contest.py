@@ -16,9 +16,9 @@ from wallkit.accuracy.scenes import BuiltIn
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import edge_points
 from wallkit.scene.scene import Scene
+from wallkit.simulation.ways import WRONG
 
 BOUNCES = 3  # the error is taken after so many: few enough that chaos has not yet mixed everything up
-WRONG = 0.01  # a ball is somewhere else when it is off by this part of the scene's size
 METHODS = ("exact", "stop", "full-step", "reflect-in-place")
 
 

@@ -1,4 +1,4 @@
-"""Who is compared: the exact simulator, the four ways of stepping, and other engines where they are installed.
+"""Who is compared: the exact simulator, the ways of stepping, and other engines where they are installed.
 
 Each contestant flies one ball and says where it is at given times. Engines are set up as their manuals ask for a
 bouncing ball without losses: restitution 1, no friction, no damping, continuous collision where there is one.

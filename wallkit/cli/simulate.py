@@ -15,9 +15,11 @@ from wallkit.cli.watching import watchable
 if TYPE_CHECKING:
     from wallkit.scene.opening import OpenedScene
     from wallkit.simulation.run import Run
+    from wallkit.simulation.ways import Stepped
 
 Format = Literal["csv", "json", "npz", "svg", "png", "gif", "mp4", "html"]
 FORMATS: tuple[Format, ...] = ("csv", "json", "npz", "svg", "png", "gif", "mp4", "html")
+_SHOW_WAYS = ("svg", "png", "gif", "mp4")
 
 File = Annotated[
     str, typer.Argument(metavar="FILE", help="Drawing, walls or scene (told by its content); - is standard input.")
@@ -29,7 +31,9 @@ def _option(panel: str) -> Any:
     return functools.partial(typer.Option, rich_help_panel=panel)
 
 
-_ball, _acts, _ends, _output = (_option(panel) for panel in ("Balls", "What acts", "When it ends", "What is written"))
+_ball, _acts, _frames, _ends, _output = (
+    _option(panel) for panel in ("Balls", "What acts", "Frames", "When it ends", "What is written")
+)
 Ball = Annotated[list[str] | None, _ball("--ball", metavar="X,Y", help="A ball's centre; may be repeated.")]
 Velocity = Annotated[str | None, _ball(metavar="VX,VY", help="Velocity of every ball, units per second.")]
 Speed = Annotated[float | None, _ball(metavar="S", help="Speed of every ball (default: 50).")]
@@ -51,6 +55,21 @@ Friction = Annotated[
     float | None, _acts(metavar="A", help="Rolling friction: speed that a ball loses per second.", min=0)
 ]
 Drag = Annotated[float | None, _acts(metavar="K", help="Drag: rate of dv/dt = -K v, per second.", min=0)]
+WayOfFrames = Annotated[
+    Literal["exact", "stop", "full-step", "reflect-in-place", "overlap"] | None,
+    _frames(
+        "--way",
+        help="Step by frames, and treat contacts within one so; pictures and films show it over the exact run, and "
+        "where they part.",
+        show_default=False,
+    ),
+]
+Dt = Annotated[
+    float | None,
+    _frames(
+        "--dt", metavar="T", help="Seconds of a frame (default: 1/60); without --way, frames of the exact run.", min=0
+    ),
+]
 Until = Annotated[float | None, _ends(metavar="T", help="End after T seconds.", min=0)]
 Bounces = Annotated[
     int | None, _ends(metavar="N", help="End after N bounces a ball (default, without --until: 100).", min=0)
@@ -113,6 +132,8 @@ def simulate_file(
     drag: Drag = None,
     meeting: Meeting = None,
     ball_restitution: BallRestitution = None,
+    way: WayOfFrames = None,
+    dt: Dt = None,
     colour: Colour = None,
     heat: Heat = False,
     theme: Theme = "light",
@@ -132,15 +153,18 @@ def simulate_file(
         friction, drag, meeting, ball_restitution, until, bounces, drawing_options.options_of(importing or {}),
     )  # fmt: skip
     targets = _targets(out or [], form)
+    way = "exact" if way is None and dt is not None else way
+    _check_way(way, {"colour": colour, "heat": heat}, targets)
     scene = opened(file, wishes)
     run = _flown(scene, settle)
+    stepped = _stepped(run, way, 1 / 60 if dt is None else dt)
     look: dict[str, Any] = {"colour": colour, "heat": heat, "theme": theme, "size": size}
-    look |= {"seconds": seconds, "fps": fps, "pace": pace}
+    look |= {"seconds": seconds, "fps": fps, "pace": pace, "stepped": stepped}
     trust = _trust(run)
     for target, kind in targets:
         _write(target, kind, run, scene, trust, {**look, "title": "" if file == "-" else Path(file).name})
     stream = sys.stderr if any(target == "-" for target, _ in targets) else sys.stdout
-    for line in _summary(file, scene, run, trust, targets):
+    for line in _summary(file, scene, run, trust, stepped, targets):
         print(line, file=stream)
 
 
@@ -169,6 +193,35 @@ def _flown(scene: OpenedScene, settle: bool) -> Run:
 
     with progress_bar("simulating") as report:
         return simulate(scene.scene, scene.until, scene.bounces, settle=settle, progress=report)
+
+
+def _check_way(way: str | None, look: dict[str, Any], targets: list[tuple[str, Format]]) -> None:
+    """Refuse what would be left out in silence: files and colours that tell of exact runs alone."""
+    from wallkit.scene.opening import UsageError
+
+    if way is None:
+        return
+    if look["heat"] or look["colour"] not in (None, "ball"):
+        option = "--heat" if look["heat"] else f"--colour {look['colour']}"
+        raise UsageError(
+            f"{option} is for exact runs, and --way is given", code="usage", fix="leave out one of the two"
+        )
+    for name, kind in targets:
+        if kind not in _SHOW_WAYS and way != "exact":
+            raise UsageError(
+                f"{name}: a {kind} file holds exact runs alone, not the way {way!r}",
+                code="usage",
+                fix=f"use one of {', '.join('.' + each for each in _SHOW_WAYS)}, or leave out --way",
+            )
+
+
+def _stepped(run: Run, way: Any, dt: float) -> Stepped | None:
+    """Step the balls of a run by frames, if a way is given."""
+    if way is None:
+        return None
+    from wallkit.simulation.ways import last_moment, step_through
+
+    return step_through(run.scene, way, dt, last_moment(run))
 
 
 def _trust(run: Run) -> list[Any]:
@@ -205,22 +258,38 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
         from wallkit.cli.progress import progress_bar
         from wallkit.view.film import film
 
-        chosen = {name: look[name] for name in ("seconds", "fps", "pace", "theme")}
+        chosen = {name: look[name] for name in ("seconds", "fps", "pace", "theme", "stepped")}
         with progress_bar("filming") as report:
             return film(run, kind, **chosen, **given, progress=report)
     from wallkit.view.run_picture import run_canvas
     from wallkit.view.write import picture_data
 
+    if look["stepped"] is not None:
+        from wallkit.view.ways_picture import ways_canvas
+
+        size = {} if look["size"] is None else {"width": look["size"]}
+        return picture_data(f".{kind}", ways_canvas(run, look["stepped"], title=look["title"], **size), look["theme"])
     canvas = run_canvas(run, title=look["title"], heat=look["heat"], **given)
     return picture_data(f".{kind}", canvas, look["theme"])
 
 
-def _summary(file: str, scene: OpenedScene, run: Run, trust: list[Any], targets: list[tuple[str, Format]]) -> list[str]:
+def _summary(
+    file: str,
+    scene: OpenedScene,
+    run: Run,
+    trust: list[Any],
+    stepped: Stepped | None,
+    targets: list[tuple[str, Format]],
+) -> list[str]:
     from wallkit.cli.messages import count_by_severity, plain
     from wallkit.cli.summary import ball_words, bounce_words, drawing_words, ending_words, energy_words, wall_words
 
     rows = [("walls", wall_words(run.scene.walls)), ("balls", ball_words(run)), ("bounces", bounce_words(run)),
             ("ended", ending_words(run)), ("energy", energy_words(run))]  # fmt: skip
+    if stepped is not None:
+        from wallkit.simulation.ways import flown_through, partings, sentence
+
+        rows.append(("way", sentence(stepped, partings(run, stepped), flown_through(stepped))))
     if trust:
         worst = min(trust, key=lambda horizon: (horizon.whole, horizon.time))
         rows.append(("trust", worst.sentence() + (" (the worst ball)" if len(trust) > 1 else "")))

@@ -61,8 +61,8 @@ def _importing(options: argparse.Namespace, **more: Any) -> ImportOptions:
 
 def check(document: Document, options: argparse.Namespace) -> None:
     """Put what `wallkit check` finds on a layer: numbered marks, the ways through leaks, the words below."""
-    from wallkit.cli.check import given_of, look_over
     from wallkit.cli.messages import count_by_severity
+    from wallkit.scene.look_over import given_of, look_over
     from wallkit.scene.opening import Wishes, open_scene
     from wallkit.view.picture import walls_marks
 

@@ -20,6 +20,7 @@ from importers.problems import Problem
 from wallkit import arguments
 from wallkit.scene.ball_findings import ball_findings
 from wallkit.scene.drawn_scene import ANGLE, SPEED, Drawn, apart, drawn_scene
+from wallkit.scene.lesson import Lesson
 from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Walls
 from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
@@ -164,6 +165,7 @@ class OpenedScene:
         drawing: the drawing, where the file was one.
         found_place: no ball was given: the one in the scene was put where there is most room.
         importing: how the drawing became walls.
+        lesson: what a scene file says to a class, or None.
     """
 
     scene: Scene
@@ -175,6 +177,7 @@ class OpenedScene:
     drawing: Drawing | None = None
     found_place: bool = False
     importing: ImportOptions | None = None
+    lesson: Lesson | None = None
 
 
 def open_scene(
@@ -262,8 +265,9 @@ def _of_scene_file(read: SceneFile, wishes: Wishes) -> OpenedScene:
         scene = replace(scene, walls=_repaired(scene.walls, wishes.importing, "a scene without a drawing"))
     problems = [] if read.drawn is None else read.drawn.problems
     opened = OpenedScene(
-        scene, read.until, read.bounces, "scene", problems, drawing=read.drawing, importing=read.importing
-    )
+        scene, read.until, read.bounces, "scene", problems, drawing=read.drawing, importing=read.importing,
+        lesson=read.lesson,
+    )  # fmt: skip
     return _completed(opened, read.drawn, wishes)
 
 

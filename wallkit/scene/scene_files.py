@@ -20,6 +20,7 @@ import numpy as np
 from importers.limits import check_input_size
 from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.drawn_scene import apart, drawn_scene, together
+from wallkit.scene.lesson import Lesson, read_lesson
 from wallkit.scene.scene import Balls, Scene, SceneError, area_of
 from wallkit.scene.scene_rules import FIT_KEYS, RULE_KEYS, Fit, Rule, Ruled, say_roles
 from wallkit.walls import Material, Walls
@@ -53,6 +54,7 @@ class SceneFile:
         drawn: what the drawing that it names holds, or None where it names none.
         drawing: that drawing.
         importing: how it became walls.
+        lesson: what it says to a class, or None.
     """
 
     scene: Scene
@@ -61,6 +63,7 @@ class SceneFile:
     drawn: Drawn | None = None
     drawing: Drawing | None = None
     importing: ImportOptions | None = None
+    lesson: Lesson | None = None
 
 
 def kind_of(data: bytes) -> FileKind:
@@ -168,7 +171,7 @@ class _Reader:
 
     def scene_file(self, table: dict[str, Any]) -> SceneFile:
         known = {"format", "version", "walls", "drawing", "import", "gravity", "rolling_friction", "drag", "sensors",
-                 "materials", "colours", "balls", "run", "y_axis", "meeting", *BALL_RESTITUTIONS}  # fmt: skip
+                 "materials", "colours", "balls", "run", "y_axis", "meeting", "lesson", *BALL_RESTITUTIONS}  # fmt: skip
         self.known_keys(table, known, "")
         if table.get("format", "wallkit-scene") != "wallkit-scene":
             self.wrong.append(f"format: {table['format']!r} is not 'wallkit-scene'")
@@ -195,7 +198,8 @@ class _Reader:
         until = self.number(run["until"], "run.until", least=0.0) if "until" in run else None
         bounces = self.whole(run["bounces"], "run.bounces") if "bounces" in run else None
         scene = Scene(walls, balls, gravity, sensors=sensors, **slowing | self.meeting(table))
-        return SceneFile(scene, until, bounces, drawn, self.drawing, self.options)
+        lesson = read_lesson(table["lesson"], self.wrong) if "lesson" in table else None
+        return SceneFile(scene, until, bounces, drawn, self.drawing, self.options, lesson)
 
     def meeting(self, table: dict[str, Any]) -> dict[str, Any]:
         """Whether discs meet, and with what restitution."""

@@ -22,16 +22,17 @@ from wallkit.simulation.simulate import Flights
 
 if TYPE_CHECKING:
     from wallkit.simulation.meeting_world import Together
+    from wallkit.simulation.overlapping import Overlapping
 
 _NO_CONTACTS = np.empty(0, dtype=CONTACT)
 _NO_CONTACTS.flags.writeable = False
-Way = Literal["exact", "stop", "full-step", "reflect-in-place"]
+Way = Literal["exact", "stop", "full-step", "reflect-in-place", "overlap"]
 
 
 class World:
     """The balls of a scene, moved on by one frame at a time.
 
-    A contact within a frame is treated in one of four ways. With p the place at the frame's start, c the place
+    A contact within a frame is treated in one of five ways. With p the place at the frame's start, c the place
     of the contact, v' the velocity after it and dt the frame, the ball is at the frame's end
 
     * ``"exact"``: where physics puts it: to the contact, then what is left of the step along v', through as many
@@ -40,8 +41,11 @@ class World:
     * ``"full-step"``: at c + v' dt. The way before the contact is gained; what lies behind c is not looked at, so
       a ball in a corner, or before a close second wall, passes it.
     * ``"reflect-in-place"``: at p + v' dt. Balls turn up to a frame before the wall, and pass others as above.
+    * ``"overlap"``: at p + v dt, as if there were no walls; there those that the disc overlaps turn its velocity (see
+      :class:`~wallkit.simulation.overlapping.Overlapping`). What is thinner than a frame's way is flown through, and
+      by a point everything.
 
-    The last three are what frame-stepping programs do; they are here to be compared with. Frames are
+    The last four are what frame-stepping programs do; they are here to be compared with. Frames are
     summed without loss, so that time is as good as a double can be.
 
     The scene is prepared once, and each ball's next contact is found once and kept, so that a frame without
@@ -70,11 +74,9 @@ class World:
         self.way: Way = way
         self.time = 0.0
         self._lost = 0.0  # what the sum of the frames loses to rounding
-        self._together: Together | None = None
-        if scene.meeting:
-            from wallkit.simulation.meeting_world import Together
-
-            self._together = Together(scene, way, "compiled" if compile else "interpreted")
+        self._stepper: Together | Overlapping | None = None  # what moves the balls where no contact is foreseen here
+        if scene.meeting or way == "overlap":
+            self._stepper = _stepper_of(scene, way, compile)
             self._base = np.hstack([scene.balls.position, scene.balls.velocity])
             return
         self._flights = Flights(scene, mode="compiled" if compile else "interpreted")
@@ -116,8 +118,8 @@ class World:
         return self._state()[:, 2:4]
 
     def _state(self) -> FloatArray:
-        if self._together is not None:
-            return self._together.state(self.time)
+        if self._stepper is not None:
+            return self._stepper.state(self.time)
         span = np.minimum(self.time, self._end) - self._since
         if self._damping is not None:
             return np.array([carried_on(self._damping, *now) for now in zip(self._base, span.tolist(), strict=True)])
@@ -144,9 +146,9 @@ class World:
         whole = dt + self._lost  # Kahan's sum: what one frame loses to rounding the next one gets
         end = self.time + whole
         self._lost = whole - (end - self.time)
-        if self._together is not None:
+        if self._stepper is not None:
             self.time = end
-            return self._together.go(end)
+            return self._stepper.go(end)
         if self._soonest > end:
             self.time = end
             return _NO_CONTACTS
@@ -180,8 +182,8 @@ class World:
         ball = whole_number(ball, "ball", may_be, error=SceneError, code="bad-ball", least=0, most=most)
         here = self.position[ball] if position is None else _pair(position, "position")
         speed = self.velocity[ball] if velocity is None else _pair(velocity, "velocity")
-        if self._together is not None:
-            self._together.place(ball, here, speed, self.time)
+        if self._stepper is not None:
+            self._stepper.place(ball, here, speed, self.time)
             return
         touched, normal = (NO_HIT, None) if position is not None else self._contact(ball, here)
         if normal is None or touched == NO_HIT:
@@ -279,6 +281,17 @@ class World:
         self._since[ball], self._touched[ball], self._pull[ball] = time, last, self._gravity
         self._keeps[ball], self._bend[ball] = False, 0.0
         self._look_ahead(ball)
+
+
+def _stepper_of(scene: Scene, way: Way, compile: bool) -> Together | Overlapping:
+    """What moves balls that meet, or that are looked at where frames end."""
+    if scene.meeting:
+        from wallkit.simulation.meeting_world import Together
+
+        return Together(scene, way, "compiled" if compile else "interpreted")
+    from wallkit.simulation.overlapping import Overlapping
+
+    return Overlapping(scene)
 
 
 def _pair(value: ArrayLike, name: str) -> FloatArray:

@@ -22,6 +22,7 @@ from importers.errors import WallkitError
 from wallkit.arguments import ABOVE_0, number, of_type, refused, whole_number, word
 from wallkit.geometry.arrays import FloatArray
 from wallkit.simulation.run import Run, one_a_ball
+from wallkit.simulation.ways import Stepped
 from wallkit.view.canvas import Command, Disc, Item, Label, Shape
 from wallkit.view.frame import Frame
 from wallkit.view.picture import draw_walls, finish, round_length, started
@@ -29,6 +30,7 @@ from wallkit.view.raster import Raster
 from wallkit.view.run_picture import Colouring, draw_sensors, ramp_steps, scene_box
 from wallkit.view.theme import RAMP_STEPS, Theme
 from wallkit.view.tracks import arrays_of, tracks
+from wallkit.view.ways_picture import Beside
 
 Progress = Callable[[float], None]
 
@@ -54,6 +56,7 @@ def film(
     pace: float | None = None,
     colour: Colouring = "ball",
     theme: Theme = "light",
+    stepped: Stepped | None = None,
     progress: Progress | None = None,
 ) -> bytes:
     """Make a film of a run.
@@ -71,6 +74,8 @@ def film(
         pace: seconds of the run that pass in a second of the film; above 0.
         colour: what the colour of a ball tells: which it is, the time, or its speed at that time.
         theme: light or dark.
+        stepped: the same scene stepped by frames, whose balls are shown in colour over the exact ones, as rings; where
+            they part is marked. Balls are coloured by which they are.
         progress: called with the part done, 0 to 1.
 
     Raises:
@@ -88,7 +93,9 @@ def film(
         number(pace, "pace", "a number above 0", error=FilmError, code="bad-argument", least=ABOVE_0)
     if progress is not None and not callable(progress):
         raise refused("progress", progress, "a function of one number, or None", FilmError, "bad-argument")
-    frames = _Frames(run, Look(width, rate, pace, colour, theme), seconds, progress)
+    if stepped is not None:
+        of_type(stepped, "stepped", Stepped, "a Stepped or None", error=FilmError, code="bad-argument")
+    frames = _Frames(run, Look(width, rate, pace, colour, theme), seconds, progress, stepped)
     return _gif(frames) if kind == "gif" else _mp4(frames)
 
 
@@ -123,7 +130,9 @@ class Look:
 class _Frames:
     """The frames one by one, drawn over one background."""
 
-    def __init__(self, run: Run, look: Look, seconds: float, progress: Progress | None) -> None:
+    def __init__(
+        self, run: Run, look: Look, seconds: float, progress: Progress | None, stepped: Stepped | None = None
+    ) -> None:
         self.run, self.look, self.fps, self.progress = run, look, look.fps, progress
         box, up = scene_box(run.scene), run.scene.walls.y_axis == "up"
         canvas, self.frame = started(box, up, title="", width=float(look.width))
@@ -138,6 +147,9 @@ class _Frames:
         self.duration = float(run.final["time"].max(initial=0.0))
         self.count = max(1, int(min(seconds, self.duration / self.speedup) * look.fps) + 1)
         self.fastest = _fastest(run) if look.colour == "speed" else 1.0
+        self.beside = None if stepped is None else Beside(run, stepped, self.frame)
+        if self.beside is not None:
+            self.background.drawn(self.beside.exact_paths(self.count / look.fps * self.speedup))
 
     def caption(self, time: float) -> str:
         shown = (self.count - 1) / self.fps * self.speedup
@@ -145,7 +157,8 @@ class _Frames:
             "" if shown >= self.duration - self.speedup / self.fps else f", first {shown:.4g} of {self.duration:.4g} s"
         )
         pace = "" if self.speedup == 1 else f" (at {self.speedup:g} times its speed{part})"
-        return f"{time:.2f} s{pace or part}"
+        way = "" if self.beside is None else f"{self.beside.stepped.way}, dt {self.beside.stepped.dt:.4g} s: "
+        return f"{way}{time:.2f} s{pace or part}"
 
     def __iter__(self) -> Iterator[Image.Image]:
         contacts = one_a_ball(self.run.contacts)
@@ -174,6 +187,10 @@ class _Frames:
     ) -> Image.Image:
         items: list[Item] = []
         since = time - _TRAIL * self.speedup
+        caption = Label("note", self.width - 28, self.height - 14, self.caption(time), anchor="end")
+        if self.beside is not None:
+            items = self.beside.items(time, balls, since)
+            return self.background.copied().drawn([*items, caption]).reduced()
         few = len(balls) <= _TRAILS
         for ball, trail in enumerate(trails if few else []):
             trail.append((time, *balls[ball]))
@@ -187,8 +204,7 @@ class _Frames:
             items.append(Disc("ghost", x, y, float(self.radius[ball]), steps[ball], opacity=opacity))
         for ball, (x, y) in enumerate(balls.tolist()):
             items.append(Disc("ball", x, y, float(self.radius[ball]), steps[ball], filled=True))
-        items.append(Label("note", self.width - 28, self.height - 14, self.caption(time), anchor="end"))
-        return self.background.copied().drawn(items).reduced()
+        return self.background.copied().drawn([*items, caption]).reduced()
 
     def _steps(self, time: float) -> list[int]:
         """Give each ball its step on the ramp now."""
@@ -247,6 +263,7 @@ def _gif(frames: _Frames) -> bytes:
         for step in range(RAMP_STEPS)
         for part in (1, 2, 3, 4)
     ]
+    every += [Disc("apart", 20 * k, 100, 9) for k in range(4)] if frames.beside is not None else []
     colours = frames.background.copied().drawn(every).reduced().quantize(128)  # one palette, or the film flickers
     images = (image.quantize(palette=colours, dither=Image.Dither.NONE) for image in frames)
     data = io.BytesIO()

@@ -6,21 +6,26 @@ import base64
 import hashlib
 from dataclasses import replace
 from html import escape
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from importers.errors import WallkitError
 from wallkit.arguments import of_type, text, whole_number
+from wallkit.scene.lesson import Lesson
 from wallkit.simulation.run import Run, one_a_ball
 from wallkit.view.frame import Box
 from wallkit.view.page import look
-from wallkit.view.page.payload import inlined, run_table, starts, walls_table
+from wallkit.view.page.payload import Table, inlined, run_table, starts, walls_table
+
+if TYPE_CHECKING:
+    from wallkit.simulation.world import Way
 
 MAX_CONTACTS = 1_000_000
 """So many contacts are in a replay at most (about 50 MB of it); a longer run is thinned, and says so."""
 
 
-def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS) -> str:
+def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS, lesson: Lesson | None = None) -> str:
     """Write a run as one self-contained HTML document: play, pause, step, scrub, ghosts, normals, zoom.
 
     The motion is drawn from the contacts alone: each frame shows the state after the last contact before it,
@@ -33,6 +38,8 @@ def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS) 
         run: what is shown.
         title: the document's title; the source's name by default.
         max_contacts: the largest number of contacts to carry.
+        lesson: a text with questions that stands beside it, as ``open_scene`` gives it; where it names a way to step by
+            frames, these are shown over it.
 
     Raises:
         WallkitError: an argument is none of what may be.
@@ -41,6 +48,14 @@ def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS) 
     text(title, "title", error=WallkitError, code="bad-argument")
     may_be = "a whole number, 1 or more"
     whole_number(max_contacts, "max_contacts", may_be, error=WallkitError, code="bad-argument", least=1)
+    of_type(lesson, "lesson", (Lesson, type(None)), "a Lesson or None", error=WallkitError, code="bad-argument")
+    return replay_page(run, title, max_contacts, lesson)
+
+
+def replay_page(
+    run: Run, title: str = "", max_contacts: int = MAX_CONTACTS, lesson: Lesson | None = None, links: str = ""
+) -> str:
+    """Write what :func:`replay_html` says, with ``links``, which is HTML, beside its title."""
     shown, left_out = thinned(run, max_contacts)
     name = title or run.scene.walls.source_file or "wallkit replay"
     data = {
@@ -49,14 +64,26 @@ def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS) 
         "walls": walls_table(run.scene.walls, starts(run)[:, :2], run.scene.sensors),
         "run": run_table(shown, left_out=left_out),
         "box": whole_box(run),
+        "lesson": lesson.to_json() if lesson is not None else None,
+        "frames": frames_table(run, lesson) if lesson is not None and lesson.way else None,
     }
-    style = look.theme_css() + look.part("look.css") + look.part("replay.css")
-    script = "\n".join(look.part(name) for name in (*look.SHARED_SCRIPTS, "replay.js"))
-    policy = f"default-src 'none'; img-src data:; script-src {_hash(script)}; style-src {_hash(style)}"
-    return look.filled(
-        "replay.html",
-        {"title": escape(name), "policy": policy, "style": style, "script": script, "data": inlined(data)},
-    )
+    style = look.theme_css() + "".join(look.part(name) for name in ("look.css", "replay.css", "sheet.css"))
+    script = "\n".join(look.part(name) for name in (*look.SHARED_SCRIPTS, "ways.js", "replay.js"))
+    values = {"title": escape(name), "policy": policy(style, script), "links": links, "style": style, "script": script}
+    return look.filled("replay.html", {**values, "data": inlined(data)})
+
+
+def frames_table(run: Run, lesson: Lesson) -> Table:
+    """Give the balls as a program that steps by frames has them, as static/ways.js reads it."""
+    from wallkit.view.page.ways import stepped_of, stepped_table
+
+    return stepped_table(run, stepped_of(run, cast("Way", lesson.way), lesson.dt))
+
+
+def policy(style: str, script: str = "") -> str:
+    """Give the Content-Security-Policy of a page that carries all that it needs: nothing else may run or be loaded."""
+    runs = f"script-src {_hash(script)}; " if script else ""
+    return f"default-src 'none'; img-src data:; {runs}style-src {_hash(style)}; base-uri 'none'; form-action 'none'"
 
 
 def thinned(run: Run, most: int) -> tuple[Run, str]:

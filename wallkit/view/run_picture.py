@@ -26,7 +26,7 @@ from wallkit.view.picture import (
     problem_legend,
     started,
 )
-from wallkit.view.theme import RAMP_STEPS
+from wallkit.view.theme import RAMP_STEPS, STYLES
 from wallkit.view.tracks import Tracks, arrays_of, tracks
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def run_canvas(
     width: float = WIDTH,
 ) -> Canvas:
     """Draw a run as :func:`run_svg` does, on a canvas that can become SVG or pixels."""
-    canvas, frame = _scene_base(run.scene, title, width)
+    canvas, frame = scene_base(run.scene, title, width)
     canvas.title = title or f"{len(run.ending)} balls, {int(run.bounces.sum())} bounces"
     flight = tracks(run, MAX_MEASURED if heat else MAX_STRETCHES)
     if heat:
@@ -109,21 +109,32 @@ def run_marks(run: Run) -> tuple[Canvas, Frame]:
 def _draw_flight(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: NDArray[np.int64]) -> None:
     draw_paths(canvas, flight, steps, frame)
     _draw_ghosts(canvas, run, frame, flight, steps)
-    _draw_starts(canvas, run.scene, frame)
+    draw_starts(canvas, run.scene, frame)
     _draw_ends(canvas, flight, frame)
+
+
+def run_thumbnail(run: Run, width: float = 420.0) -> str:
+    """Draw a run as a small picture without words, as one SVG document."""
+    canvas, frame = scene_base(run.scene, "", width)
+    flight = tracks(run, MAX_STRETCHES)
+    steps, _, _ = _steps(flight, "ball")
+    _draw_flight(canvas, run, frame, flight, steps)
+    canvas.height = frame.height + 2 * frame.top
+    return canvas.to_svg()
 
 
 def scene_svg(scene: Scene, *, title: str = "", width: float = WIDTH) -> str:
     """Draw a scene as one SVG document: its walls, and its balls with an arrow each."""
-    canvas, frame = _scene_base(scene, title, width)
+    canvas, frame = scene_base(scene, title, width)
     canvas.title = title or "scene"
-    _draw_starts(canvas, scene, frame)
+    draw_starts(canvas, scene, frame)
     row = finish(canvas, frame, scene.walls.units)
     draw_legend(canvas, material_legend(scene.walls), row)
     return canvas.to_svg()
 
 
-def _scene_base(scene: Scene, title: str, width: float) -> tuple[Canvas, Frame]:
+def scene_base(scene: Scene, title: str, width: float) -> tuple[Canvas, Frame]:
+    """Begin a picture with a scene's walls and sensors."""
     position, _, _ = arrays_of(scene.balls)
     canvas, frame = started(scene_box(scene), scene.walls.y_axis == "up", title=title, width=width)
     draw_walls(canvas, scene.walls, frame, free=position)
@@ -173,8 +184,11 @@ def ramp_steps(part: FloatArray) -> NDArray[np.int64]:
     return steps
 
 
-def draw_paths(canvas: Canvas, flight: Tracks, steps: NDArray[np.int64], frame: Frame) -> None:
-    """Draw each stretch: a line, or under gravity the parabola, which a quadratic Bezier curve is exactly."""
+def draw_paths(canvas: Canvas, flight: Tracks, steps: NDArray[np.int64], frame: Frame, style: str = "path") -> None:
+    """Draw each stretch: a line, or under gravity the parabola, which a quadratic Bezier curve is exactly.
+
+    The ramp's steps colour a style that has no colour of its own.
+    """
     begin, end = frame.points(flight.position), flight.target.copy()
     duration = flight.until - flight.time
     out = _leaves(flight, frame)
@@ -194,16 +208,17 @@ def draw_paths(canvas: Canvas, flight: Tracks, steps: NDArray[np.int64], frame: 
         commands.append(("Q", *middle[index], *end[index]) if bent[index] else ("L", *end[index]))
     opacity = 0.95 if len(steps) < 800 else 0.6
     for step, commands in sorted(by_step.items()):
-        canvas.add(Shape("path", commands, step=step, opacity=opacity))
+        canvas.add(Shape(style, commands, step=None if STYLES[style].stroke else step, opacity=opacity))
 
 
 def _leaves(flight: Tracks, frame: Frame) -> NDArray[np.bool_]:
-    x0, y0, x1, y1 = _rim(frame)
+    x0, y0, x1, y1 = rim_of(frame)
     x, y = flight.target.T
     return np.asarray((x < x0) | (x > x1) | (y < y0) | (y > y1) | ~np.isfinite(x) | ~np.isfinite(y))
 
 
-def _rim(frame: Frame) -> Box:
+def rim_of(frame: Frame) -> Box:
+    """Give the box, in the drawing's units, up to which paths are followed: a little more than is shown."""
     reach = 0.6 * MARGIN / frame.scale
     x0, y0, x1, y1 = frame.box
     return x0 - reach, y0 - reach, x1 + reach, y1 + reach
@@ -211,7 +226,7 @@ def _rim(frame: Frame) -> Box:
 
 def _clipped(flight: Tracks, index: int, frame: Frame) -> tuple[FloatArray, float]:
     """Follow a stretch that leaves the picture up to its rim: the place there, and the time that it takes."""
-    x0, y0, x1, y1 = _rim(frame)
+    x0, y0, x1, y1 = rim_of(frame)
     p, v, a = flight.position[index], flight.velocity[index], flight.pull[index]
     high = min(float(flight.until[index] - flight.time[index]), 1e9 / max(float(np.hypot(*v)), 1e-9))
     low = 0.0
@@ -238,7 +253,8 @@ def _draw_ghosts(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: 
         canvas.add(Disc("ghost", x, y, max(size, _POINT), int(steps[index]), size < _POINT, opacity, told))
 
 
-def _draw_starts(canvas: Canvas, scene: Scene, frame: Frame) -> None:
+def draw_starts(canvas: Canvas, scene: Scene, frame: Frame) -> None:
+    """Draw the balls of a scene where they start, each with an arrow along its velocity."""
     position, velocity, radius = (array[:MAX_GHOSTS] for array in arrays_of(scene.balls))
     for (x, y), v, r in zip(frame.points(position), velocity, radius.tolist(), strict=True):
         arrow = v * np.array([1.0, -1.0 if frame.up else 1.0]) * frame.scale * _ARROW

@@ -12,9 +12,10 @@ from wallkit.view.theme import Theme, colour
 
 WIDTH = 1180.0
 _COLUMNS = 3
-_PANEL_WIDTH, _PANEL_HEIGHT = 320.0, 268.0
-_LEFT, _TOP, _GAP_X, _GAP_Y = 78.0, 104.0, 46.0, 74.0
+_PANEL_HEIGHT = 268.0
+_LEFT, _TOP, _RIGHT, _GAP_X, _GAP_Y = 78.0, 104.0, 50.0, 46.0, 74.0
 _FOOT = 58.0
+_ENTRY = 25.0  # height of an entry of the legend
 MINUS = "\N{MINUS SIGN}"
 
 
@@ -48,18 +49,18 @@ def work_precision_svg(contests: Sequence[Contest], foot: str = "") -> str:
         contests: the results.
         foot: a line below: machine and versions.
     """
-    rows = math.ceil((len(contests) + 1) / _COLUMNS)
-    height = _TOP + rows * (_PANEL_HEIGHT + _GAP_Y) + _FOOT
-    below = height - _FOOT + 24
-    axes = _Axes.around([point for found in contests for point in found.points])
-    parts = [_heading()]
-    for index, found in enumerate(contests):
-        parts.append(_panel(found, axes, *_corner(index), labelled=index % _COLUMNS == 0))
     series = dict.fromkeys(point.series for found in contests for point in found.points)
     present = [*(name for name in LOOKS if name in series), *(name for name in series if name not in LOOKS)]
-    parts.append(_legend(present, *_corner(len(contests))))
+    table = _Table.of(len(contests))
+    below = _TOP + table.height(entries=len(present) + 1)
+    height = below + (_FOOT if foot else 0.0)
+    axes = _Axes.around([point for found in contests for point in found.points], table.panel)
+    parts = [_heading()]
+    for index, found in enumerate(contests):
+        parts.append(_panel(found, axes, *table.corner(index), labelled=index % table.columns == 0))
+    parts.append(_legend(present, table))
     parts += [
-        f'<text class="note" x="{_LEFT - 50:g}" y="{below + 16 * k:g}" font-size="11">{escape(line)}</text>'
+        f'<text class="note" x="{_LEFT - 50:g}" y="{below + 24 + 16 * k:g}" font-size="11">{escape(line)}</text>'
         for k, line in enumerate(_wrapped(foot, 185))
     ]
     return (
@@ -71,16 +72,54 @@ def work_precision_svg(contests: Sequence[Contest], foot: str = "") -> str:
 
 
 @dataclass(frozen=True, slots=True)
+class _Table:
+    """Where panels stand: row by row over the whole width; the legend takes what the last row leaves, or a row.
+
+    Attributes:
+        panels: how many there are.
+        columns: how many stand in a row.
+    """
+
+    panels: int
+    columns: int
+
+    @classmethod
+    def of(cls, panels: int) -> _Table:
+        return cls(panels, min(panels + 1, _COLUMNS))
+
+    @property
+    def panel(self) -> float:
+        """The width of a panel."""
+        return (WIDTH - _LEFT - _RIGHT - (self.columns - 1) * _GAP_X) / self.columns
+
+    @property
+    def spare(self) -> int:
+        """Columns that the legend has."""
+        return self.columns - self.panels % self.columns
+
+    def corner(self, index: int) -> tuple[float, float]:
+        row, column = divmod(index, self.columns)
+        return _LEFT + column * (self.panel + _GAP_X), _TOP + row * (_PANEL_HEIGHT + _GAP_Y)
+
+    def height(self, entries: int) -> float:
+        """The height of all, the legend's entries among it."""
+        row = _PANEL_HEIGHT + _GAP_Y
+        own = math.ceil(entries / self.columns) * _ENTRY if self.spare == self.columns else 0.0
+        return math.ceil(self.panels / self.columns) * row + own
+
+
+@dataclass(frozen=True, slots=True)
 class _Axes:
-    """Decades shown: error from 10^low_x to 10^high_x, seconds from 10^low_y to 10^high_y."""
+    """Decades shown over a width: error from 10^low_x to 10^high_x, seconds from 10^low_y to 10^high_y."""
 
     low_x: int
     high_x: int
     low_y: int
     high_y: int
+    width: float
 
     @classmethod
-    def around(cls, points: Sequence[Point]) -> _Axes:
+    def around(cls, points: Sequence[Point], width: float) -> _Axes:
         errors = [_shown(p.error) for p in points if math.isfinite(p.error)] or [1.0]
         seconds = [p.seconds for p in points if math.isfinite(p.seconds) and p.seconds > 0] or [1.0]
         return cls(
@@ -88,10 +127,11 @@ class _Axes:
             max(math.ceil(math.log10(max(errors))), 0),
             math.floor(math.log10(min(seconds))),
             math.ceil(math.log10(max(seconds))),
+            width,
         )
 
     def x(self, error: float) -> float:
-        return (math.log10(_shown(error)) - self.low_x) / max(1, self.high_x - self.low_x) * _PANEL_WIDTH
+        return (math.log10(_shown(error)) - self.low_x) / max(1, self.high_x - self.low_x) * self.width
 
     def y(self, seconds: float) -> float:
         part = (math.log10(seconds) - self.low_y) / max(1, self.high_y - self.low_y)
@@ -100,11 +140,6 @@ class _Axes:
 
 def _shown(error: float) -> float:
     return min(max(error, 1e-15), 1e4)  # a logarithmic axis has no place for 0
-
-
-def _corner(index: int) -> tuple[float, float]:
-    row, column = divmod(index, _COLUMNS)
-    return _LEFT + column * (_PANEL_WIDTH + _GAP_X), _TOP + row * (_PANEL_HEIGHT + _GAP_Y)
 
 
 def _heading() -> str:
@@ -121,7 +156,7 @@ def _panel(found: Contest, axes: _Axes, x: float, y: float, *, labelled: bool) -
         f'<g transform="translate({x:g} {y:g})">',
         f'<text class="ink" x="0" y="-12" font-size="14" font-weight="600">{escape(found.name)}'
         f'<tspan class="note" font-weight="400" font-size="12" dx="8">{escape(found.story)}</tspan></text>',
-        f'<rect class="field" width="{_PANEL_WIDTH:g}" height="{_PANEL_HEIGHT:g}"/>',
+        f'<rect class="field" width="{axes.width:g}" height="{_PANEL_HEIGHT:g}"/>',
         _grid(axes, labelled=labelled),
     ]
     for series, points in found.series().items():
@@ -138,10 +173,10 @@ def _grid(axes: _Axes, *, labelled: bool) -> str:
             parts.append(_tick(x, _PANEL_HEIGHT + 16, power, "middle"))
     for power in range(axes.low_y, axes.high_y + 1):
         y = axes.y(10.0**power)
-        parts.append(f'<path class="grid" d="M0 {y:.1f}H{_PANEL_WIDTH:g}"/>')
+        parts.append(f'<path class="grid" d="M0 {y:.1f}H{axes.width:g}"/>')
         parts.append(_tick(-6, y + 4, power, "end"))
     parts.append(
-        f'<text class="note" x="{_PANEL_WIDTH / 2:g}" y="{_PANEL_HEIGHT + 34:g}" font-size="11" '
+        f'<text class="note" x="{axes.width / 2:g}" y="{_PANEL_HEIGHT + 34:g}" font-size="11" '
         'text-anchor="middle">error, units</text>'
     )
     if labelled:
@@ -215,20 +250,24 @@ _MEANINGS = {
 }
 
 
-def _legend(series: Sequence[str], x: float, y: float) -> str:
+def _legend(series: Sequence[str], table: _Table) -> str:
+    """Say what the marks mean, column by column, in as many columns as the last row of panels leaves."""
+    x, y = table.corner(table.panels)
+    rows = math.ceil((len(series) + 1) / table.spare)
     parts = [f'<g transform="translate({x:g} {y:g})">']
-    for index, name in enumerate(series):
-        top = 10 + 25 * index
+    for index, name in enumerate([*series, ""]):
+        column, row = divmod(index, rows)
+        left, top = column * (table.panel + _GAP_X), 10 + _ENTRY * row
+        mark = f'<path class="line" d="M{left:g} {top:g}h28"/>{_marker(_look(name).marker, left + 14, top)}'
+        words = _MEANINGS.get(name, name)
+        if not name:
+            mark = f'<circle class="escaped" cx="{left + 14:g}" cy="{top:g}" r="8"/>'
+            words = "the ball was outside the room at some time"
         parts.append(
-            f'<g class="{_class(name)}"><path class="line" d="M0 {top}h28"/>{_marker(_look(name).marker, 14, top)}</g>'
-            f'<text class="ink" x="38" y="{top + 4}" font-size="12">{escape(_MEANINGS.get(name, name))}</text>'
+            f'<g class="{_class(name)}">{mark}</g>'
+            f'<text class="ink" x="{left + 38:g}" y="{top + 4:g}" font-size="12">{escape(words)}</text>'
         )
-    top = 10 + 25 * len(series)
-    parts.append(
-        f'<circle class="escaped" cx="14" cy="{top}" r="8"/>'
-        f'<text class="ink" x="38" y="{top + 4}" font-size="12">the ball was outside the room at some time</text></g>'
-    )
-    return "".join(parts)
+    return "".join([*parts, "</g>"])
 
 
 def _look(name: str) -> Look:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,11 +13,14 @@ import numpy as np
 
 from importers.errors import WallkitError
 from importers.limits import MAX_COORDINATE
+from importers.problems import Problem
 from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
-from wallkit.scene.samples import samples
+from wallkit.scene.samples import shown
 from wallkit.scene.scene import Balls, Scene, area_of
 from wallkit.simulation.run import Ending, Run
-from wallkit.view.page import aiming
+from wallkit.simulation.ways import Stepped
+from wallkit.simulation.world import Way
+from wallkit.view.page import aiming, ways
 from wallkit.view.page.documents import Document, Reader
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
 from wallkit.view.page.questions import Opening
@@ -31,6 +35,8 @@ MOST_CONTACTS = 100_000
 INTERPRETED_CONTACTS = 1_000
 """The same, as long as the compiler is at work; a tenth of a second, with gravity one."""
 MOST_PROBLEMS = 500
+SAVED = ("scene", "replay", "picture", "film", "walls")
+FILM_SECONDS = 8.0
 MOST_TIME, MOST_MASS = 1e12, 1e100
 
 
@@ -43,7 +49,7 @@ class Download:
     """A file for the person to keep."""
 
     name: str
-    content: str
+    content: str | bytes
     media: str
 
 
@@ -52,7 +58,7 @@ class Answers:
 
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
-        self._worlds = Worlds()
+        self._worlds, self._other_worlds = Worlds(), Worlds()
 
     def open(self, file: Opening, watched: bool = False) -> Document:
         """Open a file's bytes; only a file of this machine's own owner may name others, in its folder."""
@@ -68,7 +74,7 @@ class Answers:
 
     def sample(self, body: Table) -> Document:
         """Open a sample by name."""
-        for sample in samples():
+        for sample in shown():
             if sample.name == body.get("name"):
                 return self.open(Opening(sample.path.read_bytes(), sample.name, sample.path.parent, USUAL))
         raise QuestionError("there is no such sample", code="no-sample", fix="choose one of the gallery")
@@ -87,16 +93,45 @@ class Answers:
         return document.anew(opened, importing=importing)
 
     def simulate(self, body: Table, document: Document) -> Table:
-        """Fly balls: to a time, or for a number of bounces each."""
+        """Fly balls: to a time, or for a number of bounces each; in a second panel's world, too, if asked for one."""
+        run, stepped, table = self._shown(body, document, self._worlds)
+        other = body.get("other")
+        if other is None:
+            return table
+        if not isinstance(other, dict):
+            raise QuestionError("other is no object", code="bad-request", fix="give the second panel's settings")
+        run_2, stepped_2, table["other"] = self._shown(ways.own_settings(body, other), document, self._other_worlds)
+        table["apart"] = ways.panels_part(run, stepped, run_2, stepped_2)
+        return table | {"partial": True} if table["other"].get("partial") else table
+
+    def _shown(self, body: Table, document: Document, worlds: Worlds) -> tuple[Run, Stepped | None, Table]:
+        """Fly what one panel shows: the exact run, and the frames over it where a way is asked for."""
         scene = scene_of(body, document)
         until, bounces = limits_of(body, len(scene.balls))
-        fly, ready = self._worlds.flight(body, document, scene)
+        way, dt = way_of(body)
+        fly, ready = worlds.flight(body, document, scene)
         most = bounces if ready else min(bounces, max(1, INTERPRETED_CONTACTS // len(scene.balls)))
         run = fly(until, most)
         table = run_table(run, horizon="until" in body)
         if most < bounces and Ending.BOUNCE_LIMIT in run.ending:  # the page asks again, the compiler ready by then
             table |= {"partial": True, "duration": float(run.final["time"].min())}
-        return table
+        stepped = None if way == "exact" else ways.stepped_of(run, way, dt)
+        if stepped is not None:
+            table["stepped"] = ways.stepped_table(run, stepped)
+        return run, stepped, table
+
+    def check(self, document: Document) -> Table:
+        """Give all that is doubtful, leaks among it: what `wallkit check` finds, in its words."""
+        from wallkit.scene.look_over import given_of, look_over
+
+        found = look_over(given_of(document.opened), None).problems
+        return {"problems": self.problems_table(found, document.name)}
+
+    def settle(self, body: Table, document: Document) -> Table:
+        """Move discs that overlap a wall to the nearest free spot, as `simulate --settle` does."""
+        from wallkit.scene.start_overlaps import settled
+
+        return {"balls": balls_table(settled(scene_of(body, document)).balls)}
 
     def aim(self, body: Table, document: Document) -> Table:
         """Find all shots of a ball that reach a target."""
@@ -113,7 +148,7 @@ class Answers:
         return aiming.windows_table(windows)
 
     def save(self, body: Table, document: Document) -> Download:
-        """Give the scene, the replay of its run or the walls as a file."""
+        """Give the scene, the walls, or the run: as a replay, or with the frames of its way as a picture or a film."""
         stem = re.sub(r"[^A-Za-z0-9_-]+", "-", Path(document.name).stem).strip("-")[:60] or "wallkit"
         what = body.get("what")
         if what == "walls":
@@ -125,17 +160,23 @@ class Answers:
         if what == "scene":
             from wallkit.scene.scene_files import scene_to_json
 
-            content = json.dumps(scene_to_json(scene, until), allow_nan=False)
+            lesson = document.opened.lesson
+            said = {"lesson": lesson.to_json()} if lesson is not None else {}
+            content = json.dumps(scene_to_json(scene, until) | said, allow_nan=False)
             return Download(f"{stem}.scene.json", content, "application/json")
-        if what == "replay":
-            from wallkit.view.replay import replay_html
-
+        if what in ("replay", "picture", "film"):
             fly, ready = self._worlds.flight(body, document, scene)
             if not ready:  # a file is whole, or is none
                 raise CompilingError
-            page = replay_html(fly(until, bounces), title=document.name)
-            return Download(f"{stem}.html", page, "text/html; charset=utf-8")
-        raise QuestionError(f"what is {what!r}", code="bad-request", fix='give "scene", "replay" or "walls"')
+            run, (way, dt) = fly(until, bounces), way_of(body)
+            if what == "replay":
+                from wallkit.view.replay import replay_html
+
+                page = replay_html(run, title=document.name, lesson=document.opened.lesson)
+                return Download(f"{stem}.html", page, "text/html; charset=utf-8")
+            stepped = None if way == "exact" else ways.stepped_of(run, way, dt)
+            return _film(stem, run, stepped) if what == "film" else _picture(stem, run, stepped, document.name)
+        raise QuestionError(f"what is {what!r}", code="bad-request", fix=f"give one of {', '.join(SAVED)}")
 
     def document_table(self, document: Document) -> Table:
         """Give all that the page shows of a document."""
@@ -158,8 +199,9 @@ class Answers:
             "curves": document.importing.curves if opened.drawing is not None else curves_of(walls),
             "tolerance": walls.tolerance,
             "walls": walls_table(walls, begin[:, :2], opened.scene.sensors),
-            "problems": self.problems_table(document),
+            "problems": self.problems_table(opened.problems, document.name),
             "balls": balls_table(opened.scene.balls),
+            "lesson": opened.lesson.to_json() if opened.lesson is not None else None,
             "targets": aiming.targets_of(opened.scene),
             "gravity": opened.scene.gravity,
             "materials": {
@@ -170,11 +212,10 @@ class Answers:
             "box": united([*boxes, *((x, y, x, y) for x, y, _, _ in begin.tolist())]),
         }
 
-    def problems_table(self, document: Document) -> list[Table]:
-        """Give the findings with the command line's words; of very many the first, and how many there are more."""
-        problems = document.opened.problems
+    def problems_table(self, problems: Sequence[Problem], name: str) -> list[Table]:
+        """Give findings with the command line's words; of very many the first, and how many there are more."""
         table = [
-            {**problem.to_json(), "text": self.reader.describe_problem(problem, document.name)}
+            {**problem.to_json(), "text": self.reader.describe_problem(problem, name)}
             for problem in problems[:MOST_PROBLEMS]
         ]
         if len(problems) > MOST_PROBLEMS:
@@ -182,6 +223,20 @@ class Answers:
             table.append({**table[-1], "severity": "info", "message": more, "fix": "", "text": more, "layer": "",
                           "name": "", "x": None, "y": None})  # fmt: skip
         return table
+
+
+def _picture(stem: str, run: Run, stepped: Stepped | None, title: str) -> Download:
+    from wallkit.view.run_picture import run_canvas
+    from wallkit.view.ways_picture import ways_canvas
+
+    canvas = run_canvas(run, title=title) if stepped is None else ways_canvas(run, stepped, title=title)
+    return Download(f"{stem}.svg", canvas.to_svg(), "image/svg+xml")
+
+
+def _film(stem: str, run: Run, stepped: Stepped | None) -> Download:
+    from wallkit.view.film import film
+
+    return Download(f"{stem}.gif", film(run, "gif", seconds=FILM_SECONDS, stepped=stepped), "image/gif")
 
 
 def wishes_of(importing: ImportOptions) -> Wishes:
@@ -205,6 +260,15 @@ def limits_of(body: Table, balls: int) -> tuple[float | None, int]:
     most = MOST_CONTACTS // max(balls, 1)
     asked = most if bounces is None else int(number(bounces, "bounces", 0, MOST_CONTACTS))
     return end, min(asked, most)
+
+
+def way_of(body: Table) -> tuple[Way, float]:
+    """Take the way in which contacts within a frame are treated, ``"exact"`` if none is asked for, and dt."""
+    said = body.get("way") or "exact"
+    way = next((way for way in ways.WAYS if way == said), None)
+    if way is None:
+        raise QuestionError(f"way is {str(said)[:60]}", code="bad-request", fix=f"give one of {', '.join(ways.WAYS)}")
+    return way, 1.0 if way == "exact" else number(body.get("dt"), "dt", ways.LEAST_DT, ways.MOST_DT)
 
 
 def number(value: object, name: str, least: float = -math.inf, most: float = math.inf) -> float:

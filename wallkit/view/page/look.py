@@ -8,7 +8,8 @@ from importlib.resources import files
 from wallkit.view.theme import MATERIALS, RAMP_STEPS, Theme, colour, ramp
 
 # Scripts in the order in which they build on one another.
-SHARED_SCRIPTS = ("pendulum.js", "motion.js", "stage.js", "walls.js", "player.js", "readout.js", "controls.js")
+SHARED_SCRIPTS = ("pendulum.js", "motion.js", "stage.js", "walls.js", "player.js", "readout.js", "controls.js",
+                  "lesson.js", "legend.js", "sheet.js")  # fmt: skip
 
 _NAMES = ("paper", "ink", "muted", "outline", "hidden", "normal", "error", "warning", "info",
           *(f"material{index}" for index in range(MATERIALS)))  # fmt: skip
@@ -38,7 +39,7 @@ def theme_css() -> str:
     """Give the colours as CSS variables: as the reader prefers, or as ``data-theme`` on the root says."""
     rules = []
     for index, theme in enumerate(_THEMES):
-        values = {name: colour(name, theme) for name in _NAMES if not name.startswith("material")}
+        values = {name: colour(name, theme) for name in _NAMES}
         values |= {name: pair[index] for name, pair in _SURFACES.items()}
         values["accent"] = values["info"]
         body = "".join(f"--{name}:{value};" for name, value in values.items()) + f"color-scheme:{theme};"

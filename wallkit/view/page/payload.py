@@ -19,7 +19,7 @@ from wallkit.simulation.gliding import guides
 from wallkit.simulation.run import Ending, Run, one_a_ball, turns_in
 from wallkit.view.frame import walls_box
 from wallkit.view.outline import solid_areas
-from wallkit.view.picture import shades
+from wallkit.view.picture import material_legend, shades
 from wallkit.walls import Walls
 
 Table = dict[str, Any]
@@ -63,6 +63,9 @@ def walls_table(walls: Walls, free: FloatArray | None = None, sensors: Walls | N
         "edges": len(walls.edge_starts),
         "y_axis": walls.y_axis,
         "units": walls.units,
+        "legend": [
+            {"shade": int(style.removeprefix("material")), "words": words} for style, words in material_legend(walls)
+        ],
         "sensors": walls_table(sensors) if sensors is not None and len(sensors) else None,
     }
 

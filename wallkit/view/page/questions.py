@@ -74,7 +74,7 @@ class Reply:
     """One answer.
 
     Attributes:
-        content: the text that is sent.
+        content: the text, or the bytes of a film, that are sent.
         media: its type.
         download: a file's name, where the person shall keep it.
         document: what was opened, or imported again.
@@ -84,7 +84,7 @@ class Reply:
         internal: an error that nobody meant, in words.
     """
 
-    content: str = field(default="", repr=False)
+    content: str | bytes = field(default="", repr=False)
     media: str = JSON
     download: str = ""
     document: Kept | None = None

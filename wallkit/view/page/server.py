@@ -15,21 +15,31 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 from urllib.parse import parse_qs, quote, urlsplit
 
-import numpy as np
-
 from importers.errors import WallkitError
 from wallkit.scene.opening import USUAL
-from wallkit.scene.samples import Sample, samples
+from wallkit.scene.samples import Sample, lessons, samples, shown
 from wallkit.view.page import look
 from wallkit.view.page.answers import MOST_CONTACTS
 from wallkit.view.page.payload import Table, inlined
 from wallkit.view.page.questions import Opening
+from wallkit.view.page.thumbnail import thumbnail
 from wallkit.view.page.workers import QUESTIONS, InternalError, LostError, Workers
 
 MAX_BODY = 32 * 1024 * 1024
 PATIENCE = 30.0  # seconds that a connection may say nothing
-PAGE_SCRIPTS = (*look.SHARED_SCRIPTS, "desk.js", "windows.js", "aim.js", "panel.js", "gallery.js", "page.js")
-PAGE_STYLES = ("theme.css", "look.css", "page.css")
+_OWN_SCRIPTS = (
+    "desk.js",
+    "windows.js",
+    "aim.js",
+    "panel.js",
+    "checks.js",
+    "ways.js",
+    "panels.js",
+    "gallery.js",
+    "page.js",
+)
+PAGE_SCRIPTS = (*look.SHARED_SCRIPTS, *_OWN_SCRIPTS)
+PAGE_STYLES = ("theme.css", "look.css", "page.css", "ways.css", "cards.css", "sheet.css")
 
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "
@@ -96,28 +106,11 @@ class PageServer(ThreadingHTTPServer):
     def picture(self, name: str) -> str | None:
         """Draw a sample's walls, once."""
         if name not in self.pictures:
-            sample = next((sample for sample in samples() if sample.name == name), None)
+            sample = next((sample for sample in shown() if sample.name == name), None)
             if sample is None:
                 return None
-            self.pictures[name] = _drawn(sample)
+            self.pictures[name] = thumbnail(sample.path)
         return self.pictures[name]
-
-
-def _drawn(sample: Sample) -> str:
-    """Give the small picture of a sample: its walls alone."""
-    from wallkit.scene.opening import Wishes, open_scene
-    from wallkit.view.frame import united, walls_box
-    from wallkit.view.picture import draw_walls, started
-
-    try:
-        scene = open_scene(sample.path, Wishes(may_be_empty=True)).scene
-    except WallkitError:  # a sample of errors has no picture
-        return '<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>'
-    box = united([walls_box(scene.walls)] if len(scene.walls) else [])
-    canvas, frame = started(box, scene.walls.y_axis == "up", title="", width=420)
-    canvas.height = frame.height + 2 * frame.top
-    draw_walls(canvas, scene.walls, frame, normals=False, free=np.asarray(scene.balls.position))
-    return canvas.to_svg()
 
 
 class Handler(BaseHTTPRequestHandler):
@@ -144,7 +137,9 @@ class Handler(BaseHTTPRequestHandler):
             self._refuse(refused.status, refused.words)
         except WallkitError as error:
             words = self.server.workers.reader.describe(error)
-            self._send_json({"error": words}, _STATUS.get(type(error), HTTPStatus.UNPROCESSABLE_ENTITY))
+            self._send_json(
+                {"error": words, "code": error.code}, _STATUS.get(type(error), HTTPStatus.UNPROCESSABLE_ENTITY)
+            )
         except OSError:  # the browser went away, or said nothing for too long
             self.close_connection = True
         except Exception as error:  # whatever it is, the page hears of it and the server goes on
@@ -226,7 +221,8 @@ class Handler(BaseHTTPRequestHandler):
             "token": self.server.token,
             "colours": look.colours(),
             "limits": {"body": MAX_BODY, "contacts": MOST_CONTACTS},
-            "samples": [{"name": s.name, "title": s.title, "about": s.about} for s in samples()],
+            "lessons": [_card(sample) for sample in lessons()],
+            "samples": [_card(sample) for sample in samples()],
             "document": self.server.document,
             "refused": self.server.refused,
         }
@@ -243,9 +239,15 @@ class Handler(BaseHTTPRequestHandler):
         self._send(words + "\n", "text/plain; charset=utf-8", status=status)
 
     def _send(
-        self, text: str, media: str, policy: str = POLICY, *, status: HTTPStatus = HTTPStatus.OK, download: str = ""
+        self,
+        body: str | bytes,
+        media: str,
+        policy: str = POLICY,
+        *,
+        status: HTTPStatus = HTTPStatus.OK,
+        download: str = "",
     ) -> None:
-        content = text.encode("utf-8")
+        content = body.encode("utf-8") if isinstance(body, str) else body
         self.send_response(status)
         self.send_header("Content-Type", media)
         self.send_header("Content-Length", str(len(content)))
@@ -265,6 +267,10 @@ class Handler(BaseHTTPRequestHandler):
 
     def log_message(self, format: str, *args: Any) -> None:
         """Keep the terminal quiet; the address is all that it should show."""
+
+
+def _card(sample: Sample) -> Table:
+    return {"name": sample.name, "title": sample.title, "about": sample.about}
 
 
 def _parsed(body: bytes) -> Table:

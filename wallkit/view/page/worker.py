@@ -97,6 +97,10 @@ def _replied(question: Question, answers: Answers, documents: Documents) -> Repl
         return _shown(answers.saved(question.data, document), answers, documents)
     if question.name == "document":
         return Reply(_text(answers.document_table(document)))
+    if question.name == "check":
+        return Reply(_text(answers.check(document)))
+    if question.name == "settle":
+        return Reply(_text(answers.settle(question.body, document)))
     if question.name == "simulate":
         return Reply(_text(answers.simulate(question.body, document)))
     if question.name == "aim":

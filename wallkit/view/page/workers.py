@@ -28,8 +28,8 @@ from wallkit.view.page.worker import Make, work
 from wallkit.watch_file import Watch
 
 Gone = Callable[[], bool]
-QUESTIONS = ("sample", "walls", "saved", "simulate", "aim", "save")
-_ABOUT_DOCUMENTS = ("walls", "simulate", "aim", "save")
+QUESTIONS = ("sample", "walls", "saved", "check", "settle", "simulate", "aim", "save")
+_ABOUT_DOCUMENTS = ("walls", "check", "settle", "simulate", "aim", "save")
 
 
 class GoneError(ConnectionError):

@@ -6,7 +6,12 @@
 
   const GRACE = 1000; // ms in which an answer may still come before its request is taken back
 
-  class Refused extends Error {}
+  class Refused extends Error {
+    constructor(words, code = "") {
+      super(words);
+      this.code = code;
+    }
+  }
 
   // Posts JSON (or a file's bytes) and gives the answer; a refusal is an error with the library's own words.
   // `signal` takes the request back: the error is the browser's own AbortError then.
@@ -25,7 +30,7 @@
     const json = response.headers.get("Content-Type")?.startsWith("application/json");
     if (json && !response.headers.has("Content-Disposition")) {
       const answer = await response.json();
-      if (answer.error) throw new Refused(answer.error);
+      if (answer.error) throw new Refused(answer.error, answer.code);
       return answer;
     }
     if (!response.ok) throw new Refused(await response.text());
@@ -70,7 +75,7 @@
           if (!this.stale && !this.waiting) this.answered(answer, body);
         } catch (error) {
           if (!(error instanceof Refused) && !W.takenBack(error)) throw error;
-          if (!this.stale && !this.waiting) this.refused(error.message, body);
+          if (!this.stale && !this.waiting) this.refused(error.message, error.code);
         } finally {
           clearTimeout(way.timer);
         }

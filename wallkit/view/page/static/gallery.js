@@ -19,7 +19,12 @@
     }
 
     fill() {
-      const cards = W.data.samples.map((sample) => {
+      this.list("lesson-list", W.data.lessons);
+      this.list("sample-list", W.data.samples);
+    }
+
+    list(id, samples) {
+      const cards = samples.map((sample) => {
         const card = W.element("li");
         const button = W.element("button");
         button.type = "button";
@@ -32,7 +37,7 @@
         card.append(button);
         return card;
       });
-      $("sample-list").replaceChildren(...cards);
+      $(id).replaceChildren(...cards);
     }
 
     open() {

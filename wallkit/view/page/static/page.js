@@ -23,14 +23,18 @@
       this.aim.changed = () => this.aimed();
       this.aim.placed = () => this.togglePlacing(false);
       this.stage.tap = (place) => this.tapped(place);
-      this.foretelling = new W.Lane("api/simulate", (answer) => this.foretold(answer), (words) => this.unclear(words));
-      this.flying = new W.Lane("api/simulate", (answer, asked) => this.flown(answer, asked), (words) => this.complain(words));
+      this.foretelling = new W.Lane("api/simulate", (answer) => this.foretold(answer), (words, code) => this.unclear(words, code));
+      this.flying = new W.Lane("api/simulate", (answer, asked) => this.flown(answer, asked), (words, code) => this.unflown(words, code));
       this.importing = new W.Lane("api/walls", (answer) => this.show(answer, true), (words) => this.complain(words));
       this.following = new W.Lane("api/saved", (answer) => this.followed(answer), (words) => this.unread(words));
       W.viewButtons(this.stage);
       W.showBoxes(this.player);
       this.gallery = new W.Gallery(this);
       this.controls = new W.Panel(this);
+      this.ways = new W.Ways(this);
+      this.panels = new W.Panels(this);
+      this.checks = new W.Checks(this);
+      W.sheet("Controls", [$("shots")]);
       this.listen();
     }
 
@@ -76,9 +80,13 @@
         this.stage.front.focus({ preventScroll: true });
       }
       this.controls.show(document, again);
+      W.showLesson(document.lesson);
+      if (!again) this.ways.choice.set(document.lesson?.way ?? "exact", document.lesson?.dt);
+      W.showLegend(document.walls.legend);
       this.windows.show(document, again);
       if (this.shot) this.rerun();
       else this.foretell();
+      this.checks.look();
       this.follow();
     }
 
@@ -113,6 +121,11 @@
       return { document: this.document.id, ...this.controls.world() };
     }
 
+    // The same with the frames to be shown, in one panel or two.
+    flight() {
+      return { ...this.question(), ...this.ways.question(), ...this.panels.question() };
+    }
+
     foretell() {
       if (!this.document || !this.aim.ball) return;
       this.aim.foretell(this.foretelling, this.question());
@@ -126,15 +139,21 @@
     }
 
     // The library cannot tell (a ball inside a wall, mostly): said quietly, since aiming goes on.
-    unclear(words) {
+    unclear(words, code) {
       this.aim.foretold = null;
-      this.say(words.split("\n")[0].replace(/^wallkit: /, ""));
+      this.say(words.split("\n")[0].replace(/^wallkit: /, ""), code);
       this.player.wake();
     }
 
-    say(words) {
+    unflown(words, code) {
+      if (code === "overlap") this.unclear(words, code);
+      else this.complain(words);
+    }
+
+    say(words, code) {
       $("toast").textContent = words;
       $("toast").hidden = !words;
+      this.checks.offer(code);
     }
 
     complain(words) {
@@ -156,6 +175,8 @@
       this.player.pause();
       this.player.time = 0;
       this.player.load(null);
+      this.ways.load(null);
+      this.panels.load(null);
       this.readOut.refresh(true);
     }
 
@@ -166,7 +187,7 @@
     }
 
     rerun() {
-      this.flying.ask({ ...this.question(), ...this.shot, again: true });
+      this.flying.ask({ ...this.flight(), ...this.shot, again: true });
       this.sayWhenSlow();
     }
 
@@ -202,7 +223,7 @@
       const until = (FIRST * this.size) / Math.max(speed, falling, 1e-6 * this.size);
       this.shot = { balls, until, alone };
       this.asking = false;
-      this.flying.ask({ ...this.question(), ...this.shot });
+      this.flying.ask({ ...this.flight(), ...this.shot });
       this.sayWhenSlow();
     }
 
@@ -214,6 +235,8 @@
       this.asking = false;
       if (answer.partial) setTimeout(() => this.wantsMore(), 1500); // meanwhile the compiler works
       this.shot = { balls: asked.balls, until: asked.until, alone: asked.alone };
+      this.ways.load(answer);
+      this.panels.load(answer);
       if (asked.again) return this.player.load(motion);
       this.player.time = 0;
       this.player.load(motion);
@@ -228,7 +251,7 @@
       if (!this.asking) {
         this.asking = true;
         const until = (motion.partial ? 1 : 2) * this.shot.until;
-        this.flying.ask({ ...this.question(), ...this.shot, until, again: true });
+        this.flying.ask({ ...this.flight(), ...this.shot, until, again: true });
       }
       return true;
     }
@@ -237,6 +260,7 @@
       const { motion } = this.player;
       if (this.player.playing && motion && !motion.partial && this.player.time > 0.6 * motion.duration) this.wantsMore();
       this.readOut.refresh();
+      this.panels.follow();
     }
 
     tapped(place) {
@@ -276,10 +300,12 @@
 
     async save(what) {
       if (!this.document) return;
-      const until = this.player.motion ? this.player.motion.duration : undefined;
+      const { motion, time } = this.player;
+      const seen = ["picture", "film"].includes(what) && time > 0;
+      const until = seen ? time : motion ? motion.duration : undefined;
       const { balls, alone } = this.shot ?? this.aim;
       try {
-        const response = await W.ask("api/save", { ...this.question(), balls, alone, until, what });
+        const response = await W.ask("api/save", { ...this.flight(), balls, alone, until, what });
         const name = /filename="([^"]+)"/.exec(response.headers.get("Content-Disposition"))[1];
         const link = document.createElement("a");
         link.href = URL.createObjectURL(await response.blob());

@@ -13,6 +13,12 @@
     find("h1").textContent = document.title = W.data.title;
     find("#notes").textContent = W.data.run.left_out;
     find("#notes").hidden = !W.data.run.left_out;
+    W.showLesson(W.data.lesson);
+    document.body.classList.toggle("with-lesson", W.data.lesson !== null);
+    W.showLegend(W.data.walls.legend);
+    W.sheet(W.data.lesson ? "Lesson and numbers" : "Numbers");
+    const frames = W.data.frames && new W.Frames(W.data.frames);
+    if (frames) player.decorate = (ctx, colours) => W.drawFrames(ctx, player, frames, colours);
     W.showBoxes(player);
     W.viewButtons(stage);
     player.onframe = () => readOut.refresh();
@@ -20,7 +26,7 @@
     stage.show(W.data.box, picture.up);
     player.load(new W.Motion(W.data.run));
     player.suitRate();
-    W.replay = { stage, player }; // for tests: where a place lands (stage.screenX, screenY), what the clock says
+    W.replay = { stage, player, frames }; // for tests: where a place lands (stage.screenX, screenY), what the clock says
     if (!W.stillness()) player.play();
   };
 

@@ -119,6 +119,14 @@
       ctx.strokeStyle = colours.hidden;
       ctx.stroke();
       ctx.setLineDash([]);
+      ctx.font = "12.5px system-ui, sans-serif";
+      ctx.textAlign = "center";
+      ctx.textBaseline = "middle";
+      ctx.fillStyle = colours.muted;
+      for (let w = 0; w < this.count; w++) {
+        const [x0, y0, x1, y1] = this.boxes[w];
+        if (this.names[w]) ctx.fillText(this.names[w], stage.screenX((x0 + x1) / 2), stage.screenY((y0 + y1) / 2));
+      }
     }
 
     fill(ctx, stage, colours, points) {
