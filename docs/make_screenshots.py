@@ -62,8 +62,9 @@ def wait(page: Any, condition: str) -> None:
 
 
 def gallery(page: Any) -> None:
-    """Wait for the pictures of the samples."""
-    wait(page, "[...document.images].every((image) => image.complete)")
+    """Wait for the pictures of the samples that are in sight; others load when they come into it."""
+    seen = "[...document.images].filter((image) => image.getBoundingClientRect().top < innerHeight)"
+    wait(page, f"{seen}.every((image) => image.complete)")
 
 
 def aiming(page: Any) -> None:
@@ -96,6 +97,7 @@ def stepping(page: Any) -> None:
 def problems(page: Any) -> None:
     """Go to a problem in the list."""
     opened(page, "Leaky room")
+    wait(page, "!Wallkit.page.checks.looking.busy")
     page.locator("#problems button").last.click()
     wait(page, "!Wallkit.page.player.asked")
 
@@ -118,6 +120,14 @@ def ways(page: Any) -> None:
     wait(page, "!Wallkit.page.player.asked")
 
 
+def lesson(page: Any) -> None:
+    """The lesson of frames: its text beside the ball that flies through a wall."""
+    opened(page, "The frame that flies through")
+    flying(page, "#shoot", 0.0)
+    page.evaluate("Wallkit.page.player.seek(0.27)")
+    wait(page, "!Wallkit.page.player.asked")
+
+
 SHOTS = (
     Shot("page-gallery", DESKTOP, "light", gallery),
     Shot("page-aim", DESKTOP, "light", aiming),
@@ -125,6 +135,7 @@ SHOTS = (
     Shot("page-bounce", DESKTOP, "light", stepping),
     Shot("page-problem", DESKTOP, "dark", problems),
     Shot("page-ways", DESKTOP, "light", ways),
+    Shot("page-lesson", DESKTOP, "light", lesson),
     Shot("page-phone", PHONE, "light", phone),
 )
 

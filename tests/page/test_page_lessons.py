@@ -116,4 +116,4 @@ def test_a_phone_is_filled_by_the_drawing_and_the_controls_are_a_sheet(opened, s
     until(page, "document.getElementById('shots').closest('#panel') !== null")
     assert page.locator("#panel").is_visible()
     assert page.locator("#sheet-button").is_hidden()
-    assert page.evaluate("document.getElementById('shots').nextElementSibling.className") == "fields"
+    assert page.evaluate("document.getElementById('panel').firstElementChild.id") == "shots"
