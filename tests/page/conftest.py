@@ -1,9 +1,17 @@
 """A browser for the tests of the page and the replay, or a reason why there is none."""
 
+import json
 import os
 import shutil
+import threading
+from dataclasses import replace
 
 import pytest
+
+from wallkit.cli.play import reader
+from wallkit.view.page.bounds import HEAVY
+from wallkit.view.page.server import PageServer
+from wallkit.view.page.workers import Workers
 
 ARGUMENTS = [
     "--no-sandbox",
@@ -14,7 +22,7 @@ ARGUMENTS = [
     "--disable-component-update",
     "--disable-sync",
 ]
-PATIENCE = 240_000  # milliseconds: a slow machine with other work may have to compile first
+PATIENCE = 60_000  # milliseconds: a slow machine with other work may have to compile first
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 
@@ -85,3 +93,49 @@ def opened(browser):
     for context, watch in contexts:
         context.close()
         watch.check()
+
+
+@pytest.fixture(scope="module")
+def server():
+    bounds = replace(HEAVY, seconds=PATIENCE / 1000)  # bounds have tests of their own
+    with PageServer(Workers(reader(), bounds)) as running:
+        threading.Thread(target=running.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True).start()
+        yield running
+        running.shutdown()
+
+
+@pytest.fixture
+def page(opened, server):
+    return opened(server.url)
+
+
+@pytest.fixture
+def drop(until):
+    """Drop a file on the page, as a hand would: a drag with a file in it."""
+
+    def dropped(page, name, text, waits=True):
+        data = page.evaluate_handle(
+            """([name, text]) => { const transfer = new DataTransfer();
+            transfer.items.add(new File([text], name)); return transfer; }""",
+            [name, text],
+        )
+        page.dispatch_event("body", "dragover", {"dataTransfer": data})
+        page.dispatch_event("body", "drop", {"dataTransfer": data})
+        if waits:
+            until(page, f"Wallkit.page.document && Wallkit.page.document.name === {json.dumps(name)}")
+
+    return dropped
+
+
+@pytest.fixture
+def accessible():
+    """See that axe-core finds nothing wrong with a page as it is now, in light and in dark."""
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
+
+    def looked_at(page, **options):
+        for scheme in ("light", "dark"):
+            page.emulate_media(color_scheme=scheme)
+            found = axe.Axe().run(page, **options).response["violations"]
+            assert [(rule["id"], node["html"][:120]) for rule in found for node in rule["nodes"]] == [], scheme
+
+    return looked_at

@@ -50,7 +50,7 @@ def replay_html(run: Run, *, title: str = "", max_contacts: int = MAX_CONTACTS) 
         "run": run_table(shown, left_out=left_out),
         "box": whole_box(run),
     }
-    style = look.theme_css() + look.part("look.css") + look.part("replay.css")
+    style = look.theme_css() + "".join(look.part(name) for name in (*look.SHARED_STYLES, "replay.css"))
     script = "\n".join(look.part(name) for name in (*look.SHARED_SCRIPTS, "replay.js"))
     policy = f"default-src 'none'; img-src data:; script-src {_hash(script)}; style-src {_hash(style)}"
     return look.filled(

@@ -15,12 +15,18 @@
     find("#notes").hidden = !W.data.run.left_out;
     W.showBoxes(player);
     W.viewButtons(stage);
-    player.onframe = () => readOut.refresh();
+    const instruments = new W.Instruments(player);
+    player.onframe = () => {
+      readOut.refresh();
+      instruments.refresh();
+    };
     player.showWalls(picture);
     stage.show(W.data.box, picture.up);
+    instruments.begin(W.data.box);
     player.load(new W.Motion(W.data.run));
+    instruments.graphs.fit();
     player.suitRate();
-    W.replay = { stage, player }; // for tests: where a place lands (stage.screenX, screenY), what the clock says
+    W.replay = { stage, player, instruments }; // for tests: where a place lands (stage.screenX, screenY), what the clock says
     if (!W.stillness()) player.play();
   };
 
