@@ -8,7 +8,16 @@ from importlib.resources import files
 from wallkit.view.theme import MATERIALS, RAMP_STEPS, Theme, colour, ramp
 
 # Scripts in the order in which they build on one another.
-SHARED_SCRIPTS = ("pendulum.js", "motion.js", "stage.js", "walls.js", "player.js", "readout.js", "controls.js")
+SHARED_SCRIPTS = (
+    "pendulum.js",
+    "slowed.js",
+    "motion.js",
+    "stage.js",
+    "walls.js",
+    "player.js",
+    "readout.js",
+    "controls.js",
+)
 
 _NAMES = ("paper", "ink", "muted", "outline", "hidden", "normal", "error", "warning", "info",
           *(f"material{index}" for index in range(MATERIALS)))  # fmt: skip
