@@ -168,6 +168,42 @@ def test_what_slows_a_ball_down_leaves_its_errors_as_they_are(acts):
     assert run.trusted_until(1e-12)[0].reason == plain.trusted_until(1e-12)[0].reason
 
 
+def test_a_small_error_grows_as_two_runs_with_drag_under_gravity_part():
+    walls = Walls.from_polylines(
+        [[(-6, -4), (6, -4), (6, 8), (-6, 8)], [(-2.0, 0.0), (2.0, 0.5)]],
+        closed=[True, False],
+        bulges=[[0.3, 0.0, -0.1, 0.2], [0.4, 0.0]],
+        material=[Material(0.98, 0.97), Material(0.95, 1.0)],
+    )
+    acts, tiny, error = {"gravity": (0.2, -3.0), "drag": 0.15}, 1e-8, np.array([0.6, 0.3, 0.2, 0.7])
+    begin = np.array([0.3, 4.0, 2.0, 1.0])
+    runs = [
+        simulate(Scene(walls, Balls([state[0:2]], [state[2:4]], 0.5), **acts), bounces=9)
+        for state in (begin, begin + tiny * error)
+    ]
+    grown = np.cumsum(horizon.growth(runs[0].scene, runs[0].contacts))
+    for contact, expected in zip(runs[0].contacts[:8], grown, strict=False):
+        time = float(contact["time"]) + 1e-5  # when both have had it
+        states = [np.concatenate([run.position(time)[0], run.velocity(time)[0]]) for run in runs]
+        assert np.hypot.reduce(states[1] - states[0]) == pytest.approx(tiny * math.exp(expected), rel=1e-3)
+
+
+@pytest.mark.parametrize("drag", [0.01, 0.4])
+def test_a_way_with_drag_that_turns_round_just_below_a_ceiling_is_noticed(drag):
+    # up from 2 it comes by v / k - g log(1 + k v / g) / k^2, to 1e-8 below where a disc of radius 1 touches
+    gravity, way = 9.81, 5.0 - 1e-8
+    low, high = 1.0, 40.0
+    for _ in range(200):
+        up = 0.5 * (low + high)
+        low, high = (up, high) if up / drag - gravity * math.log1p(drag * up / gravity) / drag**2 < way else (low, up)
+    walls = scenes.room([(0, 0), (0, 8), (20, 8), (20, 0)])
+    scene = Scene(walls, Balls([(3.0, 2.0)], [(2.0, up)], 1.0), gravity=(0.0, -gravity), drag=drag)
+    contacts = simulate(scene, bounces=1).contacts
+    near = list(near_misses(scene, horizon._flights(scene, contacts, 0), 1.0, 1e-6))
+    clear = [found for flights, found, what in near if what == NEAR_GRAZE and len(flights)]
+    assert clear[0][0] == pytest.approx(1e-8, abs=1e-11)
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_no_contact_under_gravity_is_farther_off_than_promised(seed):
     # a room with some round sides and things in it; what is promised is three times the root mean square of errors that

@@ -91,6 +91,24 @@ def test_slowed_balls_are_drawn_where_the_library_says(shown, slows):
 
 
 @pytest.mark.browser
+@pytest.mark.parametrize("slows", [{"rolling_friction": 9.0}, {"drag": 0.2}, {"rolling_friction": 3.0, "drag": 0.1}])
+def test_falling_balls_that_are_slowed_are_drawn_where_the_library_says(shown, slows):
+    bowl = Walls.from_polylines(
+        [[(0, 0), (120, 0), (180, 60)], [(200, 200), (380, 200)]],
+        closed=False,
+        bulges=[[0.4, 0.3, 0.0], [0.5, 0.0]],
+        material=Material(0.5, 1.0),
+    )
+    balls = Balls([(30, 60), (100, 80), (230, 240)], [(3, 0), (40, 0), (10, 5)], [4.0, 0.0, 8.0])
+    run = simulate(Scene(bowl, balls, gravity=(0.0, -60.0), **slows), until=12.0)
+    assert Kind.SLIDE in run.contacts["kind"]
+    page = shown(run)
+    for time in [*np.linspace(0.0, 12.0, 30), *run.contacts["time"][::5]]:
+        for ball, place in enumerate(run.position(time)):
+            assert drawn_at(page, ball, float(time)) == pytest.approx(expected_at(page, place), abs=1e-6)
+
+
+@pytest.mark.browser
 def test_sensors_are_drawn_and_change_no_flight(shown):
     gate = Walls.from_polylines([[(100, 0), (100, 300)]], closed=False, names=["gate"])
     run = simulate(replace(scene(), sensors=gate), until=20.0)

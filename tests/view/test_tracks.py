@@ -89,6 +89,26 @@ def test_slowed_balls_are_where_the_run_says_and_their_paths_are_straight(acts):
         assert np.allclose(mine, run.position(t)[0], rtol=0, atol=1e-9)
 
 
+@pytest.mark.parametrize(
+    "acts", [{"rolling_friction": 0.4}, {"drag": 0.3}, {"rolling_friction": 0.4, "drag": 0.3}], ids=str
+)
+def test_balls_that_fall_slowed_are_near_where_the_run_says(acts):
+    walls = wallkit.Walls.from_polylines(
+        [[(0, 0), (10, 0), (10, 7), (0, 7)]], bulges=[[0.3, 0, 0, 0]], material=wallkit.Material(0.5, 1.0)
+    )
+    scene = wallkit.Scene(walls, wallkit.Balls([[3, 3]], [[3.0, 1]], 0.25), gravity=(0, -9.81), **acts)
+    run = wallkit.simulate(scene, until=8.0)
+    flight = tracks(run)
+    for t in np.linspace(0, 8, 81):
+        at = np.flatnonzero(flight.time <= t)[-1]
+        s = min(t, flight.until[at]) - flight.time[at]
+        mine = flight.position[at] + flight.velocity[at] * s + flight.pull[at] * s * s / 2
+        assert np.allclose(mine, run.position(t)[0], rtol=0, atol=1e-3)
+    s = flight.until - flight.time
+    reached = flight.position + flight.velocity * s[:, None] + flight.pull * (s * s / 2)[:, None]
+    assert np.allclose(reached, flight.target, rtol=0, atol=1e-6)
+
+
 def test_a_sensor_parts_no_stretch():
     walls = wallkit.Walls.from_polylines([[(0, 0), (10, 0), (10, 7), (0, 7)]])
     goal = wallkit.Walls.from_polylines([[(0, 3), (10, 3)]], closed=False)

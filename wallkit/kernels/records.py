@@ -305,10 +305,14 @@ class Model(NamedTuple):
     gravity: Any
     """(gx, gy), or None."""
     damping: Any
-    """(rolling friction, drag), one of them 0, or None."""
+    """(rolling friction, drag), one of them 0, or None; without gravity."""
     extent: float
     """Largest absolute local coordinate."""
     joints: Any
     """``Joint`` by end of an edge; None without gravity."""
     spokes: Any
     """By vertex: the lowest end of an edge at its place, or NO_HIT; None without gravity."""
+    rolling: Any
+    """Under gravity: coefficient of rolling friction, by which what presses a ball on a wall slows it down; or None."""
+    drag: Any
+    """Under gravity: rate k of dv/dt = g - k v, or None."""

@@ -118,7 +118,9 @@ class CheckWork(Work[CheckCounts]):
         states = initial_states(modelled, balls.position, balls.velocity)
         counts = np.tile(np.array(START, dtype=np.int64), (count, 1))
         hits = np.zeros(modelled.tallies, dtype=np.int64)
-        lasting = int(modelled.model.damping is None and self.goal is not None)
+        model = modelled.model
+        slowed = any(rate is not None for rate in (model.damping, model.rolling, model.drag))
+        lasting = int(not slowed and self.goal is not None)
         if count * limit <= PATIENCE:
             _interpret(modelled, lasting, watch, states, counts, first, until, limit, hits)
         else:

@@ -114,10 +114,12 @@ class Scene(Pictured):
         walls: see :class:`wallkit.walls.Walls`.
         balls: see :class:`Balls`.
         gravity: (gx, gy) in units per second squared, or None.
-        rolling_friction: constant deceleration of a rolling ball, units per second squared, 0 or more, or None.
-        drag: rate k of dv/dt = -k v, per second, 0 or more, or None; neither acts together with the other or with
-            gravity. Drag takes for ever to stop a ball; at 2^-50 of the speed with which its flight began the ball is
-            at rest.
+        rolling_friction: constant deceleration of a rolling ball, units per second squared, 0 or more, or None. Without
+            gravity a ball rolls on the plane of the drawing, all the time. Under gravity g it rolls on the walls to
+            which it keeps, and this is what it loses on a level one: where N presses it on a wall, N / |g| of it.
+        drag: rate k of dv/dt = -k v, per second, 0 or more, or None; under gravity of dv/dt = g - k v, in flight and on
+            the walls. Without gravity it does not act together with rolling friction. Drag takes for ever to stop a
+            ball; at 2^-50 of the speed with which its flight began, or its slide on a level wall, the ball is at rest.
         sensors: walls that report each crossing of a ball's centre and do not bounce it, or None.
         meeting: whether discs meet one another; points never do.
         ball_restitution: part of the relative speed along the line of centres that a contact of two discs leaves, 0

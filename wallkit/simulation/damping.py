@@ -3,37 +3,73 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.flight.damping import AS_GOOD_AS_NONE, last_flight
+from wallkit.kernels.impact.drag_motion import eased
 from wallkit.scene.scene import Scene, SceneError
 
 LEAST = 2.0**-500
 """A smaller friction or drag changes no digit of a run, and products with it would lose theirs."""
+LEAST_FALLING = 1e-70
+"""The same under gravity, where speeds and gravity are known to work from there on, see ``modelled.FALLING``."""
+
+
+class Slowing(NamedTuple):
+    """What slows balls down under gravity."""
+
+    rolling: float | None
+    """Coefficient of rolling friction: what presses a ball on a wall, times this, slows it down; or None."""
+    drag: float | None
+    """Rate k of dv/dt = g - k v, or None."""
 
 
 def damping_of(scene: Scene) -> FloatArray | None:
-    """What slows the balls of a scene down: (rolling friction, drag), one of them 0; or None.
+    """What slows the balls of a scene without gravity down: (rolling friction, drag), one of them 0; or None.
 
     Raises:
-        SceneError: a value is negative or not finite, or two things act that have no joint closed form.
+        SceneError: a value is negative or not finite, or both act, which have no joint closed form.
     """
+    friction, drag = _rates(scene)
+    if falls(scene) or (friction == 0.0 and drag == 0.0):
+        return None
+    if friction > 0.0 and drag > 0.0:
+        raise SceneError("rolling friction and drag act together", code="bad-damping", fix="give one of them")
+    return np.array([friction, drag])
+
+
+def slowing_of(scene: Scene) -> Slowing:
+    """What slows the balls of a scene under gravity down; nothing without gravity.
+
+    There a ball is pressed on the walls, not on the plane in which it moves: rolling friction acts on one that keeps
+    to a wall, and is what slows it down on a level one. So N / |g| of it acts where N presses the ball on the wall.
+
+    Raises:
+        SceneError: a value is negative or not finite.
+    """
+    friction, drag = _rates(scene)
+    if not falls(scene):
+        return Slowing(None, None)
+    pull = float(np.hypot(*np.ravel(scene.gravity or (0.0, 0.0))))
+    return Slowing(friction / pull if friction > 0.0 else None, drag if drag > 0.0 else None)
+
+
+def falls(scene: Scene) -> bool:
+    """Tell whether gravity acts."""
+    return scene.gravity is not None and any(scene.gravity)
+
+
+def _rates(scene: Scene) -> tuple[float, float]:
+    """Rolling friction and drag, 0 where they change no digit."""
     friction, drag = scene.rolling_friction or 0.0, scene.drag or 0.0
     for name, value in (("rolling_friction", friction), ("drag", drag)):
         if not (math.isfinite(value) and value >= 0.0):
             raise SceneError(f"{name} is {value!r}", code="bad-damping", fix="give a number, 0 or more")
-    if friction < LEAST and drag < LEAST:
-        return None
-    if friction > 0.0 and drag > 0.0:
-        raise SceneError("rolling friction and drag act together", code="bad-damping", fix="give one of them")
-    if scene.gravity is not None and any(scene.gravity):
-        raise SceneError(
-            "rolling friction and drag are for a plane without gravity", code="bad-damping", fix="leave one of them out"
-        )
-    return np.array([friction, drag])
+    least = LEAST_FALLING if falls(scene) else LEAST
+    return friction if friction >= least else 0.0, drag if drag >= least else 0.0
 
 
 def carried_on(damping: FloatArray, state: FloatArray, span: float) -> FloatArray:
@@ -50,6 +86,16 @@ def carried_on(damping: FloatArray, state: FloatArray, span: float) -> FloatArra
         return state
     t, kept, _time, _lost = last_flight(damping.tolist(), energy, 0.0, 0.0, span)
     return np.array([x + t * vx, y + t * vy, kept * vx, kept * vy])
+
+
+def flown_on(
+    drag: float | None, position: FloatArray, velocity: FloatArray, pull: FloatArray, time: FloatArray
+) -> FloatArray:
+    """(n, 4) x, y, vx, vy of (n, 2) positions and velocities after (n, 1) times of flight, see ``drag_motion``."""
+    if drag is None:
+        return np.hstack([position + time * (velocity + 0.5 * time * pull), velocity + time * pull])
+    left, free, second = np.array([eased(drag, float(t)) for t in time[:, 0]]).reshape(-1, 3).T[:, :, None]
+    return np.hstack([position + (velocity * free + pull * second), velocity * left + pull * free])
 
 
 def on_a_free_clock(damping: FloatArray, start: FloatArray, own: Any) -> tuple[FloatArray, FloatArray]:

@@ -10,7 +10,11 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import offset_of, radius_of
-from wallkit.kernels.flight.pendulum import swing
+from wallkit.kernels.flight.pendulum import swing, turned
+from wallkit.kernels.flight.slowed_contact import pull_ahead, slows, swing_on
+from wallkit.kernels.impact.drag_motion import carried
+from wallkit.kernels.records import GOES_ON
+from wallkit.simulation.damping import Slowing
 from wallkit.walls import Walls
 
 SLIDE = 2
@@ -51,11 +55,14 @@ def guides(walls: Walls, contacts: NDArray[Any]) -> FloatArray:
     return bent
 
 
-def glide(gravity: FloatArray, state: FloatArray, normal: FloatArray, bent: float, span: float) -> FloatArray:
+def glide(
+    gravity: FloatArray, slowing: Slowing, state: FloatArray, normal: FloatArray, bent: float, span: float
+) -> FloatArray:
     """Give x, y, vx, vy a time after a contact from which on a ball keeps to a wall.
 
     Args:
         gravity: (2,).
+        slowing: rolling friction and drag, of :func:`wallkit.simulation.damping.slowing_of`.
         state: (4,) x, y, vx, vy just after the contact.
         normal: (2,) unit, towards the ball.
         bent: signed radius of the centre's circle, see :func:`guides`; 0 for a straight wall.
@@ -63,12 +70,51 @@ def glide(gravity: FloatArray, state: FloatArray, normal: FloatArray, bent: floa
     """
     (x, y, vx, vy), (gx, gy), (nx, ny) = state.tolist(), gravity.tolist(), normal.tolist()
     if bent == 0.0:
-        along = gy * nx - gx * ny
-        ax, ay = -along * ny, along * nx
-        return np.array(
-            [x + span * (vx + 0.5 * span * ax), y + span * (vy + 0.5 * span * ay), vx + span * ax, vy + span * ay]
-        )
+        ax, ay = pull_along(gravity, slowing, state[2:4], normal).tolist()
+        return np.array(carried(slowing.drag, x, y, vx, vy, ax, ay, span))
     ex, ey = math.copysign(nx, nx * bent), math.copysign(ny, ny * bent)
     rho = abs(bent)
-    fx, fy, speed, dx, dy = swing(rho, gx, gy, ex, ey, vy * ex - vx * ey, span)
+    v = vy * ex - vx * ey
+    if slows(*slowing):
+        fx, fy, speed, dx, dy = _slowed(slowing, rho, math.copysign(1.0, bent), gx, gy, ex, ey, v, span)
+    else:
+        fx, fy, speed, dx, dy = swing(rho, gx, gy, ex, ey, v, span)
     return np.array([x + rho * dx, y + rho * dy, -speed * fy, speed * fx])
+
+
+def _slowed(
+    slowing: Slowing, rho: float, away: float, gx: float, gy: float, ex: float, ey: float, v: float, span: float
+) -> tuple[float, float, float, float, float]:
+    """``swing`` for a ball that is slowed down: it goes one way, for where it turns there is another contact."""
+    pull = gy * ex - gx * ey
+    turn = 1.0 if v > 0.0 or (v == 0.0 and pull > 0.0) else -1.0
+    speed, dx, dy = abs(v), 0.0, 0.0
+    while span > 0.0:
+        tx, ty = -turn * ey, turn * ex
+        u, speed, time, event = swing_on(*slowing, rho, away, ex, ey, tx, ty, gx, gy, speed, 1.0, span)
+        sine = 2.0 * u / (1.0 + u * u)
+        dx, dy = dx + sine * (tx - u * ex), dy + sine * (ty - u * ey)
+        ex, ey, _ux, _uy = turned(ex, ey, tx, ty, u)
+        span -= time
+        if event != GOES_ON:
+            break
+    return ex, ey, turn * speed, dx, dy
+
+
+def pull_along(gravity: FloatArray, slowing: Slowing, velocity: FloatArray, normal: FloatArray) -> FloatArray:
+    """Acceleration, drag aside, of a ball that keeps to a straight wall: gravity's part along it, less friction.
+
+    Args:
+        gravity: (2,).
+        slowing: see :func:`glide`.
+        velocity: (2,) of the ball; where it stands it sets out to where gravity pulls it.
+        normal: (2,) unit, towards the ball.
+    """
+    along = np.array([-normal[1], normal[0]])
+    pull = float(along @ gravity)
+    if not slows(*slowing):
+        return along * pull
+    moves = float(along @ velocity) or pull
+    if moves < 0.0:
+        along = -along
+    return along * float(pull_ahead(*slowing, *along.tolist(), *gravity.tolist()))

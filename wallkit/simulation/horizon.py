@@ -16,7 +16,8 @@ its own new error: roundings of the state, and the wall's own displacement and t
 carried (new errors count as independent), which gives the root mean square; what is promised is
 three times that.
 
-Rolling friction and drag leave the path as it is: the errors are those of the same ball without them.
+Without gravity rolling friction and drag leave the path as it is: the errors are those of the same ball without them.
+Under gravity drag k takes t to the free time f = (1 - e^(-k t)) / k, and dv to dv e^(-k t); what is g above is g - k v.
 
 Where the first order ends, trust ends: when the error reaches the distance by which the path passed a corner
 (points: the distance of a hit from a corner that turns), or the depth of a grazing hit.
@@ -35,11 +36,12 @@ from wallkit.geometry.bulge_arcs import circles
 from wallkit.kernels.flight.error_growth import carry, stretch
 from wallkit.kernels.jit import compiled
 from wallkit.scene.scene import Scene
-from wallkit.simulation.damping import damping_of, on_a_free_clock
+from wallkit.simulation.damping import damping_of, on_a_free_clock, slowing_of
+from wallkit.simulation.gliding import pull_along
 from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, FlightTable, near_misses
 
 ErrorSource = Literal["rounding", "drawing"]
-Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
+Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, float]
 RMS_ROUNDING = 0.6 * 2.0**-53
 VERTEX, ENTER = (
     1,
@@ -159,7 +161,7 @@ def _kernel(function: Any, contacts: int) -> Any:
 
 
 def _course(scene: Scene, own: Any, ball: int) -> Course:
-    """What the kernels need of one ball's run: first velocity, path, bends, restitutions, accelerations."""
+    """What the kernels need of one ball's run: first velocity, path, bends, restitutions, accelerations, drag."""
     materials = scene.walls.materials
     table = np.array([(m.tangential_restitution, m.restitution) for m in materials]).reshape(-1, 2)
     path = np.stack([own[name].astype(np.float64) for name in ("time", "vx", "vy", "nx", "ny", "kind")], axis=1)
@@ -170,9 +172,11 @@ def _course(scene: Scene, own: Any, ball: int) -> Course:
     gravity = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
     pull = np.tile(gravity, (len(own) + 1, 1))
     slides = path[:, 5] == 1.0
-    along = np.stack([-path[slides, 4], path[slides, 3]], axis=1)
-    pull[1:][slides] = along * (along @ gravity)[:, None]
-    return start, np.ascontiguousarray(path), _bends(scene, own, ball), table[own["wall"]], pull
+    slowing = slowing_of(scene)
+    for row in np.flatnonzero(slides).tolist():
+        pull[row + 1] = pull_along(gravity, slowing, path[row, 1:3], path[row, 3:5])
+    drag = slowing.drag or 0.0
+    return start, np.ascontiguousarray(path), _bends(scene, own, ball), table[own["wall"]], pull, drag
 
 
 def _roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
@@ -184,7 +188,7 @@ def _roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
     """
     from wallkit.simulation.modelled import local_origin
 
-    _, path, bend, keep, _ = course
+    _, path, bend, keep, _, _ = course
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
     places = np.concatenate([begin[None], np.stack([own["x"], own["y"]], axis=1)]) - local_origin(scene.walls.vertices)
     place = RMS_ROUNDING * np.hypot(*places[1:].T)
@@ -202,7 +206,7 @@ def _falling_roundings(course: Course, places: FloatArray) -> tuple[FloatArray, 
     p + v t + g t^2 / 2 is summed up of larger parts, each of which is rounded, as are v + g t and the squared speed,
     v^2 - 2 g.p at the start plus 2 g.p here: half of its error, over v^2, is that of the speed.
     """
-    start, path, _, _, pull = course
+    start, path, _, _, pull, _ = course
     time, force = np.diff(path[:, 0], prepend=0.0), np.hypot(*pull[:-1].T)
     before = np.hypot(*np.concatenate([start[None], path[:-1, 1:3]]).T)
     after = np.hypot(path[:, 1], path[:, 2])
@@ -272,7 +276,7 @@ def _first_doubt(scene: Scene, own: Any, ball: int, worst: FloatArray) -> tuple[
 
 
 def _flights(scene: Scene, own: Any, ball: int) -> FlightTable:
-    first, path, _, _, pull = _course(scene, own, ball)
+    first, path, _, _, pull, drag = _course(scene, own, ball)
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
     ends = np.stack([own["x"], own["y"]], axis=1)
     slides = np.concatenate([[False], path[:-1, 5] == 1.0])  # a ball that slides misses nothing
@@ -282,6 +286,7 @@ def _flights(scene: Scene, own: Any, ball: int) -> FlightTable:
         velocity=np.concatenate([first[None], path[:-1, 1:3]]),
         time=np.where(slides, 0.0, np.diff(path[:, 0], prepend=0.0)),
         pull=pull[:-1] if scene.gravity is not None else None,
+        drag=drag,
     )
 
 

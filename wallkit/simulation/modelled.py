@@ -16,7 +16,7 @@ from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.records import CELL, Model, in_lists
 from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.simulation.build_grid import build_grid
-from wallkit.simulation.damping import damping_of
+from wallkit.simulation.damping import damping_of, slowing_of
 from wallkit.simulation.edge_records import arcs_of, corners_of, lines_of, no_corners
 from wallkit.simulation.joints import joints_of
 from wallkit.walls import Walls
@@ -86,7 +86,7 @@ class Modelled:
         is_arc = arcs["radius"] > 0.0 if arcs is not None else np.zeros(len(lines), dtype=np.bool_)
         is_line = (lines["length"] > 0.0) & ~is_arc
         kinds = [np.flatnonzero(which).astype(np.uint32) for which in (is_line, is_arc, corners.open)]
-        gravity = _gravity(scene)
+        gravity, slowing = _gravity(scene), slowing_of(scene)
         joints, spokes = (None, None) if gravity is None else joints_of(vertices, lines, bulges, starts, ends)
         ids = np.concatenate([*kinds, np.zeros(1, dtype=np.uint32)])
         model = Model(
@@ -110,6 +110,8 @@ class Modelled:
             extent=float(np.abs(vertices).max(initial=0.0)) + radius,
             joints=joints,
             spokes=spokes,
+            rolling=slowing.rolling,
+            drag=slowing.drag,
         )
         many = len(kinds[0]) + len(kinds[1]) > BRUTE_FORCE
         if index != "grid" and not (index == "auto" and many):

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import circles
 from wallkit.scene.scene import Scene
+from wallkit.simulation.damping import flown_on
 
 NEAR_CORNER, NEAR_GRAZE = 1, 2
 Near = tuple[NDArray[np.int64], FloatArray, int]
@@ -33,7 +34,8 @@ class FlightTable:
         end: (n, 2) where it ends.
         velocity: (n, 2) at its start.
         time: (n,) how long it takes.
-        pull: (n, 2) acceleration, or None where there is none.
+        pull: (n, 2) acceleration, drag aside, or None where there is none.
+        drag: rate of drag under gravity, or 0.
     """
 
     start: FloatArray
@@ -41,6 +43,7 @@ class FlightTable:
     velocity: FloatArray
     time: FloatArray
     pull: FloatArray | None
+    drag: float = 0.0
 
     @property
     def pulls(self) -> FloatArray:
@@ -49,9 +52,15 @@ class FlightTable:
 
     def at(self, which: NDArray[np.int64], when: FloatArray) -> FloatArray:
         """(k, 2) centres of some flights at times since their start."""
-        t = when[:, None]
-        place: FloatArray = self.start[which] + self.velocity[which] * t + 0.5 * self.pulls[which] * t * t
-        return place
+        return self.states(which, when)[0]
+
+    def states(self, which: NDArray[np.int64], when: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """(k, 2) centres, velocities and accelerations of some flights at times since their start."""
+        t, velocity, pull = when[:, None], self.velocity[which], self.pulls[which]
+        if self.drag == 0.0:
+            return self.start[which] + velocity * t + 0.5 * pull * t * t, velocity + pull * t, pull
+        flown = flown_on(self.drag, self.start[which], velocity, pull, t)
+        return flown[:, 0:2], flown[:, 2:4], pull - self.drag * flown[:, 2:4]
 
 
 def near_misses(scene: Scene, flights: FlightTable, radius: float, reach: float) -> Iterator[Near]:
@@ -129,6 +138,8 @@ def _near_lines(scene: Scene, flights: FlightTable, radius: float, reach: float)
     across = (flights.velocity[found] * normal).sum(axis=1)
     pull = (flights.pulls[found] * normal).sum(axis=1)
     turn = np.divide(-across, pull, out=np.full(len(found), -1.0), where=pull != 0)
+    if flights.drag > 0.0:  # -v / g is the time in which a speed would turn, (e^(k t) - 1) / k that in which it does
+        turn = np.where(turn > 0, np.log1p(flights.drag * np.maximum(turn, 0.0)) / flights.drag, turn)
     inside = np.clip(turn, 0.0, flights.time[found])
     offset = flights.at(found, inside) - a[line]
     side = (offset * normal).sum(axis=1)
@@ -146,8 +157,9 @@ def _pairs(flights: FlightTable, things: NDArray[Any], distance: float) -> tuple
         lines = shapely.linestrings(np.stack([flights.start, flights.end], axis=1))
         found, thing = tree.query(lines, predicate="dwithin", distance=distance)
     else:
-        # a parabola stays within |g| t^2 / 8 of its chord
-        sag = np.hypot(flights.pulls[:, 0], flights.pulls[:, 1]) * flights.time**2 / 8 + distance
+        # a parabola stays within |g| t^2 / 8 of its chord; with drag the acceleration is largest at the start
+        bend = flights.pulls - flights.drag * flights.velocity
+        sag = np.hypot(bend[:, 0], bend[:, 1]) * flights.time**2 / 8 + distance
         low, high = np.minimum(flights.start, flights.end), np.maximum(flights.start, flights.end)
         boxes = shapely.box(low[:, 0] - sag, low[:, 1] - sag, high[:, 0] + sag, high[:, 1] + sag)
         found, thing = tree.query(boxes, predicate="intersects")
@@ -157,29 +169,30 @@ def _pairs(flights: FlightTable, things: NDArray[Any], distance: float) -> tuple
 def _closest(flights: FlightTable, found: NDArray[np.int64], points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Where in its time (0 to 1) a flight is closest to a point, and how far it is from there."""
     time = np.maximum(flights.time[found], 1e-300)
-    start, velocity = flights.start[found] - points, flights.velocity[found]
     if flights.pull is None:
+        start, velocity = flights.start[found] - points, flights.velocity[found]
         speed2 = np.maximum((velocity * velocity).sum(axis=1), 1e-300)
         when = np.clip(-(start * velocity).sum(axis=1) / speed2, 0.0, time)
     else:
-        when = _closest_of_parabola(start, velocity, flights.pulls[found], time)
+        when = _closest_of_parabola(flights, found, points, time)
     away = flights.at(found, when) - points
     return when / time, np.hypot(away[:, 0], away[:, 1])
 
 
-def _closest_of_parabola(start: FloatArray, velocity: FloatArray, pull: FloatArray, time: FloatArray) -> FloatArray:
-    """Least |p + v t + g t^2 / 2| for t in [0, time]: the best of 65 moments, then Newton on the derivative."""
+def _closest_of_parabola(
+    flights: FlightTable, found: NDArray[np.int64], points: FloatArray, time: FloatArray
+) -> FloatArray:
+    """Least distance of a point from a flight in [0, time]: the best of 65 moments, then Newton on the derivative."""
     parts = np.linspace(0.0, 1.0, 65)
     when = np.zeros(len(time))
     least = np.full(len(time), np.inf)
     for part in parts:
-        t = (part * time)[:, None]
-        distance = ((start + velocity * t + 0.5 * pull * t * t) ** 2).sum(axis=1)
+        distance = ((flights.at(found, part * time) - points) ** 2).sum(axis=1)
         better = distance < least
         when[better], least[better] = (part * time)[better], distance[better]
     for _ in range(8):
-        t = when[:, None]
-        place, speed = start + velocity * t + 0.5 * pull * t * t, velocity + pull * t
+        place, speed, pull = flights.states(found, when)
+        place = place - points
         slope = (place * speed).sum(axis=1)
         bend = (speed * speed).sum(axis=1) + (place * pull).sum(axis=1)
         when = np.clip(when - np.divide(slope, bend, out=np.zeros_like(slope), where=bend > 0), 0.0, time)

@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from importers.errors import WallkitError
 from importers.pictured import Pictured
 from wallkit import arguments
-from wallkit.simulation.damping import carried_on, damping_of
-from wallkit.simulation.gliding import glide, guides
+from wallkit.simulation.damping import Slowing, carried_on, damping_of, flown_on, slowing_of
+from wallkit.simulation.gliding import glide, guides, pull_along
 
 if TYPE_CHECKING:
     from wallkit.scene.scene import Scene
@@ -69,8 +69,8 @@ class Kind(enum.IntEnum):
     EDGE = 0
     VERTEX = 1
     SLIDE = 2
-    """From here on the ball keeps to the wall, without friction: it slides on a line, glides along an arc, or pivots
-    about a vertex (where the edge is -1); or it rests."""
+    """From here on the ball keeps to the wall: it slides on a line, glides along an arc, or pivots about a vertex
+    (where the edge is -1); or it rests. Slowed by friction or drag it has such a contact where it turns, too."""
     LEAVE = 3
     """The ball leaves the wall to which it kept."""
     ENTER = 4
@@ -290,12 +290,12 @@ class Run(Pictured):
             return np.array([carried_on(self._damping, *one) for one in zip(state, spans, strict=True)]).reshape(-1, 4)
         pull = np.array([self.pull_after(contact) for contact in begun]).reshape(-1, 2)[which]
         x, v, t = state[:, 0:2], state[:, 2:4], span[:, None]
-        flown: NDArray[np.float64] = np.where(t > 0.0, np.hstack([x + t * (v + 0.5 * t * pull), v + t * pull]), state)
+        flown: NDArray[np.float64] = np.where(t > 0.0, flown_on(self._slowing.drag, x, v, pull, t), state)
         for row, contact in enumerate(begun):
             if contact is not None and contact["kind"] == Kind.SLIDE:
                 normal, bend = np.array([contact["nx"], contact["ny"]]), self._bends[ball][passed[row] - 1]
                 for k in np.flatnonzero((which == row) & (span > 0.0) & (times < end)).tolist():
-                    flown[k] = glide(self._gravity, state[k], normal, bend, float(span[k]))
+                    flown[k] = glide(self._gravity, self._slowing, state[k], normal, bend, float(span[k]))
                 last = self.final[ball]
                 flown[(which == row) & (times >= end)] = last["x"], last["y"], last["vx"], last["vy"]
         return flown
@@ -314,12 +314,16 @@ class Run(Pictured):
         return damping_of(self.scene)
 
     @cached_property
+    def _slowing(self) -> Slowing:
+        return slowing_of(self.scene)
+
+    @cached_property
     def _turns(self) -> list[NDArray[Any]]:
         """By ball the contacts that change its flight; sensors do not."""
         return [own[turns_in(own)] for own in map(self.contacts_of, range(len(self.final)))]
 
     def pull_after(self, contact: Any) -> NDArray[np.float64]:
-        """Acceleration after a contact (None: at the start): gravity, or the part of it along a wall that holds."""
+        """Acceleration after a contact (None: at the start), drag aside: see :func:`pull_of`."""
         return pull_of(self.scene, contact)
 
 
@@ -371,9 +375,12 @@ def _of_balls(contacts: NDArray[Any], number: NDArray[np.int32]) -> NDArray[Any]
 
 
 def pull_of(scene: Scene, contact: Any) -> NDArray[np.float64]:
-    """Acceleration after a contact (None: at the start): gravity, or its part along a straight wall that holds."""
+    """Acceleration after a contact (None: at the start), drag aside.
+
+    That is gravity, or its part along a straight wall that holds the ball, less rolling friction there.
+    """
     pull = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
     if contact is None or contact["kind"] != Kind.SLIDE:
         return pull
-    along = np.array([-contact["ny"], contact["nx"]])
-    return along * float(along @ pull)
+    velocity, normal = np.array([contact["vx"], contact["vy"]]), np.array([contact["nx"], contact["ny"]])
+    return pull_along(pull, slowing_of(scene), velocity, normal)

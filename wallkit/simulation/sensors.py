@@ -14,6 +14,7 @@ from wallkit.kernels.flight.sensors_on_circles import next_crossing_round
 from wallkit.kernels.index.grid import home
 from wallkit.kernels.records import NO_HIT
 from wallkit.scene.scene import Balls, Scene
+from wallkit.simulation.damping import falls, slowing_of
 from wallkit.simulation.gliding import guides
 from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.run import CONTACT, Kind, Run, in_order, pull_of
@@ -67,8 +68,13 @@ def sensors_of(scene: Scene) -> Sensors | None:
 
 def modelled_sensors(scene: Scene, walls: Walls, origin: NDArray[np.float64] | None = None) -> Modelled:
     """What the kernels see of a scene's sensors; in coordinates local to ``origin``, None for their own."""
-    none = Balls(np.empty((0, 2)), np.empty((0, 2)))
-    return Modelled(replace(scene, walls=walls, balls=none, gravity=None), origin=origin)
+    none = replace(scene, walls=walls, balls=Balls(np.empty((0, 2)), np.empty((0, 2))), gravity=None)
+    if not falls(scene):
+        return Modelled(none, origin=origin)
+    # What slows a ball down under gravity they know as its walls do, and gravity as what they are asked with.
+    modelled, slowing = Modelled(replace(none, rolling_friction=None, drag=None), origin=origin), slowing_of(scene)
+    modelled.model = modelled.model._replace(rolling=slowing.rolling, drag=slowing.drag)
+    return modelled
 
 
 class Sensors:
@@ -102,7 +108,7 @@ class Sensors:
         x, y, v, time, edge = x - ox, y - oy, vy * ex - vx * ey, since, NO_HIT
         while True:
             x, y, ex, ey, v, time, edge = next_crossing_round(
-                model, gx, gy, abs(bent), x, y, ex, ey, v, time, until, edge
+                model, gx, gy, abs(bent), out, x, y, ex, ey, v, time, until, edge
             )
             if edge == NO_HIT:
                 return
@@ -129,7 +135,7 @@ class Sensors:
         model, (ox, oy) = self._modelled.lists, self._modelled.origin.tolist()
         x, y, vx, vy = state.tolist()
         x, y = x - ox, y - oy
-        gravity = pull.tolist() if pull.any() else None
+        gravity = pull.tolist() if pull.any() or model.drag is not None else None
         tolerance = 2.0**-47 * max(model.extent, abs(x), abs(y))
         time, lost, edge = since, 0.0, NO_HIT
         while vx or vy or gravity:

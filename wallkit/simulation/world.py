@@ -14,8 +14,8 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.records import LOG, NO_HIT
 from wallkit.scene.scene import Scene, SceneError
-from wallkit.simulation.damping import carried_on, damping_of
-from wallkit.simulation.gliding import glide, guides
+from wallkit.simulation.damping import carried_on, damping_of, flown_on, slowing_of
+from wallkit.simulation.gliding import glide, guides, pull_along
 from wallkit.simulation.run import CONTACT, Kind
 from wallkit.simulation.sensors import sensors_of, together
 from wallkit.simulation.simulate import Flights
@@ -80,7 +80,7 @@ class World:
             self._base = np.hstack([scene.balls.position, scene.balls.velocity])
             return
         self._flights = Flights(scene, mode="compiled" if compile else "interpreted")
-        self._damping = damping_of(scene)
+        self._damping, self._slowing = damping_of(scene), slowing_of(scene)
         self._base = self._flights.start.copy()  # where each ball was, and its velocity, ...
         self._since = np.zeros(len(self._base))  # ... when: after its last contact or change
         self._gravity = np.zeros(2) if scene.gravity is None else np.array(scene.gravity, dtype=np.float64)
@@ -124,11 +124,10 @@ class World:
         if self._damping is not None:
             return np.array([carried_on(self._damping, *now) for now in zip(self._base, span.tolist(), strict=True)])
         position, velocity = self._base[:, 0:2], self._base[:, 2:4]
-        grown = span[:, None] * self._pull
-        state = np.hstack([position + span[:, None] * (velocity + 0.5 * grown), velocity + grown])
+        state = flown_on(self._slowing.drag, position, velocity, self._pull, span[:, None])
         for ball in np.flatnonzero(self._bend).tolist():
             state[ball] = glide(
-                self._gravity, self._base[ball], self._normal[ball], self._bend[ball], float(span[ball])
+                self._gravity, self._slowing, self._base[ball], self._normal[ball], self._bend[ball], float(span[ball])
             )
         return state
 
@@ -216,7 +215,8 @@ class World:
         if self._sensors is not None:
             until = self._end[ball] if row is None else row[LOG.time]
             kind, (nx, ny) = Kind.SLIDE if self._keeps[ball] else Kind.LEAVE, self._normal[ball].tolist()
-            contact, bend = {"kind": kind, "nx": nx, "ny": ny}, float(self._bend[ball])
+            (vx, vy), bend = self._base[ball, 2:4].tolist(), float(self._bend[ball])
+            contact = {"kind": kind, "nx": nx, "ny": ny, "vx": vx, "vy": vy}
             flight = float(self._since[ball]), self._base[ball].copy(), float(until), contact, bend
             self._later[ball] = self._sensors.crossings_on(self.scene, ball, *flight)
             self._coming[ball] = next(self._later[ball], None)
@@ -250,11 +250,10 @@ class World:
         self._look_ahead(ball)
 
     def _pull_after(self, row: FloatArray) -> FloatArray:
-        """Gravity, or the part of it along the wall on which the ball slides from here on."""
+        """Gravity, or the part of it along the wall on which the ball slides from here on, less friction."""
         if row[LOG.kind] != Kind.SLIDE:
             return self._gravity
-        along = np.array([-row[LOG.ny], row[LOG.nx]])
-        return along * float(along @ self._gravity)
+        return pull_along(self._gravity, self._slowing, row[[LOG.vx, LOG.vy]], row[[LOG.nx, LOG.ny]])
 
     def _accept_late(self, ball: int, row: FloatArray, end: float, dt: float) -> None:
         """Treat the contact as frame-stepping programs do; whatever else was in the frame is not looked at."""

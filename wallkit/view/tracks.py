@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.simulation.gliding import glide, guides
+from wallkit.simulation.damping import falls, flown_on, slowing_of
+from wallkit.simulation.gliding import glide, guides, pull_along
 from wallkit.simulation.run import Ending, Kind, one_a_ball, turns_in
 
 if TYPE_CHECKING:
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 CHORD = 0.1
 """Radians, or parts of the time of a small swing, of a stretch on a circle: a parabola is off by 1e-4 rho at most."""
+FINE = 0.03
+"""Parts of 1 / k of a stretch under gravity and drag k: a parabola is off by g (FINE / k)^2 / 200 at most."""
 MOST_CHORDS = 400
 
 
@@ -37,8 +40,9 @@ class Tracks:
         velocity: (m, 2) with which it begins.
         pull: (m, 2) acceleration: gravity, or the part of it along the wall on which the ball slides, or rolling
             friction, against the velocity. Where a ball glides along an arc, or pivots about a vertex, its stretch
-            is cut into short ones, each a parabola, and only the first of them begins with a contact.
-        drag: the rate k, or 0.
+            is cut into short ones, each a parabola, and only the first of them begins with a contact; so is a flight
+            under gravity and drag.
+        drag: the rate k, or 0; 0 under gravity.
         contact: (m,) index into ``contacts`` of the contact it begins with, -1 for the start.
         contacts: those of the run, with a row for each of two balls that meet.
         radius: (n,) of the balls.
@@ -108,7 +112,7 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
         target=column(("x", "y"), following, final[ball]),
         velocity=column(("vx", "vy"), contact, velocity[ball]),
         pull=_pulls(run, contacts, contact, column(("vx", "vy"), contact, velocity[ball])),
-        drag=run.scene.drag or 0.0,
+        drag=0.0 if falls(run.scene) else run.scene.drag or 0.0,
         contact=contact.astype(np.int64),
         contacts=contacts,
         radius=radius,
@@ -116,19 +120,22 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
     )
     bends = guides(run.scene.walls, contacts)
     bent = np.where(contact >= 0, bends[contact], 0.0) if bends.any() else np.zeros(len(contact))
-    return _in_chords(run, flights, bent) if bent.any() else flights
+    return _in_chords(run, flights, bent) if bent.any() or slowing_of(run.scene).drag is not None else flights
 
 
 def _in_chords(run: Run, flights: Tracks, bent: FloatArray) -> Tracks:
     """Cut stretches on circles (signed radii ``bent``, 0 for none) into short ones that a parabola each comes near.
 
-    One that goes to and fro for long is cut so for its first turns only, and stands at its end after that.
+    With drag all others are cut, too. One that goes to and fro for long is cut so for its first turns only, and stands
+    at its end after that.
     """
     gravity = np.asarray(run.scene.gravity or (0.0, 0.0), dtype=np.float64)
     rho = np.where(bent == 0.0, 1.0, np.abs(bent))
     span = flights.until - flights.time
     rate = np.maximum(np.hypot(*flights.velocity.T) / rho, np.sqrt(float(np.hypot(*gravity)) / rho))
-    pieces = np.where(bent == 0.0, 1, np.clip(np.ceil(rate * span / CHORD), 1, MOST_CHORDS)).astype(np.int64)
+    slowing = slowing_of(run.scene)
+    straight = 1.0 if slowing.drag is None else np.ceil(span * slowing.drag / FINE)
+    pieces = np.clip(np.where(bent == 0.0, straight, np.ceil(rate * span / CHORD)), 1, MOST_CHORDS).astype(np.int64)
     own = np.repeat(np.arange(len(span)), pieces)
     rank = np.arange(len(own)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     step = np.minimum(span / pieces, np.where(bent == 0.0, np.inf, CHORD / rate))[own]
@@ -136,14 +143,18 @@ def _in_chords(run: Run, flights: Tracks, bent: FloatArray) -> Tracks:
     position, velocity, target = flights.position[own], flights.velocity[own].copy(), flights.target[own].copy()
     pull, last = flights.pull[own].copy(), rank == pieces[own] - 1
     until[last] = flights.until[own[last]]
-    for index in np.flatnonzero(bent[own]).tolist():
-        contact = flights.contacts[flights.contact[own[index]]]
-        state = np.concatenate([flights.position[own[index]], flights.velocity[own[index]]])
+
+    def state_after(index: int, time: float) -> FloatArray:
+        stretch = own[index]
+        place, speed, pull = flights.position[stretch], flights.velocity[stretch], flights.pull[stretch]
+        if bent[stretch] == 0.0:
+            return flown_on(slowing.drag, place[None], speed[None], pull[None], np.array([[time]])).ravel()
+        contact = flights.contacts[flights.contact[stretch]]
         normal = np.array([contact["nx"], contact["ny"]])
-        begin, end = (
-            glide(gravity, state, normal, float(bent[own[index]]), float((rank[index] + more) * step[index]))
-            for more in (0, 1)
-        )
+        return glide(gravity, slowing, np.concatenate([place, speed]), normal, float(bent[stretch]), time)
+
+    for index in np.flatnonzero(((bent != 0.0) | (slowing.drag is not None))[own] & (span[own] > 0.0)).tolist():
+        begin, end = (state_after(index, float((rank[index] + more) * step[index])) for more in (0, 1))
         if last[index] and until[index] - time[index] > 2.0 * step[index]:
             begin, end = np.concatenate([target[index], (0.0, 0.0)]), np.concatenate([target[index], (0.0, 0.0)])
         position[index], velocity[index] = begin[0:2], begin[2:4]
@@ -166,16 +177,17 @@ def _in_chords(run: Run, flights: Tracks, bent: FloatArray) -> Tracks:
 
 
 def _pulls(run: Run, contacts: NDArray[Any], contact: IntArray, velocity: FloatArray) -> FloatArray:
-    if run.scene.rolling_friction is not None:
+    if not falls(run.scene) and run.scene.rolling_friction is not None:
         speed = np.hypot(*velocity.T)[:, None]
         direction: FloatArray = np.divide(velocity, speed, out=np.zeros_like(velocity), where=speed > 0)
         return -run.scene.rolling_friction * direction
-    pull = np.tile(np.array(run.scene.gravity or (0.0, 0.0), dtype=np.float64), (len(contact), 1))
+    gravity, slowing = np.array(run.scene.gravity or (0.0, 0.0), dtype=np.float64), slowing_of(run.scene)
+    pull = np.tile(gravity, (len(contact), 1))
     if run.scene.gravity is not None and len(contacts):
         begun = contacts[contact]
-        slides = (contact >= 0) & (begun["kind"] == Kind.SLIDE)
-        along = np.stack([-begun["ny"], begun["nx"]], axis=1)[slides]
-        pull[slides] = along * (along * pull[slides]).sum(axis=1)[:, None]
+        for row in np.flatnonzero((contact >= 0) & (begun["kind"] == Kind.SLIDE)).tolist():
+            normal = np.array([begun["nx"][row], begun["ny"][row]])
+            pull[row] = pull_along(gravity, slowing, velocity[row], normal)
     return pull
 
 
@@ -215,6 +227,8 @@ def _ends(run: Run) -> tuple[FloatArray, FloatArray]:
         speed = float(np.hypot(*velocity[ball]))
         if ending is Ending.LEFT_SCENE and speed > 0 and time[ball] == touched[ball]:
             span = reach / speed
-            final[ball] += velocity[ball] * span + np.array(run.scene.gravity or (0.0, 0.0)) * (span * span / 2)
+            pull, after = np.array([run.scene.gravity or (0.0, 0.0)], dtype=np.float64), np.array([[span]])
+            drag = slowing_of(run.scene).drag
+            final[ball] = flown_on(drag, final[ball : ball + 1], velocity[ball : ball + 1], pull, after)[0, 0:2]
             time[ball] += span
     return final, time

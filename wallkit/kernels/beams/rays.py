@@ -89,7 +89,7 @@ def _follow(model, gravity, pull, sensors, target, radius, most, scratch, capaci
     x, y, vx, vy, since = state[0], state[1], state[2], state[3], 0.0
     dx, dy = target.x - x, target.y - y
     shots.reached[shot] = 0 if dx * dx + dy * dy < target.radius * target.radius else NEVER
-    set_pull(model, gravity, pull, EDGE, NO_HIT)
+    set_pull(model, gravity, pull, EDGE, NO_HIT, vx, vy)
     feature, kind, nx, ny, bounces, rows = NO_HIT, EDGE, 0.0, 0.0, 0, 0
     while counts[2] == RUNNING and rows < MOST_ROWS * (most + 1) and shots.reached[shot] == NEVER:
         noted = fly(model, gravity, radius, state, counts, math.inf, most + 1, scratch.hits, log, capacity)
@@ -104,7 +104,7 @@ def _follow(model, gravity, pull, sensors, target, radius, most, scratch, capaci
                 return
             since, x, y, vx, vy = log[o], log[o + 1], log[o + 2], log[o + 3], log[o + 4]
             nx, ny, feature, kind = log[o + 7], log[o + 8], int(log[o + 9]), int(log[o + 10])
-            set_pull(model, gravity, pull, kind, feature)
+            set_pull(model, gravity, pull, kind, feature, vx, vy)
             if kind in (EDGE, VERTEX) and bounces <= most:
                 shots.word[shot, bounces] = feature
                 shots.places[shot, 2 * bounces], shots.places[shot, 2 * bounces + 1] = x, y

@@ -1,7 +1,7 @@
-"""A ball that keeps to a wall: it slides on a line, glides along an arc, or pivots about a vertex, without friction.
+"""A ball that keeps to a wall: it slides on a line, glides along an arc, or pivots about a vertex.
 
-Its centre stays on a guide, so its motion is exact: constant acceleration on a straight one, a pendulum's on a circle.
-One stretch of it goes on in one direction until, first of all,
+Its centre stays on a guide, so its motion is exact: constant acceleration on a straight one, a pendulum's on a circle;
+with rolling friction and drag see ``slowed_contact``. One stretch of it goes on in one direction until, first of all,
 
 * nothing presses the ball on the wall any longer: v^2 / rho + g.n, less or more, is linear in the place on a circle;
 * it stands still: so is v^2;
@@ -18,6 +18,7 @@ import math
 from wallkit.kernels.flight.guide import STRAIGHT, ahead_of, guide
 from wallkit.kernels.flight.obstacles import falls, meet_arcs, meet_corners, meet_lines, place_at
 from wallkit.kernels.flight.pendulum import speed_at, swing_time, swing_within, to_quarter, turned, turning
+from wallkit.kernels.flight.slowed_contact import pull_ahead, slide_with_drag, slows, swing_on, way_to_turn
 from wallkit.kernels.impact.polynomial_roots import NEVER
 from wallkit.kernels.index.grid import around, home, leaf, moves_to_next, place
 from wallkit.kernels.jit import kernel, rare_kernel
@@ -39,13 +40,15 @@ def stretch(model, gravity, radius, held, side, last, x, y, vx, vy, start_of, to
     tx, ty, speed = ahead_of(rho, away, nx, ny, vx, vy, gx, gy)
     # e goes from the middle of the guide's circle to the centre, on whichever side of the wall the ball is.
     ex, ey = away * nx, away * ny
-    way, event = _own_events(model, held, radius, rho, away, ex, ey, tx, ty, gx, gy, x, y, speed)
+    rolling, drag = model.rolling, model.drag
+    way, event = _own_events(model, rolling, drag, held, radius, rho, away, ex, ey, tx, ty, gx, gy, x, y, speed)
     way, event = _met(
         model, model.grid, radius, held, side, last, rho, ex, ey, tx, ty, x, y, start_of, tolerance, way, event
     )
     if rho == STRAIGHT:
-        return _straight(tx, ty, gx, gy, x, y, speed, way, event, span)
-    return _round(rho, ex, ey, tx, ty, gx, gy, x, y, speed, way, event, span)
+        pull = pull_ahead(rolling, drag, tx, ty, gx, gy)
+        return _straight(drag, tx, ty, pull, x, y, speed, way, event, span)
+    return _round(rolling, drag, rho, away, ex, ey, tx, ty, gx, gy, x, y, speed, way, event, span)
 
 
 @rare_kernel
@@ -68,9 +71,10 @@ def reach(model, gravity, radius, held, side, last, x, y, way, start_of, toleran
 
 
 @kernel
-def _straight(tx, ty, gx, gy, x, y, speed, way, event, span):
+def _straight(drag, tx, ty, pull, x, y, speed, way, event, span):
     """Go ``way`` in the direction t at v + a t, or as far as in the time ``span``: see ``stretch``."""
-    pull = gx * tx + gy * ty
+    if drag is not None:
+        return slide_with_drag(drag, tx, ty, pull, x, y, speed, way, event, span)
     # v'^2 = v^2 + 2 a s, and the time is 2 s / (v + v'): no difference, whatever the pull.
     square = max(speed * speed + 2.0 * pull * way, 0.0)
     then = 0.0 if event == TURNS else math.sqrt(square) if way < NEVER else speed
@@ -85,8 +89,20 @@ def _straight(tx, ty, gx, gy, x, y, speed, way, event, span):
 
 
 @kernel
-def _round(rho, ex, ey, tx, ty, gx, gy, x, y, speed, way, event, span):
+def _round(rolling, drag, rho, away, ex, ey, tx, ty, gx, gy, x, y, speed, way, event, span):
     """Turn by ``way`` = tan(phi / 2) about the centre of a circle, or as far as in the time ``span``."""
+    if drag is None:
+        if rolling is None:
+            return _swung(rho, ex, ey, tx, ty, gx, gy, x, y, speed, way, event, span)
+    done, then, time, ended = swing_on(rolling, drag, rho, away, ex, ey, tx, ty, gx, gy, speed, way, span)
+    _fx, _fy, ux, uy = turned(ex, ey, tx, ty, done)
+    x, y = place_at(rho, ex, ey, tx, ty, x, y, done)
+    return x, y, then * ux, then * uy, time, event if ended == GOES_ON and done >= way else ended
+
+
+@kernel
+def _swung(rho, ex, ey, tx, ty, gx, gy, x, y, speed, way, event, span):
+    """``_round`` without friction or drag: a pendulum."""
     square = speed * speed
     fx, fy, ux, uy = turned(ex, ey, tx, ty, way)
     # Energy gives the speed; where the ball turns it is 0, exactly.
@@ -101,15 +117,15 @@ def _round(rho, ex, ey, tx, ty, gx, gy, x, y, speed, way, event, span):
 
 
 @kernel
-def _own_events(model, held, radius, rho, away, ex, ey, tx, ty, gx, gy, x, y, speed):
+def _own_events(model, rolling, drag, held, radius, rho, away, ex, ey, tx, ty, gx, gy, x, y, speed):
     """First event on the way ahead that asks for nothing but the guide and what holds the ball: (way, event)."""
-    pull, square = gx * tx + gy * ty, speed * speed
+    square = speed * speed
     if rho == STRAIGHT:
-        way, event = NEVER, GOES_ON
-        if pull < 0.0:
-            # v^2 + 2 (g.t) s = 0.
-            way, event = square / (-2.0 * pull), TURNS
+        way = way_to_turn(drag, speed, pull_ahead(rolling, drag, tx, ty, gx, gy))
+        event = TURNS if way < NEVER else GOES_ON
         return _to_end(model, model.arcs, held, radius, rho, away, ex, ey, tx, ty, x, y, way, event)
+    if slows(rolling, drag):  # where it turns and where it lifts is found on the way, at most a right angle
+        return _to_end(model, model.arcs, held, radius, rho, away, ex, ey, tx, ty, x, y, 1.0, GOES_ON)
     way, event = to_quarter(ex, ey, tx, ty, gx, gy), GOES_ON
     turn = turning(rho, gx, gy, ex, ey, tx, ty, square)
     if turn < way:

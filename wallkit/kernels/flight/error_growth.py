@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from wallkit.kernels.impact.drag_motion import eased
 from wallkit.kernels.jit import kernel
 
 
@@ -55,7 +56,7 @@ def derivative(
 
 
 @kernel
-def contact(vx: float, vy: float, path: Any, bend: Any, keep: Any, pull: Any, i: int) -> Any:
+def contact(vx: float, vy: float, path: Any, bend: Any, keep: Any, pull: Any, drag: float, i: int) -> Any:
     """Give the derivative at contact i, whatever it is: S, A, B and M as of :func:`derivative`.
 
     Where a ball begins to slide, or leaves the wall, no neighbour touches earlier or later: it keeps what its
@@ -63,7 +64,8 @@ def contact(vx: float, vy: float, path: Any, bend: Any, keep: Any, pull: Any, i:
     """
     nx, ny = path[i, 3], path[i, 4]
     if path[i, 5] == 0.0:
-        g, h = (pull[i, 0], pull[i, 1]), (pull[i + 1, 0], pull[i + 1, 1])
+        g = (pull[i, 0] - drag * vx, pull[i, 1] - drag * vy)
+        h = (pull[i + 1, 0] - drag * path[i, 1], pull[i + 1, 1] - drag * path[i, 2])
         return derivative(vx, vy, path[i, 1], path[i, 2], nx, ny, (keep[i, 0], keep[i, 1]), bend[i], g, h)
     share = 1.0 if path[i, 5] == 1.0 else 0.0
     along = (1.0 - share * nx * nx, -share * nx * ny, -share * nx * ny, 1.0 - share * ny * ny)
@@ -93,7 +95,21 @@ def _plus(m: Any, n: Any) -> Any:
 
 
 @kernel
-def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, fresh: Any, variance: Any) -> None:
+def _scaled(m: Any, part: float) -> Any:
+    return part * m[0], part * m[1], part * m[2], part * m[3]
+
+
+@kernel
+def _eased(drag: float, t: float) -> Any:
+    """Part of a velocity that drag leaves in a time, and the free time, see ``drag_motion``."""
+    if drag == 0.0:
+        return 1.0, t
+    left, free, _second = eased(drag, t)
+    return left, free
+
+
+@kernel
+def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, fresh: Any, variance: Any) -> None:
     """Fill ``variance`` with that of the place of each contact.
 
     Args:
@@ -101,7 +117,8 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, fresh: Any, va
         path: (n, 6) time, velocity after, normal of each contact, and 0 a bounce, 1 begins to slide, 2 leaves.
         bend: (n,) curvature.
         keep: (n, 2) tangential and normal restitution.
-        pull: (n + 1, 2) acceleration before each contact and after the last.
+        pull: (n + 1, 2) acceleration before each contact and after the last, drag aside.
+        drag: rate under gravity, or 0.
         fresh: (n, 4) new at each contact: displacement of the wall, turn of its normal, rounding of the place,
             and of the velocity relative to the speed.
         variance: (n,), filled; left as it is after the first that exceeds 1e300.
@@ -113,7 +130,9 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, fresh: Any, va
     for i in range(len(path)):
         t = path[i, 0] - now
         now = path[i, 0]
-        # Free flight for t takes dx to dx + t dv: Var x + t (C + C^T) + t^2 Var v, and C + t Var v.
+        left, t = _eased(drag, t)
+        # Free flight for t takes dx to dx + t dv: Var x + t (C + C^T) + t^2 Var v, and C + t Var v. With drag t is the
+        # free time, and dv has lost as much as v has.
         both = _plus(xv, (xv[0], xv[2], xv[1], xv[3]))
         xx = _plus(
             xx,
@@ -125,12 +144,14 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, fresh: Any, va
             ),
         )
         xv = _plus(xv, (t * vv[0], t * vv[1], t * vv[2], t * vv[3]))
-        vx, vy = ux + pull[i, 0] * t, uy + pull[i, 1] * t
+        if drag > 0.0:
+            xv, vv = _scaled(xv, left), _scaled(vv, left * left)
+        vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ux, uy, nx, ny = path[i, 1], path[i, 2], path[i, 3], path[i, 4]
         across = vx * nx + vy * ny
         if path[i, 5] == 0.0 and not across < 0:
             break  # not a bounce that a neighbour shares: it began in contact
-        S, A, B, M = contact(vx, vy, path, bend, keep, pull, i)
+        S, A, B, M = contact(vx, vy, path, bend, keep, pull, drag, i)
         place = _times_turned(_times(S, xx), S)
         variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]  # the trace of S Var(x) S^T, and rounding
         if not variance[i] < 1e300:
@@ -156,7 +177,7 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, fresh: Any, va
 
 
 @kernel
-def stretch(start: Any, path: Any, bend: Any, keep: Any, pull: Any, error: Any, logs: Any) -> None:
+def stretch(start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, error: Any, logs: Any) -> None:
     """Carry one small error (dx, dv) along and fill ``logs`` with the logarithm of its growth at each bounce."""
     ux, uy = start[0], start[1]
     x, y, vx_, vy_ = error[0], error[1], error[2], error[3]
@@ -164,10 +185,11 @@ def stretch(start: Any, path: Any, bend: Any, keep: Any, pull: Any, error: Any, 
     for i in range(len(path)):
         t = path[i, 0] - now
         now = path[i, 0]
-        x, y = x + vx_ * t, y + vy_ * t
-        vx, vy = ux + pull[i, 0] * t, uy + pull[i, 1] * t
+        left, t = _eased(drag, t)
+        x, y, vx_, vy_ = x + vx_ * t, y + vy_ * t, vx_ * left, vy_ * left
+        vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ux, uy = path[i, 1], path[i, 2]
-        _, A, B, M = contact(vx, vy, path, bend, keep, pull, i)
+        _, A, B, M = contact(vx, vy, path, bend, keep, pull, drag, i)
         vx_, vy_, x, y = (
             B[0] * x + B[1] * y + M[0] * vx_ + M[1] * vy_,
             B[2] * x + B[3] * y + M[2] * vx_ + M[3] * vy_,

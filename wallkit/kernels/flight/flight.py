@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.flight.damping import free_time, last_flight, slowed
-from wallkit.kernels.flight.gravity import bounce, facing, first_contact, kept_energy, lifted, move
+from wallkit.kernels.flight.gravity import bounce, facing, fall, first_contact, kept_energy, lifted
 from wallkit.kernels.flight.guide import guide
 from wallkit.kernels.flight.motion import advance
 from wallkit.kernels.flight.point_in_corner import settle
@@ -223,7 +223,7 @@ def flown(model, gravity, radius, ball, clock, grip, t, passed, slower):
     x, y, vx, vy, energy = ball
     from_vx, from_vy = lifted(model, gravity, radius, grip[0], grip[1], grip[2], x, y, vx, vy)
     start = (x, y, from_vx, from_vy)
-    x, y, vx, vy = move(gravity, x, y, vx, vy, t)
+    x, y, vx, vy = fall(gravity, model.drag, x, y, vx, vy, t)
     return (x, y, slower * vx, slower * vy, slower * slower * energy), advance(clock[0], clock[1], passed), start
 
 
@@ -283,7 +283,7 @@ def flown_on(model, gravity, ball, clock, start, ending, until):
     x, y, vx, vy, energy = ball
     start = (x, y, vx, vy)
     t, slower, time, lost = last_flight(model.damping, energy, clock[0], clock[1], until)
-    x, y, vx, vy = move(gravity, x, y, vx, vy, t)
+    x, y, vx, vy = fall(gravity, model.drag, x, y, vx, vy, t)
     vx, vy, energy = slower * vx, slower * vy, slower * slower * energy
     if slower == 0.0:
         ending, vx, vy = AT_REST, 0.0, 0.0

@@ -9,6 +9,7 @@ import math
 
 from wallkit.kernels.flight.guide import guide
 from wallkit.kernels.flight.motion import reflect
+from wallkit.kernels.impact.drag_motion import carried
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.index.grid import search
 from wallkit.kernels.index.parabola_walk import fall_search
@@ -32,6 +33,7 @@ def first_contact(model, gravity, radius, x, y, vx, vy, energy, last, held, hold
     return fall_search(
         model,
         model.grid,
+        model.drag,
         radius,
         x,
         y,
@@ -59,6 +61,14 @@ def move(gravity, x, y, vx, vy, t):
 
 
 @kernel
+def fall(gravity, drag, x, y, vx, vy, t):
+    """Where a ball is after a time of flight, and its velocity, as ``move`` says, or with drag."""
+    if drag is None:
+        return move(gravity, x, y, vx, vy, t)
+    return carried(drag, x, y, vx, vy, gravity[0], gravity[1], t)
+
+
+@kernel
 def bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy):
     """Turn the velocity at a contact: (vx, vy, energy kept by the next flight).
 
@@ -68,10 +78,19 @@ def bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy):
         return reflect(model.restitution, wall, nx, ny, twice, vx, vy, energy)
     if vx * nx + vy * ny >= 0.0:  # it begins to be pressed on the wall: nothing to turn yet
         return vx, vy, energy
+    energy = energy_now(gravity, model.drag, x, y, vx, vy, energy)
     # energy = v^2 - 2 g.p, so v^2 = energy + 2 g.p at the wall.
     height = 2.0 * (gravity[0] * x + gravity[1] * y)
     vx, vy, square = reflect(model.restitution, wall, nx, ny, twice, vx, vy, max(energy + height, 0.0))
     return vx, vy, square - height
+
+
+@kernel
+def energy_now(gravity, slows, x, y, vx, vy, energy):
+    """What a flight keeps, or, where something (None if nothing) slows the ball down, has left of it."""
+    if slows is None:
+        return energy
+    return kept_energy(gravity, x, y, vx, vy)
 
 
 @kernel

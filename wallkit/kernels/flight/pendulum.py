@@ -20,6 +20,7 @@ An angle phi from a place on is given as t = tan(phi / 2), 0 <= t <= 1, which ne
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from wallkit.kernels.jit import kernel, rare_kernel
 
@@ -69,7 +70,7 @@ def half_angle(ex, ey, gx, gy):
 
 
 @kernel
-def turned(ex, ey, tx, ty, t):
+def turned(ex: float, ey: float, tx: float, ty: float, t: float) -> Any:
     """Turn the unit e towards the unit t by phi, t = tan(phi / 2): (direction, its own direction ahead)."""
     per = 1.0 / (1.0 + t * t)
     # cos(phi) = (1 - t^2) / (1 + t^2), sin(phi) = 2 t / (1 + t^2).

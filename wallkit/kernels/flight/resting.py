@@ -22,6 +22,7 @@ from wallkit.kernels.flight.guide import STRAIGHT, ahead_of, guide, off_guide, o
 from wallkit.kernels.flight.obstacles import SMOOTH_JOINT, following, one_sided, side_after
 from wallkit.kernels.flight.pendulum import period
 from wallkit.kernels.flight.point_in_corner import came_from, touching
+from wallkit.kernels.flight.slowed_contact import slows
 from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.index.grid import home
@@ -55,6 +56,8 @@ SAME_WAY = 1.0 - 2.0**-20
 """Cosine of the angle between two walls, one of which goes on from the other."""
 MOST_CHANGES = 4096
 """Changes from edge to edge, without a bounce and an end in time, after which a ball is said to swing for ever."""
+MOST_STRETCHES = 65_536
+"""Stretches of a ball that friction or drag slows down, without a bounce, after which that is said of it, too."""
 MOULD = 2.0**-20
 """A disc whose radius is that of an arc, less this part, fits into it as into a mould, and cannot move along it."""
 
@@ -81,18 +84,23 @@ def keep(
         energy = kept_energy(gravity, x, y, vx, vy)
         ending = AT_REST if hold == SLIDING and stays(model, gravity, radius, held, side, x, y, vx, vy) else RUNNING
         return x, y, vx, vy, time, energy, last, held, hold, side, 0, changes + 1, SLIDE, NO_HIT, ending
-    if span == math.inf and (turns > 2 or changes > MOST_CHANGES):
+    slowed = slows(model.rolling, model.drag)
+    if changes > MOST_STRETCHES if slowed else span == math.inf and (turns > 2 or changes > MOST_CHANGES):
         return x, y, vx, vy, 0.0, energy, last, held, hold, side, turns, changes, NO_ROW, NO_HIT, SWINGING
     x, y, vx, vy, time, event = stretch(
         model, gravity, radius, held, side, last, x, y, vx, vy, start_of, tolerance, span
     )
-    feature, ending = NO_HIT, RUNNING
+    feature, ending, kind = NO_HIT, RUNNING, NO_ROW
+    if slowed:
+        energy, changes = kept_energy(gravity, x, y, vx, vy), changes + 1
     if event == TIME_IS_UP:
         ending = TIME_REACHED
     elif event == TURNS:
         turns += 1
         if stays(model, gravity, radius, held, side, x, y, vx, vy):
             ending = AT_REST
+        elif slowed:
+            kind = SLIDE  # what slows it down is turned round with it
         elif turns > 2:
             time += _whole_swings(model, gravity, radius, held, side, x, y, span - time)
     elif event == LIFTS:
@@ -103,7 +111,7 @@ def keep(
             vx, vy, ending = 0.0, 0.0, AT_REST
     elif event != GOES_ON:
         feature = event
-    return x, y, vx, vy, time, energy, last, held, hold, side, turns, changes, NO_ROW, feature, ending
+    return x, y, vx, vy, time, energy, last, held, hold, side, turns, changes, kind, feature, ending
 
 
 @rare_kernel
@@ -136,7 +144,16 @@ def stays(model, gravity, radius, held, side, x, y, vx, vy):
     # Coulomb's law: it stands while the pull along the wall is at most the coefficient times what presses it.
     along, pressed = abs(gravity[1] * nx - gravity[0] * ny), -(gravity[0] * nx + gravity[1] * ny)
     least = LEVEL * (abs(gravity[0]) + abs(gravity[1]))
-    return along <= least or along <= _grip(model, model.static_friction, held) * pressed
+    grip = _grip(model, model.static_friction, held)
+    return along <= least or along <= _holding(model.rolling, grip) * pressed
+
+
+@kernel
+def _holding(rolling, grip):
+    """What holds a ball that stands: rolling friction, too."""
+    if rolling is None:
+        return grip
+    return max(rolling, grip)
 
 
 @kernel

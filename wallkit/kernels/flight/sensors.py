@@ -11,12 +11,13 @@ import math
 
 from wallkit.kernels.flight.damping import free_time, slowed
 from wallkit.kernels.flight.flight import fly, normal_of
-from wallkit.kernels.flight.gravity import first_contact, move
+from wallkit.kernels.flight.gravity import fall, first_contact
 from wallkit.kernels.flight.guide import STRAIGHT, guide
 from wallkit.kernels.flight.motion import advance
 from wallkit.kernels.flight.point_in_corner import touching
 from wallkit.kernels.flight.resting import side_of
 from wallkit.kernels.flight.sensors_on_circles import next_crossing_round
+from wallkit.kernels.flight.slowed_contact import pull_ahead, slows
 from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.index.grid import home
 from wallkit.kernels.jit import kernel, rare_kernel
@@ -28,7 +29,7 @@ def next_crossing(sensors, pull, x, y, vx, vy, time, lost, until, last, toleranc
     """Move a centre on to the next sensor that it crosses in a flight.
 
     Args:
-        sensors: their model; its damping is that of the flight.
+        sensors: their model; its damping and drag are those of the flight.
         pull: acceleration on this flight, or None.
         x: of the centre, local to the sensors.
         y: of the centre.
@@ -53,7 +54,7 @@ def next_crossing(sensors, pull, x, y, vx, vy, time, lost, until, last, toleranc
     if edge == NO_HIT:
         return x, y, vx, vy, time, lost, edge
     passed, kept = slowed(sensors.damping, energy, t, remaining)
-    x, y, vx, vy = move(pull, x, y, vx, vy, t)
+    x, y, vx, vy = fall(pull, sensors.drag, x, y, vx, vy, t)
     time, lost = advance(time, lost, passed)
     return x, y, kept * vx, kept * vy, time, lost, edge
 
@@ -141,7 +142,7 @@ def count_round(sensors, gravity, rho, away, nx, ny, x, y, vx, vy, since, until,
     v, last = vy * ex - vx * ey, NO_HIT
     while True:
         x, y, ex, ey, v, since, last = next_crossing_round(
-            sensors, gravity[0], gravity[1], rho, x, y, ex, ey, v, since, until, last
+            sensors, gravity[0], gravity[1], rho, away, x, y, ex, ey, v, since, until, last
         )
         if last == NO_HIT:
             break
@@ -164,8 +165,11 @@ def count_kept(model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx,
 
 
 @kernel
-def set_pull(model, gravity, pull, kind, feature):
-    """Write what accelerates a ball after a contact: gravity, or the part of it along the wall on which it slides."""
+def set_pull(model, gravity, pull, kind, feature, vx, vy):
+    """Write what accelerates a ball after a contact: gravity, or its part along the wall on which the ball slides.
+
+    Rolling friction is part of it there, against the velocity; drag is not.
+    """
     if pull is not None:
         pull[0], pull[1] = gravity[0], gravity[1]
         if kind == SLIDE and feature >= 0:
@@ -173,6 +177,12 @@ def set_pull(model, gravity, pull, kind, feature):
             # (g.t) t, with t = (-ny, nx) along the line.
             along = gravity[1] * line.nx - gravity[0] * line.ny
             pull[0], pull[1] = -along * line.ny, along * line.nx
+            if slows(model.rolling, model.drag):
+                moves = vy * line.nx - vx * line.ny
+                turn = 1.0 if moves > 0.0 or (moves == 0.0 and along > 0.0) else -1.0
+                tx, ty = -turn * line.ny, turn * line.nx
+                ahead = pull_ahead(model.rolling, model.drag, tx, ty, gravity[0], gravity[1])
+                pull[0], pull[1] = ahead * tx, ahead * ty
 
 
 @kernel
@@ -197,7 +207,7 @@ def fly_sensed(model, gravity, pull, sensors, walls, radii, states, counts, unti
     for ball in range(len(radii)):
         state = states[ball]
         x, y, vx, vy, since = state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy], state[STATE.time]
-        set_pull(model, gravity, pull, EDGE, NO_HIT)
+        set_pull(model, gravity, pull, EDGE, NO_HIT, vx, vy)
         feature, kind, nx, ny, radius = NO_HIT, EDGE, 0.0, 0.0, radii[ball]
         while counts[ball, COUNT.ending] == RUNNING:
             noted = fly(model, gravity, radii[ball], state, counts[ball], until, limit, found, log, capacity)
@@ -212,7 +222,7 @@ def fly_sensed(model, gravity, pull, sensors, walls, radii, states, counts, unti
                 since, x, y, vx, vy = end, log[o + LOG.x], log[o + LOG.y], log[o + LOG.vx], log[o + LOG.vy]
                 nx, ny = log[o + LOG.nx], log[o + LOG.ny]
                 feature, kind = int(log[o + LOG.feature]), int(log[o + LOG.kind])
-                set_pull(model, gravity, pull, kind, feature)
+                set_pull(model, gravity, pull, kind, feature, vx, vy)
         end = state[STATE.time] + state[STATE.lost]
         if not count_kept(
             model, gravity, sensors, radius, feature, kind, nx, ny, x, y, vx, vy, since, end, found, walls

@@ -6,9 +6,10 @@ import math
 
 from wallkit.kernels.flight.obstacles import falls, place_at
 from wallkit.kernels.flight.pendulum import speed_at, swing_time, to_quarter, turned, turning
+from wallkit.kernels.flight.slowed_contact import swing_on
 from wallkit.kernels.impact.arc_impact import holds
 from wallkit.kernels.jit import kernel, rare_kernel
-from wallkit.kernels.records import NO_HIT
+from wallkit.kernels.records import GOES_ON, NO_HIT
 
 MORE = 2.0**-45
 """Rounding of a place on the circle, in parts of its radius."""
@@ -17,14 +18,15 @@ PIECES = 14
 
 
 @rare_kernel
-def next_crossing_round(sensors, gx, gy, rho, x, y, ex, ey, v, time, until, last):
+def next_crossing_round(sensors, gx, gy, rho, away, x, y, ex, ey, v, time, until, last):
     """Move a centre on along its circle to the next sensor that it crosses.
 
     Args:
-        sensors: their model.
+        sensors: their model; what slows the ball down is in it, too.
         gx: gravity, with gy.
         gy: see gx.
         rho: radius of the circle.
+        away: 1 where it bends away from the ball's side of the wall, else -1.
         x: of the centre, local to the sensors, with y.
         y: see x.
         ex: unit direction from the circle's middle to it, with ey.
@@ -37,6 +39,21 @@ def next_crossing_round(sensors, gx, gy, rho, x, y, ex, ey, v, time, until, last
     Returns:
         (x, y, ex, ey, v, time, edge); the edge is NO_HIT where none is crossed until then, or in a full swing ever.
     """
+    return _next_crossing(sensors, sensors.rolling, sensors.drag, gx, gy, rho, away, x, y, ex, ey, v, time, until, last)
+
+
+@kernel
+def _next_crossing(sensors, rolling, drag, gx, gy, rho, away, x, y, ex, ey, v, time, until, last):
+    """``next_crossing_round``, with what slows the ball down as arguments, so that what is not needed is dropped."""
+    if drag is None:
+        if rolling is None:
+            return _next_crossing_swung(sensors, gx, gy, rho, x, y, ex, ey, v, time, until, last)
+    return _next_crossing_slowed(sensors, rolling, drag, gx, gy, rho, away, x, y, ex, ey, v, time, until, last)
+
+
+@rare_kernel
+def _next_crossing_swung(sensors, gx, gy, rho, x, y, ex, ey, v, time, until, last):
+    """``next_crossing_round`` without friction or drag: a pendulum."""
     idle = 0
     while idle < PIECES:
         pull = gy * ex - gx * ey
@@ -62,6 +79,27 @@ def next_crossing_round(sensors, gx, gy, rho, x, y, ex, ey, v, time, until, last
             return x, y, ex, ey, v, time, edge
         idle, last = idle + (1 if until == math.inf else 0), NO_HIT
     return x, y, ex, ey, v, time, NO_HIT
+
+
+@rare_kernel
+def _next_crossing_slowed(sensors, rolling, drag, gx, gy, rho, away, x, y, ex, ey, v, time, until, last):
+    """``next_crossing_round`` for a ball that friction or drag slows down: where it turns there is a contact."""
+    pull = gy * ex - gx * ey
+    turn = 1.0 if v > 0.0 or (v == 0.0 and pull > 0.0) else -1.0
+    speed, idle = abs(v), 0
+    while time < until and idle < PIECES:
+        tx, ty = -turn * ey, turn * ex
+        way, edge = _first_sensor(sensors, sensors.arcs, rho, ex, ey, tx, ty, x, y, last, 1.0)
+        u, speed, took, event = swing_on(rolling, drag, rho, away, ex, ey, tx, ty, gx, gy, speed, way, until - time)
+        time += took
+        if event != GOES_ON or time >= until:
+            break
+        x, y = place_at(rho, ex, ey, tx, ty, x, y, u)
+        ex, ey, _ux, _uy = turned(ex, ey, tx, ty, u)
+        if edge != NO_HIT and u >= way:
+            return x, y, ex, ey, turn * speed, time, edge
+        idle, last = idle + (1 if until == math.inf else 0), NO_HIT
+    return x, y, ex, ey, turn * speed, time, NO_HIT
 
 
 @kernel

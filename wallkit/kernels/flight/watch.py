@@ -11,6 +11,7 @@ from wallkit.kernels.flight.regular import period_of, tangent_norm, word_of
 from wallkit.kernels.flight.resting import side_of
 from wallkit.kernels.flight.sensors import next_crossing, set_pull
 from wallkit.kernels.flight.sensors_on_circles import next_crossing_round
+from wallkit.kernels.impact.drag_motion import along
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.records import (
     BOUNCE_LIMIT,
@@ -110,7 +111,7 @@ def fly_to_target(model, gravity, watch, radius, state, counts, ball, number, un
     Contacts are flown ahead by the piece and looked at after it: their flights only where somebody wants to know.
     """
     x, y, vx, vy, since = state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy], state[STATE.time]
-    set_pull(model, gravity, watch.pull, EDGE, NO_HIT)
+    set_pull(model, gravity, watch.pull, EDGE, NO_HIT, vx, vy)
     feature, kind, nx, ny = NO_HIT, EDGE, 0.0, 0.0
     covers = number < watch.covering
     asks = covers or watch.sensors is not None
@@ -141,7 +142,10 @@ def fly_to_target(model, gravity, watch, radius, state, counts, ball, number, un
                     ring[o + LOG.time],
                 )
                 if covers:
-                    cover(watch, watch.pull, number, x, y, ring[o + LOG.time] - since, ring[o + LOG.x], ring[o + LOG.y])
+                    cover(
+                        watch, watch.pull, model.drag, number, x, y, vx, vy, ring[o + LOG.time] - since,
+                        ring[o + LOG.x], ring[o + LOG.y],
+                    )  # fmt: skip
             feature, kind = int(ring[o + LOG.feature]), int(ring[o + LOG.kind])
             hit = kind <= VERTEX and watch.target[tally_of(model, feature)] == 1
             if hit or crossed < math.inf:
@@ -160,7 +164,7 @@ def fly_to_target(model, gravity, watch, radius, state, counts, ball, number, un
                     ring[o + LOG.vy],
                 )
                 nx, ny = ring[o + LOG.nx], ring[o + LOG.ny]
-                set_pull(model, gravity, watch.pull, kind, feature)
+                set_pull(model, gravity, watch.pull, kind, feature, vx, vy)
             row += 1
         filled += noted
     if asks:
@@ -169,7 +173,7 @@ def fly_to_target(model, gravity, watch, radius, state, counts, ball, number, un
             model, gravity, watch.sensors, watch.pull, radius, feature, kind, nx, ny, x, y, vx, vy, since, end
         )
         if covers:
-            cover(watch, watch.pull, number, x, y, end - since, state[STATE.x], state[STATE.y])
+            cover(watch, watch.pull, model.drag, number, x, y, vx, vy, end - since, state[STATE.x], state[STATE.y])
         if crossed < math.inf:
             watch.time[ball], watch.met[ball] = crossed, bounces
     return filled
@@ -195,7 +199,7 @@ def crosses_at(model, gravity, sensors, pull, radius, feature, kind, nx, ny, x, 
             if rho != STRAIGHT:
                 ex, ey = away * nx, away * ny
                 _x, _y, _ex, _ey, _v, time, edge = next_crossing_round(
-                    sensors, gravity[0], gravity[1], rho, x, y, ex, ey, vy * ex - vx * ey, since, until, NO_HIT
+                    sensors, gravity[0], gravity[1], rho, away, x, y, ex, ey, vy * ex - vx * ey, since, until, NO_HIT
                 )
                 return math.inf if edge == NO_HIT else time
     if vx == 0.0 and vy == 0.0 and pull is None:
@@ -208,7 +212,7 @@ def crosses_at(model, gravity, sensors, pull, radius, feature, kind, nx, ny, x, 
 
 
 @kernel
-def cover(watch, pull, number, x, y, passed, to_x, to_y):
+def cover(watch, pull, drag, number, x, y, vx, vy, passed, to_x, to_y):
     """Count a ball in the squares that a flight passes: at steps of a square, a parabola's by its equation."""
     x0, y0, per_unit, columns, rows = watch.cells
     dx, dy = to_x - x, to_y - y
@@ -223,12 +227,27 @@ def cover(watch, pull, number, x, y, passed, to_x, to_y):
     for k in range(steps + 1):
         s = k * each
         px, py = x + s * (dx - (1.0 - s) * gx), y + s * (dy - (1.0 - s) * gy)
+        px, py = _with_drag(drag, pull, x, y, vx, vy, s, passed, to_x, to_y, px, py)
         column, row = (px - x0) * per_unit, (py - y0) * per_unit
         if 0.0 <= column < columns and 0.0 <= row < rows:
             cell = int(row) * columns + int(column)
             if watch.stamps[cell] != number:
                 watch.stamps[cell] = number
                 watch.visits[cell] += 1
+
+
+@kernel
+def _with_drag(drag, pull, x, y, vx, vy, s, passed, to_x, to_y, px, py):
+    """Where a ball is under gravity and drag after the part s of its time; (px, py) without drag."""
+    if drag is None:
+        return px, py
+    if not passed < math.inf:
+        return px, py
+    # A curve that holds it has it elsewhere: what that takes it off its end is taken back evenly.
+    off_x = to_x - along(drag, x, vx, pull[0], passed)
+    off_y = to_y - along(drag, y, vy, pull[1], passed)
+    t = s * passed
+    return along(drag, x, vx, pull[0], t) + s * off_x, along(drag, y, vy, pull[1], t) + s * off_y
 
 
 @kernel

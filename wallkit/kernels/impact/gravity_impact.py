@@ -14,6 +14,8 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.impact.arc_impact import FALLING_MOULD, is_wide, to_end
+from wallkit.kernels.impact.drag_motion import along, pulled
+from wallkit.kernels.impact.drag_roots import Gap, first_fall, first_fall_after
 from wallkit.kernels.impact.leaving import LEVEL_SPEED, left_along
 from wallkit.kernels.impact.line_impact import from_across, precedes, slack_of, stands_across
 from wallkit.kernels.impact.polynomial_roots import NEVER, first_fall_quadratic, first_fall_quartic
@@ -28,11 +30,14 @@ LATER = 1.0 + 2.0**-18
 
 
 @kernel
-def hull_of(x, y, vx, vy, gx, gy, start, stop, tolerance):
+def hull_of(drag, x, y, vx, vy, gx, gy, start, stop, tolerance):
     """Give the hull of a flight between two times: (px, py, qx, qy, rx, ry, margin, size).
 
-    It begins at p and ends at r, and its tangents there meet in q. What is within ``margin`` may be met.
+    It begins at p and ends at r, and its tangents there meet in q. What is within ``margin`` may be met: with drag,
+    where the way is no parabola, everything.
     """
+    if drag is not None:
+        return x, y, x, y, x, y, NEVER, 0.0
     ux, uy = vx + start * gx, vy + start * gy
     half = 0.5 * (stop - start)
     # A part of a parabola is a quadratic Bezier curve. Its middle point is where the tangents at both ends meet:
@@ -46,8 +51,9 @@ def hull_of(x, y, vx, vy, gx, gy, start, stop, tolerance):
 
 @rare_kernel
 def fall_line(
-    lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature
-):
+    lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance,
+    best, feature,
+):  # fmt: skip
     """Earliest contact with the lines of entries start to stop: +-(d + vn t + gn t^2 / 2) - r falls through 0.
 
     ``skipped`` is the line that the ball has just left along it. A disc that overlaps a one-sided wall by more
@@ -75,13 +81,13 @@ def fall_line(
             above = vn > 0.0 if abs(vn) > noise else gn < 0.0  # pressed on it, it lies on it
         side = 1.0 if above else -1.0
         if one_sided is None or side > 0.0 or one_sided[edge_wall[ids[k]]] == 0:
-            t = first_fall_quadratic(0.5 * side * gn, side * vn, side * d - radius, math.inf)
+            t = _line_fall(drag, far, side * gn, side * vn, side * d - radius)
             if stands_across(one_sided, edge_wall, ids[k], side * d - radius, slack):
-                t = _fall_from_behind(0.5 * gn, vn, d - radius)
+                t = _fall_from_behind(drag, far, 0.5 * gn, vn, d - radius)
             # Where this side is not met in time, nor beside the edge, the ball has not come through to the other.
             if not t <= best:
                 continue
-            if -slack <= u + t * (vu + 0.5 * t * gu) <= line.length + slack:
+            if -slack <= along(drag, u, vu, gu, t) <= line.length + slack:
                 if t < best or precedes(ids[k], feature):
                     best, feature = t, ids[k]
                 continue
@@ -89,16 +95,27 @@ def fall_line(
             if side > 0.0 and one_sided[edge_wall[ids[k]]] != 0:
                 continue
         # The gap to the far side is the negative one, below 0 now: it rises as the ball comes through.
-        t = _fall_from_behind(-0.5 * side * gn, -side * vn, -side * d - radius)
+        t = _fall_from_behind(drag, far, -0.5 * side * gn, -side * vn, -side * d - radius)
         if t < best or (t == best and precedes(ids[k], feature)):
-            if -slack <= u + t * (vu + 0.5 * t * gu) <= line.length + slack:
+            if -slack <= along(drag, u, vu, gu, t) <= line.length + slack:
                 best, feature = t, ids[k]
     return best, feature, touched
 
 
 @kernel
-def _fall_from_behind(a, b, c):
+def _line_fall(drag, far, a, b, c):
+    """First fall through 0 of the gap c to a line that changes at b and is pulled by a, before ``far``."""
+    if drag is None:
+        return first_fall_quadratic(0.5 * a, b, c, math.inf)
+    # One coordinate, the gap, as a flight along x past the line x = 0.
+    return first_fall(Gap(0.0, 0.5, 0.0, 0.0, 0.0, 0.0, c, 0.0, b, 0.0, a, 0.0, drag), far, NEVER, False)
+
+
+@kernel
+def _fall_from_behind(drag, far, a, b, c):
     """First fall of a t^2 + b t + c through 0, below which it is now, after it has risen above."""
+    if drag is not None:
+        return first_fall(Gap(0.0, 0.5, 0.0, 0.0, 0.0, 0.0, c, 0.0, b, 0.0, 2.0 * a, 0.0, drag), far, NEVER, True)
     discriminant = b * b - 4.0 * a * c
     if a >= 0.0 or b <= 0.0 or discriminant <= 0.0:
         return NEVER
@@ -124,21 +141,22 @@ def _range_of(ax, ay, bx, by, cx, cy, sx, sy):
 
 @rare_kernel
 def fall_corners(
-    corners, ids, start, stop, one_sided, corner_wall, fans, radius, x, y, vx, vy, gx, gy, last, tolerance, now, until,
-    best, feature,
+    corners, ids, start, stop, one_sided, corner_wall, fans, radius, x, y, vx, vy, gx, gy, drag, far, last, tolerance,
+    now, until, best, feature,
 ):  # fmt: skip
     """Earliest contact of a disc with the corners of entries start to stop: |e + v t + g t^2 / 2|^2 - r^2 falls.
 
     A corner of a one-sided wall may be passed from behind and met later on the same flight. A disc that has pivoted
     about ``last``, or has come off its edge, leaves it along it.
     """
-    px, py, qx, qy, rx, ry, margin, size = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
+    px, py, qx, qy, rx, ry, margin, size = hull_of(drag, x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
     left, right = min(min(px, qx), rx), max(max(px, qx), rx)
     low, high = min(min(py, qy), ry), max(max(py, qy), ry)
     most = radius * radius + margin * (4.0 * radius + size)
     slack = slack_of(tolerance, radius)
     # |e + v t + g t^2/2|^2 = g.g/4 t^4 + v.g t^3 + (v.v + e.g) t^2 + 2 e.v t + e.e.
     c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
+    ax, ay = pulled(drag, vx, gx), pulled(drag, vy, gy)
     for k in range(start, stop):
         corner = corners[ids[k]]
         cx, cy = corner.x, corner.y
@@ -150,22 +168,49 @@ def fall_corners(
         if least > most:
             continue
         ex, ey = x - cx, y - cy
-        c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
+        c2, c1 = vx * vx + vy * vy + ex * ax + ey * ay, 2.0 * (ex * vx + ey * vy)
         c0 = ex * ex + ey * ey - radius * radius
         from_behind = stands_across(one_sided, corner_wall, ids[k], c0, 2.0 * radius * slack)
         if -2 - ids[k] == last:
             c2, c1, c0, from_behind = left_along(c2, c1, c0, radius, slack, vx, vy, gx, gy, from_behind)
-        t = first_fall_quartic(c4, c3, c2, c1, c0, LATER * min(best, until), from_behind)
-        t = _polished(t, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy)
+        t = _circle_fall(
+            drag, far, 1.0, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy, c4, c3, c2, c1, c0, 0.0,
+            LATER * min(best, until), from_behind,
+        )  # fmt: skip
         if one_sided is not None:
-            if t <= best:
-                there_x, there_y = ex + t * (vx + 0.5 * t * gx), ey + t * (vy + 0.5 * t * gy)
+            if t <= best and t < NEVER:
+                there_x, there_y = along(drag, ex, vx, gx, t), along(drag, ey, vy, gy, t)
                 if from_across(one_sided, corner_wall, fans, corners, ids[k], radius, slack, there_x, there_y):
-                    t = _fall_after(c4, c3, c2, c1, c0, t, LATER * min(best, until))
-                    t = _polished(t, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy)
+                    t = _circle_fall(
+                        drag, far, 1.0, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy, c4, c3, c2, c1, c0, t,
+                        LATER * min(best, until), True,
+                    )  # fmt: skip
         if t < best or (t == best and precedes(-2 - ids[k], feature)):
             best, feature = t, -2 - ids[k]
     return best, feature
+
+
+@rare_kernel
+def _circle_fall(
+    drag, far, side, off, wx, wy, sx, sy, vx, vy, gx, gy, c4, c3, c2, c1, c0, after, t_max, from_behind
+):  # fmt: skip
+    """First fall through 0 of the gap side (w.(w + 2 s) + off) up to t_max, or the next one after a time.
+
+    Its first coefficients are c0, c1, c2, where what the ball has just left may have been taken out of them: see
+    ``left_along``.
+    """
+    if drag is None:
+        if after > 0.0:
+            t = _fall_after(c4, c3, c2, c1, c0, after, t_max)
+        else:
+            t = first_fall_quartic(c4, c3, c2, c1, c0, t_max, from_behind)
+        return _polished(t, off, wx, wy, sx, sy, vx, vy, gx, gy)
+    ex, ey = wx + sx, wy + sy
+    bend = vx * vx + vy * vy + ex * pulled(drag, vx, gx) + ey * pulled(drag, vy, gy)
+    off_now = c0 - side * (wx * (wx + 2.0 * sx) + wy * (wy + 2.0 * sy))
+    lin, twice = c1 - side * 2.0 * (ex * vx + ey * vy), 2.0 * (c2 - side * bend)
+    gap = Gap(side, side * sx, side * sy, off_now, lin, twice, wx, wy, vx, vy, gx, gy, drag)
+    return first_fall_after(gap, far, after, t_max, from_behind)
 
 
 @rare_kernel
@@ -205,8 +250,8 @@ def _beside(arc, wx, wy, slack):
 
 @rare_kernel
 def fall_arcs(
-    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference,
-    now, until, best, feature,
+    arcs, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance,
+    reference, now, until, best, feature,
 ):  # fmt: skip
     """Earliest contact with the arcs of entries start to stop: |e(t)|^2 - (R + r)^2 or (R - r)^2 - |e(t)|^2 falls.
 
@@ -220,7 +265,7 @@ def fall_arcs(
     touched = 0
     if arcs is None:
         return best, feature, touched
-    px, py, qx, qy, rx, ry, margin, size = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
+    px, py, qx, qy, rx, ry, margin, size = hull_of(drag, x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
     slack = slack_of(tolerance, radius)
     for k in range(start, stop):
         arc = arcs[ids[k]]
@@ -242,12 +287,12 @@ def fall_arcs(
         outside, on = _side_of(arc, radius, wx, wy, vx, vy, gx, gy, tolerance, reference)
         touched += 1 if on and not again else 0
         t = _time_to_arc(
-            arc, radius, outside, solid_out, solid_in, one_way, wx, wy, vx, vy, gx, gy, again, ids[k] == skipped, slack,
-            min(best, LATER * until), least - near, most + near,
+            arc, radius, outside, solid_out, solid_in, one_way, wx, wy, vx, vy, gx, gy, drag, far, again,
+            ids[k] == skipped, slack, min(best, LATER * until), least - near, most + near,
         )  # fmt: skip
         if t < best or (t == best and precedes(ids[k], feature)):
             best, feature = t, ids[k]
-            px, py, qx, qy, rx, ry, margin, size = hull_of(x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
+            px, py, qx, qy, rx, ry, margin, size = hull_of(drag, x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
     return best, feature, touched
 
 
@@ -303,7 +348,8 @@ def _side_of(arc, radius, wx, wy, vx, vy, gx, gy, tolerance, reference):
 
 @rare_kernel
 def _time_to_arc(
-    arc, radius, outside, solid_out, solid_in, one_way, wx, wy, vx, vy, gx, gy, again, left, slack, best, least, most
+    arc, radius, outside, solid_out, solid_in, one_way, wx, wy, vx, vy, gx, gy, drag, far, again, left, slack, best,
+    least, most,
 ):  # fmt: skip
     """Time up to ``best`` at which a ball, at w from the start of an arc, meets it; NEVER if it does not.
 
@@ -314,7 +360,8 @@ def _time_to_arc(
     ex, ey = wx + arc.sx, wy + arc.sy
     power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
     c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
-    c2, c1 = vx * vx + vy * vy + ex * gx + ey * gy, 2.0 * (ex * vx + ey * vy)
+    c2 = vx * vx + vy * vy + ex * pulled(drag, vx, gx) + ey * pulled(drag, vy, gy)
+    c1 = 2.0 * (ex * vx + ey * vy)
     outer, inner = levels_of(arc.radius, radius)
     mould = FALLING_MOULD * arc.radius
     found, other = NEVER, True
@@ -338,32 +385,38 @@ def _time_to_arc(
             continue
         if from_behind and ((most < level) if from_outside else (least > level)):
             continue
-        if again and not from_behind and _only_rises(side * c4, side * c3, b2, b1, c0, best):
+        if again and not from_behind and _only_rises(drag, side * c4, side * c3, b2, b1, c0, best):
             other = is_mould
             continue
-        t = first_fall_quartic(side * c4, side * c3, b2, b1, c0, LATER * best, from_behind)
-        t = _polished(t, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy)
+        t = _circle_fall(
+            drag, far, side, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy, side * c4, side * c3, b2, b1, c0, 0.0,
+            LATER * best, from_behind,
+        )  # fmt: skip
         other = is_mould or from_behind or t <= best
         # A circle may be met twice, and the arc may lie at the second place alone.
         for _again in range(2):
             if not t <= best or t >= found:
                 break
-            there_x, there_y = wx + t * (vx + 0.5 * t * gx), wy + t * (vy + 0.5 * t * gy)
+            there_x, there_y = along(drag, wx, vx, gx, t), along(drag, wy, vy, gy, t)
             if (t > 0.0 or not again) and _beside(arc, there_x, there_y, slack):
                 found, other = t, other and _again == 1
                 break
-            t = _fall_after(side * c4, side * c3, b2, b1, c0, t, LATER * best)
-            t = _polished(t, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy)
+            t = _circle_fall(
+                drag, far, side, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy, side * c4, side * c3, b2, b1, c0, t,
+                LATER * best, True,
+            )  # fmt: skip
     return found
 
 
 @rare_kernel
-def _only_rises(c4, c3, c2, c1, c0, span):
+def _only_rises(drag, c4, c3, c2, c1, c0, span):
     """Tell whether a gap that begins at 0, to rounding, surely comes to no fall through 0 in a span of time.
 
     It is c0 + q t, q a cubic that lies between the four coefficients of its Bezier curve. Where these are a quarter of
     q(0) = c1 and more, the gap is at most 0 up to t = 4 |c0| / c1, and until then its slope keeps most of c1.
     """
+    if drag is not None:
+        return False
     # q = c1 + c2 t + c3 t^2 + c4 t^3 on [0, span] has the Bezier coefficients c1, c1 + a/3, c1 + (2 a + b)/3 and
     # c1 + a + b + c.
     a, b, c = c2 * span, c3 * span * span, c4 * span * span * span

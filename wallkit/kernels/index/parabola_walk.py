@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from wallkit.kernels.impact.drag_motion import along, beyond, speed_after, standstill, time_of_way
 from wallkit.kernels.impact.gravity_impact import fall_arcs, fall_corners, fall_line
 from wallkit.kernels.impact.polynomial_roots import NEVER
 from wallkit.kernels.index.grid import clearing, leaf, moves_to_next, place
@@ -17,15 +18,18 @@ from wallkit.kernels.records import OCTANTS
 
 
 @kernel
-def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature):
+def fall_search(model, grid, drag, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, best, feature):
     """Find the earliest contact before ``best``: (time, feature, edges touched by a point where it starts).
 
-    The cells at the grid's border reach on without end, so a ball that leaves the grid is followed back into it.
+    ``drag`` is ``model.drag``: with it the way is no parabola, but turns as seldom. The cells at the grid's border
+    reach on without end, so a ball that leaves the grid is followed back into it.
     """
+    far = _far(model, drag, x, y, vx, vy, gx, gy)
     if grid is None:
         return _fall_scan(
-            model, 0, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, 0.0, NEVER, best, feature
-        )
+            model, 0, radius, x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance, reference, 0.0, NEVER, best,
+            feature,
+        )  # fmt: skip
     column, row = place(grid, x, y)
     columns, rows = grid.columns << grid.shift, grid.rows << grid.shift
     touched, octant = 0, 0
@@ -33,8 +37,8 @@ def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolera
     # Four turns at most make five pieces, and on each columns and rows only rise, or only fall.
     for step in range(5 * (columns + rows) + 16):
         if step == 0 or now == turn:
-            turn = _next_turn(grid, vx, vy, gx, gy, now)
-            octant = _way_between(vx, vy, gx, gy, now, turn)
+            turn = _next_turn(grid, drag, vx, vy, gx, gy, now)
+            octant = _way_between(drag, vx, vy, gx, gy, now, turn)
         c, shift = 0, grid.shift
         wide, high = clearing(model.clearings, grid, octant, column, row)
         listed = wide == 0
@@ -43,19 +47,20 @@ def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolera
             wide = high = moves_to_next(model.cells[c])
         left, right = _span(column, shift, wide, octant & 1)
         low, top = _span(row, shift, high, octant & 2)
-        after_x = _until_left(grid.x0, grid.unit, left, right, columns, x, vx, gx, now, octant & 1)
-        after_y = _until_left(grid.y0, grid.unit, low, top, rows, y, vy, gy, now, octant & 2)
+        after_x = _until_left(drag, grid.x0, grid.unit, left, right, columns, x, vx, gx, now, octant & 1)
+        after_y = _until_left(drag, grid.y0, grid.unit, low, top, rows, y, vy, gy, now, octant & 2)
         # The walk goes on to the border, or to where the octant changes, and looks for contacts until then.
         then = min(now + min(after_x, after_y), turn)
         if listed:
             best, feature, more = _fall_scan(
-                model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, now, then, best, feature
-            )
+                model, c, radius, x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance, reference, now, then, best,
+                feature,
+            )  # fmt: skip
             touched += more if now == 0.0 else 0
         if best <= then or then == NEVER:
             break
         now = then
-        there_x, there_y = place(grid, x + now * (vx + 0.5 * now * gx), y + now * (vy + 0.5 * now * gy))
+        there_x, there_y = place(grid, along(drag, x, vx, gx, now), along(drag, y, vy, gy, now))
         there_x = min(max(there_x, left), right - 1)
         there_y = min(max(there_y, low), top - 1)
         # Beyond the border that is passed the number is a whole one; at a turn the ball stays in its cell.
@@ -70,7 +75,7 @@ def fall_search(model, grid, radius, x, y, vx, vy, gx, gy, last, skipped, tolera
 
 @kernel
 def _fall_scan(
-    model, c, radius, x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, now, until, best, feature
+    model, c, radius, x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance, reference, now, until, best, feature
 ):  # fmt: skip
     """Earliest contact between two times with what one cell lists: (time, feature, edges touched at the start)."""
     cell = model.cells[c]
@@ -78,44 +83,45 @@ def _fall_scan(
     if cell.first < cell.arcs:
         best, feature, touched = fall_line(
             model.lines, model.ids, cell.first, cell.arcs, model.one_sided, model.edge_wall, radius,
-            x, y, vx, vy, gx, gy, last, skipped, tolerance, best, feature,
+            x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance, best, feature,
         )  # fmt: skip
     if cell.arcs < cell.corners:
         best, feature, more = fall_arcs(
             model.arcs, model.ids, cell.arcs, cell.corners, model.one_sided, model.edge_wall, radius,
-            x, y, vx, vy, gx, gy, last, skipped, tolerance, reference, now, until, best, feature,
+            x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance, reference, now, until, best, feature,
         )  # fmt: skip
     if cell.corners < cell.end:
         best, feature = fall_corners(
             model.corners, model.ids, cell.corners, cell.end, model.one_sided, model.corner_wall, model.fans,
-            radius, x, y, vx, vy, gx, gy, last, tolerance, now, until, best, feature,
+            radius, x, y, vx, vy, gx, gy, drag, far, last, tolerance, now, until, best, feature,
         )  # fmt: skip
     return best, feature, touched + more
 
 
 @kernel
-def _next_turn(grid, vx, vy, gx, gy, now):
+def _far(model, drag, x, y, vx, vy, gx, gy):
+    """Time after which a ball meets no wall any more; asked for where there is drag alone."""
+    if drag is None:
+        return NEVER
+    return beyond(drag, vx, vy, gx, gy, 4.0 * (abs(x) + abs(y) + model.extent))
+
+
+@kernel
+def _next_turn(grid, drag, vx, vy, gx, gy, now):
     """The first time after now at which the octant of a flight changes, see ``grid.octant_of``."""
-    turn = min(_standstill(vx, gx, now), _standstill(vy, gy, now))
+    turn = min(standstill(drag, vx, gx, now), standstill(drag, vy, gy, now))
     # Octants change too where |vx| = |vy|.
     if grid.octants == OCTANTS:
-        turn = min(turn, min(_standstill(vx - vy, gx - gy, now), _standstill(vx + vy, gx + gy, now)))
+        turn = min(turn, min(standstill(drag, vx - vy, gx - gy, now), standstill(drag, vx + vy, gx + gy, now)))
     return turn
 
 
 @kernel
-def _standstill(v, g, now):
-    """When v + g t changes its sign, if after now."""
-    t = -v / g if g != 0.0 else NEVER
-    return t if t > now else NEVER
-
-
-@kernel
-def _way_between(vx, vy, gx, gy, now, turn):
+def _way_between(drag, vx, vy, gx, gy, now, turn):
     """The octant of a flight between two turns, see ``grid.octant_of``."""
     # Signs do not change between two turns: any time between them tells.
     t = 0.5 * (now + turn) if turn < NEVER else 2.0 * now + 1.0
-    ux, uy = vx + t * gx, vy + t * gy
+    ux, uy = speed_after(drag, vx, gx, t), speed_after(drag, vy, gy, t)
     return int(ux <= 0.0) + 2 * int(uy <= 0.0) + 4 * int(abs(ux) < abs(uy))
 
 
@@ -133,13 +139,13 @@ def _span(number, shift, count, back):
 
 
 @kernel
-def _until_left(origin, unit, first, end, count, p, v, g, now, back):
+def _until_left(drag, origin, unit, first, end, count, p, v, g, now, back):
     """How long after now a coordinate leaves what lies from first to end, at the end to which the flight goes.
 
     Ahead lies d = u t + a t^2 / 2 with speed u >= 0: t = 2 d / (u + sqrt(u^2 + 2 a d)), or never if it turns before.
     """
-    u, a = v + now * g, g
-    p_now = p + now * (v + 0.5 * now * g)
+    u, a = speed_after(drag, v, g, now), g
+    p_now = along(drag, p, v, g, now)
     if back == 0:
         if end >= count:
             return NEVER
@@ -150,6 +156,8 @@ def _until_left(origin, unit, first, end, count, p, v, g, now, back):
         d, u, a = p_now - (origin + first * unit), -u, -a
     if d <= 0.0:
         return 0.0
+    if drag is not None:
+        return time_of_way(drag, max(u, 0.0), a, d)
     if a == 0.0:
         return d / u if u > 0.0 else NEVER
     u = max(u, 0.0)

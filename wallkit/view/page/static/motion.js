@@ -34,7 +34,7 @@
   class Motion {
     constructor(run) {
       this.balls = run.balls;
-      this.gravity = run.gravity;
+      this.gravity = run.gravity?.some((part) => part !== 0) ? run.gravity : null;
       this.friction = run.rolling_friction;
       this.drag = run.drag;
       this.start = columns(run.start);
@@ -119,16 +119,16 @@
       return into;
     }
 
-    // The acceleration of a flight: gravity, or the part of it along the wall on which the ball slides. Where a ball
-    // glides along an arc, or pivots about a vertex, `bend` is the signed radius of its centre's circle, else 0.
+    // The acceleration of a flight, drag aside: gravity, or the part of it along the wall on which the ball slides, less
+    // rolling friction. Where a ball glides along an arc, or pivots about a vertex, `bend` is the signed radius of its
+    // centre's circle, else 0.
     pull(into) {
       [into.ax, into.ay] = this.gravity ?? [0, 0];
       into.bend = into.contact < 0 || !this.bend ? 0 : this.bend[into.contact];
       if (into.bend !== 0) return;
       if (!this.gravity || into.contact < 0 || this.kind[into.contact] !== SLIDE) return;
-      const [tx, ty] = [-this.ny[into.contact], this.nx[into.contact]];
-      const along = tx * into.ax + ty * into.ay;
-      [into.ax, into.ay] = [tx * along, ty * along];
+      const [nx, ny] = [this.nx[into.contact], this.ny[into.contact]];
+      [into.ax, into.ay] = W.pullAlong(this.friction, into.vx, into.vy, nx, ny, into.ax, into.ay);
     }
 
     // A ball that left the scene flies on, one that swings for ever swings on; every other one stands where its run ended.
@@ -143,27 +143,27 @@
       return this.carry(into, Math.max(0, Math.min(t, into.until) - into.time));
     }
 
-    // Carries a state on: p + v dt + a dt^2 / 2 and v + a dt. Rolling friction f slows down by f until the ball
-    // stands, drag k gives p + v (1 - exp(-k dt)) / k; both leave the path straight.
+    // Carries a state on: p + v dt + a dt^2 / 2 and v + a dt, or with drag as `eased` says. Without gravity rolling
+    // friction f slows down by f until the ball stands, and the path is straight.
     carry(state, dt) {
       if (state.bend) {
         const [nx, ny] = [this.nx[state.contact], this.ny[state.contact]];
+        if (this.friction || this.drag)
+          return W.swingSlowed(state, state.bend, nx, ny, state.ax, state.ay, this.friction, this.drag, dt);
         return W.swing(state, state.bend, nx, ny, state.ax, state.ay, dt);
       }
       const speed = Math.hypot(state.vx, state.vy);
-      let [way, kept] = [dt, 1]; // how much of v is gone through, and what is left of it
-      if (this.friction && speed > 0) {
+      // how much of v is gone through, and of a, and what is left of v
+      let [kept, way, second] = W.eased(this.drag, dt);
+      if (this.friction && !this.gravity && speed > 0) {
         const rolling = Math.min(dt, speed / this.friction);
         way = rolling * (1 - (0.5 * this.friction * rolling) / speed);
         kept = 1 - (this.friction * rolling) / speed;
-      } else if (this.drag) {
-        way = -Math.expm1(-this.drag * dt) / this.drag;
-        kept = Math.exp(-this.drag * dt);
       }
-      state.x += way * state.vx + 0.5 * state.ax * dt * dt;
-      state.y += way * state.vy + 0.5 * state.ay * dt * dt;
-      state.vx = kept * state.vx + state.ax * dt;
-      state.vy = kept * state.vy + state.ay * dt;
+      state.x += way * state.vx + second * state.ax;
+      state.y += way * state.vy + second * state.ay;
+      state.vx = kept * state.vx + way * state.ax;
+      state.vy = kept * state.vy + way * state.ay;
       return state;
     }
 
