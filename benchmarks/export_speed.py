@@ -2,7 +2,7 @@
 
 Three levels of 100,000 edges: one ring, 1,000 rings of 100, and 1,000 open walls of 100. Each figure is one process of
 its own: processor seconds of the export alone, after a small one that imports what it needs, and the most memory that
-the export takes above what the process had, in times of the arrays of the walls plus the text.
+the export to a file takes above what the process had, in times of the arrays of the walls plus the text.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -19,9 +20,10 @@ MOST_SECONDS = 120
 
 CHILD = """
 import json, resource, sys, time
+from pathlib import Path
 import numpy as np
 import wallkit
-from wallkit.export import ExportOptions, export_text, formats
+from wallkit.export import export
 
 
 def circle(count, radius, x=0.0, y=0.0):
@@ -44,26 +46,27 @@ def peak():
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
 
 
-chosen, options = formats()[sys.argv[1]], ExportOptions(origin="box")
-export_text(level(sys.argv[2], 1000), chosen, options)
+out = Path(sys.argv[3]) / "level"
+export(level(sys.argv[2], 1000), out, sys.argv[1], origin="box")
 walls = level(sys.argv[2], 100_000)
 arrays = sum(a.nbytes for a in (walls.vertices, walls.bulges, walls.offsets, walls.depth, walls.closed))
 before, start = peak(), time.process_time()
-text, _ = export_text(walls, chosen, options)
+export(walls, out, sys.argv[1], origin="box")
 seconds = time.process_time() - start
-print(json.dumps([seconds, (peak() - before) / (arrays + len(text)), len(text) / 1e6]))
+size = out.stat().st_size
+print(json.dumps([seconds, (peak() - before) / (arrays + size), size / 1e6]))
 """
 
 
 def measured(name: str, level: str) -> str:
     """Seconds, and memory in times of walls and text."""
-    command = [sys.executable, "-c", CHILD, name, level]
-    try:
-        done = subprocess.run(
-            command, capture_output=True, text=True, timeout=MOST_SECONDS, env=os.environ | {"PYTHONPATH": str(ROOT)}
-        )
-    except subprocess.TimeoutExpired:
-        return "-"
+    around = os.environ | {"PYTHONPATH": str(ROOT)}
+    with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, "-c", CHILD, name, level, folder]
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=MOST_SECONDS, env=around)
+        except subprocess.TimeoutExpired:
+            return "-"
     if done.returncode:
         return done.stderr.splitlines()[-1][:40]
     seconds, memory, size = json.loads(done.stdout)

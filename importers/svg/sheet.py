@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
@@ -13,15 +12,14 @@ from importers.limits import Work
 from importers.problems import Severity
 from importers.svg.declarations import Winners, winners
 from importers.svg.media import matches_media
+from importers.svg.selectors import NotUnderstoodError, compile_selectors, split_at_commas
 from importers.svg.style import Declaration, known_declarations
 from importers.svg.units import unreadable
 
 # code, severity, what is left out; called once for each thing in a sheet that is not followed
 Report = Callable[[str, Severity, str], None]
 
-_STEPS_OF_A_SELECTOR = 40  # to be compiled; cssselect2 writes a Python expression for it
 _MOST_LETTERS = 10_000  # of the selectors of a nested rule, with those around it put in
-_NAME = re.compile(r"[.#]?+[A-Za-z_][\w-]*+", re.ASCII)
 
 
 class _Counted:
@@ -205,20 +203,11 @@ class Sheet:
 
     def _compile(self, prelude: str) -> list[Any]:
         """Give the selectors of a rule, none where they are not understood."""
-        if None not in self._namespaces and _NAME.fullmatch(prelude):
-            return [_Simple(prelude)]
-        self._work.charge("selectors", _STEPS_OF_A_SELECTOR * (1 + prelude.count(",")))
         try:
-            selectors = cssselect2.compile_selector_list(prelude, namespaces=self._namespaces)
-        except (cssselect2.SelectorError, NotImplementedError, SyntaxError, RecursionError, MemoryError, ValueError):
-            # cssselect2 writes a Python expression for each selector; a long one is too much for the compiler
+            return compile_selectors(prelude, self._namespaces, self._work)
+        except NotUnderstoodError:
             self._report("css-skipped", "warning", f"the selector {prelude[:60]!r} is not understood")
             return []
-        steps = len(prelude) // 16
-        for selector in selectors:
-            if steps:
-                selector.test = _charged(selector.test, steps, self._work)
-        return [selector for selector in selectors if selector.pseudo_element is None]
 
     def matches(self, element: Any, root: Any) -> list[Winners]:
         """Give the blocks of the rules that match, the weaker before the stronger.
@@ -242,43 +231,3 @@ class Sheet:
         found = [match[3] for match in matcher.match(wrapper)]
         self._work.charge("declarations", sum(1 + len(one.normal) + len(one.important) for one in found))
         return found
-
-
-def _charged(test: Callable[[Any], bool], steps: int, work: Work) -> Callable[[Any], bool]:
-    """Give a selector's test that is paid for by the length of the selector."""
-
-    def charged(element: Any) -> bool:
-        work.charge("selectors", steps)
-        return test(element)
-
-    return charged
-
-
-class _Simple:
-    """A selector of one name, class or id; cssselect2's matcher looks those up, so there is nothing left to test."""
-
-    never_matches = requires_lang_attr = False
-    pseudo_element = namespace = None
-
-    def __init__(self, text: str) -> None:
-        kind, name = (text[0], text[1:]) if text[0] in ".#" else ("", text)
-        self.id = name if kind == "#" else None
-        self.class_name = name if kind == "." else None
-        self.local_name = name if not kind else None
-        self.lower_local_name = name.lower() if not kind else None
-        self.specificity = (int(kind == "#"), int(kind == "."), int(not kind))
-
-    def test(self, element: Any) -> bool:
-        """Tell whether an element with that id, class or lower name matches; names keep their case."""
-        return self.local_name is None or bool(element.local_name == self.local_name)
-
-
-def split_at_commas(prelude: str) -> list[list[Any]]:
-    """Give the tokens of each selector of a list."""
-    parts: list[list[Any]] = [[]]
-    for token in tinycss2.parse_component_value_list(prelude, skip_comments=True):
-        if token.type == "literal" and token.value == ",":
-            parts.append([])
-        else:
-            parts[-1].append(token)
-    return parts

@@ -72,8 +72,8 @@ def test_the_ball_and_the_target_of_the_drawing(said, tmp_path):
 @pytest.mark.parametrize(
     ("changed", "words"),
     [
-        (("--to", "1,2"), "bad-aim"),
-        (("--to", "1,2,-3"), "bad-aim"),
+        (("--to", "1,2"), "bad-target"),
+        (("--to", "1,2,-3"), "bad-target"),
         (("--from", "here"), "--from is 'here'"),
         (("--from", "0,0,0"), "--from is '0,0,0'"),
         (("--most-beams", "50"), "too-many-beams"),

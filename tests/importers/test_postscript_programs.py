@@ -172,7 +172,44 @@ def by_inkscape(folder):
     return made_by_command(folder, "out.eps", "inkscape", "in.svg", "-o", "out.eps")
 
 
-PROGRAMS = [by_ghostscript, by_pdftops, by_cairo, by_fig2dev, by_matplotlib, by_inkscape]
+def by_ipe(folder):
+    (folder / "in.ipe").write_text(
+        '<?xml version="1.0"?><!DOCTYPE ipe SYSTEM "ipe.dtd"><ipe version="70218" creator="nobody"><page>'
+        '<path stroke="black">100 100 m 300 100 l 300 250 l 100 250 l h</path>'
+        '<path fill="black" matrix="1 0 0 1 20 30">120 120 m 160 120 l 140 160 l h</path>'
+        '<path stroke="black">20 0 0 20 240 180 e</path></page></ipe>'
+    )
+    return made_by_command(folder, "out.eps", "iperender", "-eps", "in.ipe", "out.eps")
+
+
+def by_libreoffice(folder):
+    (folder / "in.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="400" height="300"><g fill="none" stroke="black">'
+        '<rect x="40" y="30" width="300" height="200"/><path d="M60 60H120L90 110z"/></g></svg>'
+    )
+    profile = f"-env:UserInstallation={(folder / 'profile').as_uri()}"
+    return made_by_command(
+        folder, "in.eps", "soffice", profile, "--headless", "--convert-to", "eps", "--outdir", str(folder), "in.svg"
+    )
+
+
+def by_scribus(folder):
+    (folder / "draw.py").write_text(
+        "import scribus\n"
+        "from scribus import *; newDocument((400, 300), (0, 0, 0, 0), PORTRAIT, 1, UNIT_POINTS, PAGE_1, 0, 1)\n"
+        "room, pillar = scribus.createRect(20, 20, 300, 200), scribus.createEllipse(100, 80, 60, 40)\n"
+        "scribus.setFillColor('None', room); scribus.setLineColor('Black', room)\n"
+        "scribus.setFillColor('Black', pillar); scribus.setLineColor('None', pillar)\n"
+        "scribus.savePageAsEPS('out.eps')\n"
+    )
+    if shutil.which("scribus") is None:
+        pytest.skip("scribus is not installed")
+    return made_by_command(folder, "out.eps", "xvfb-run", "-a", "scribus", "-g", "-ns", "-py", "draw.py")
+
+
+PROGRAMS = [
+    by_ghostscript, by_pdftops, by_cairo, by_fig2dev, by_matplotlib, by_inkscape, by_ipe, by_libreoffice, by_scribus
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("make", PROGRAMS)

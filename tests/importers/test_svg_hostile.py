@@ -78,6 +78,14 @@ HOSTILE = {
         "SVG + '<style>' + 'g ' * 5000 + '{fill:red} circle{r:3px}</style><circle/></svg>'",
         "",
     ),
+    "forty names within brackets": (
+        "SVG + '<style>:is(' + 'g ' * 40 + 'rect){r:2px} circle{r:3px}</style><circle/></svg>'",
+        "",
+    ),
+    "brackets in brackets in a selector": (
+        "SVG + '<style>' + ':is(g ' * 40 + 'rect' + ')' * 40 + '{r:2px} circle{r:3px}</style><circle/></svg>'",
+        "",
+    ),
     "thousands of siblings": (
         "SVG + '<style>rect ~ circle:nth-of-type(2){r:2px}</style>' + SHAPE * 5000 + '</svg>'",
         "",

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from wallkit.write_file import FileError, write_whole
+from wallkit.write_file import FileError, open_whole, write_whole
 
 
 def test_text_is_written_as_utf8_with_its_line_ends(tmp_path):
@@ -51,3 +51,20 @@ def test_a_missing_folder_is_named_with_what_to_do(tmp_path):
 def test_a_folder_is_no_file(tmp_path):
     with pytest.raises(FileError, match="it is a folder"):
         write_whole(tmp_path, "x")
+
+
+def _write_half(target):
+    with open_whole(target) as stream:
+        stream.write("half\n")
+        raise KeyboardInterrupt
+
+
+def test_a_file_that_is_not_written_to_its_end_does_not_appear(tmp_path, capfdbinary):
+    for target in (tmp_path / "level.tmj", "-"):
+        with pytest.raises(KeyboardInterrupt):
+            _write_half(target)
+    assert list(tmp_path.iterdir()) == []
+    assert capfdbinary.readouterr().out == b""
+    with open_whole(tmp_path / "level.tmj") as stream:
+        stream.write("Wände\r\n")
+    assert (tmp_path / "level.tmj").read_bytes() == b"W\xc3\xa4nde\r\n"

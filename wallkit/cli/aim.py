@@ -66,40 +66,29 @@ def aim_at(
     from wallkit.cli.progress import progress_bar
     from wallkit.cli.scene_input import gravity_or_none, opened, pair
     from wallkit.levels.aim import aim
+    from wallkit.levels.targets import given_target
     from wallkit.scene.opening import Wishes
     from wallkit.view.write import check_picture_ending
 
     if out:
         check_picture_ending(Path(out).suffix, out)
-    wishes = Wishes(
-        ball=() if start is None else (pair(start, "--from"),), radius=radius, speed=speed, bounces=bounces,
-        gravity=gravity_or_none(gravity), restitution=restitution,
-        tangential_restitution=tangential_restitution, friction=friction, drag=drag,
-        importing=drawing_options.options_of(importing or {}),
-    )  # fmt: skip
+    wishes = Wishes(ball=() if start is None else (pair(start, "--from"),), radius=radius, speed=speed, bounces=bounces,
+                    gravity=gravity_or_none(gravity), restitution=restitution,
+                    tangential_restitution=tangential_restitution, friction=friction, drag=drag,
+                    importing=drawing_options.options_of(importing or {}))  # fmt: skip
     level = opened(file, wishes)
     ball = level.scene.balls
     place, size = (float(ball.position[0, 0]), float(ball.position[0, 1])), float(ball.radius[0])
     pace = float(math.hypot(*ball.velocity[0])) or None
     with progress_bar("aiming") as report:
         progress = None if report is None else (lambda beams: report(beams / most_beams))
-        windows = aim(level.scene, place, _target(to), bounces, size, speed=pace, resolution=resolution,
+        windows = aim(level.scene, place, given_target(to), bounces, size, speed=pace, resolution=resolution,
                       most_beams=most_beams, progress=progress)  # fmt: skip
     if out:
         _draw(level, windows, pace, out, theme, "" if file == "-" else Path(file).name)
     if as_json:
         print(json.dumps(windows.to_json(), ensure_ascii=False, allow_nan=False))
     _tell(file, level, windows, out, sys.stderr if as_json else sys.stdout)
-
-
-def _target(text: str) -> tuple[float, ...] | str:
-    """Read X,Y,R; anything else is a name."""
-    parts = text.split(",")
-    try:
-        numbers = tuple(float(part) for part in parts)
-    except ValueError:
-        return text
-    return numbers if len(numbers) > 1 else text
 
 
 def _draw(level: OpenedScene, windows: Windows, speed: float | None, out: str, theme: Any, title: str) -> None:

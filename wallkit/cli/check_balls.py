@@ -81,8 +81,8 @@ def fly_balls(opened: OpenedScene, radius: float | None, wanted: Wanted) -> Flow
     from wallkit.cli.progress import progress_bar
     from wallkit.cli.survey import place_given
     from wallkit.levels.check_level import check_level
-    from wallkit.levels.goals import given_target
     from wallkit.levels.starts import starts_of
+    from wallkit.levels.targets import given_target
 
     starts = starts_of(opened, place_given(wanted.start), speed=wanted.speed, radius=radius, seed=wanted.seed)
     until, bounces, assumed = opened.until, opened.bounces, list(starts.assumed)
@@ -91,9 +91,10 @@ def fly_balls(opened: OpenedScene, radius: float | None, wanted: Wanted) -> Flow
         assumed.append(f"{BOUNCES} bounces a ball (--bounces, --until)")
     many = wanted.many
     assert many is not None
+    target = None if wanted.target is None else given_target(wanted.target)
     with progress_bar("checking") as report:
         check = check_level(
-            opened.scene, starts.draw, many, until, bounces, target=given_target(wanted.target),
+            opened.scene, starts.draw, many, until, bounces, target=target,
             executor=wanted.executor, workers=wanted.workers, checkpoint=wanted.checkpoint, progress=report,
         )  # fmt: skip
     return Flown(check, starts, assumed)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 from importers.collector import collector_paused
 from importers.errors import WallkitError
@@ -16,7 +16,7 @@ from wallkit.export.formats import Format, find_format, formats
 from wallkit.export.level import Level, LevelWall, build_level
 from wallkit.export.options import ExportError, ExportOptions
 from wallkit.walls.walls import Walls
-from wallkit.write_file import write_whole
+from wallkit.write_file import open_whole, write_whole
 
 __all__ = [
     "ExportError",
@@ -30,6 +30,7 @@ __all__ = [
     "find_format",
     "formats",
     "loader_of",
+    "write_to",
 ]
 
 
@@ -50,8 +51,8 @@ def export(walls: Walls, path: str | Path, format: str | None = None, **options:
         FileError: the file cannot be written.
     """
     chosen = find_format(path, format)
-    text, problems = export_text(walls, chosen, ExportOptions.of(options))
-    write_whole(path, text)
+    with open_whole(path) as stream:
+        problems = write_to(stream, walls, chosen, ExportOptions.of(options))
     if chosen.loader and str(path) != "-":
         write_whole(Path(path).parent / chosen.loader, loader_of(chosen))
     return problems
@@ -59,14 +60,22 @@ def export(walls: Walls, path: str | Path, format: str | None = None, **options:
 
 def export_text(walls: Walls, chosen: Format, options: ExportOptions) -> tuple[str, list[Problem]]:
     """Give the text of an export and what it could not say; see :func:`export`."""
+    stream = io.StringIO()
+    problems = write_to(stream, walls, chosen, options)
+    return stream.getvalue(), problems
+
+
+def write_to(stream: TextIO, walls: Walls, chosen: Format, options: ExportOptions) -> list[Problem]:
+    """Write an export to a text stream, part by part, and give what it could not say; see :func:`export`."""
     if chosen.entry_point is not None:
-        stream = io.StringIO()
-        problems = _asked(chosen, walls, stream, options)
-        return stream.getvalue(), problems
+        whole = io.StringIO()
+        problems = _asked(chosen, walls, whole, options)
+        stream.write(whole.getvalue())  # an OSError in that package is not one of this stream
+        return problems
     with collector_paused():
         level = build_level(walls, options, y_axis=chosen.y_axis, arcs=chosen.arcs, metres=chosen.metres)
-        text = chosen.write(level)
-    return text, level.findings.problems
+        chosen.write(level, stream)
+    return level.findings.problems
 
 
 def _asked(chosen: Format, walls: Walls, stream: io.StringIO, options: ExportOptions) -> list[Problem]:

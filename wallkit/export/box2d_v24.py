@@ -6,7 +6,9 @@ normal. Open walls are edges, two-sided.
 
 from __future__ import annotations
 
-from wallkit.export.c_text import tables
+from typing import TextIO
+
+from wallkit.export.c_text import write_tables
 from wallkit.export.level import Level
 from wallkit.export.losses import say_friction, say_single_precision, say_two_sided
 
@@ -54,7 +56,7 @@ inline b2Body* wallkitAddWalls(b2World& world)
 """
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level as a C++ header."""
     say_friction(level, "tangentialRestitution")
     say_two_sided(level, "Box2D 2.4")
@@ -65,4 +67,6 @@ def write(level: Level) -> str:
         lambda wall: wall.one_way and not wall.closed,
         "an open wall stops from both sides; it is kept as oneWay",
     )
-    return _HEAD + tables(level) + _TAIL
+    stream.write(_HEAD)
+    write_tables(level, stream)
+    stream.write(_TAIL)

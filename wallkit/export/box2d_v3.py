@@ -6,7 +6,9 @@ chain would lose its first and last edge to ghosts, so open walls are segments, 
 
 from __future__ import annotations
 
-from wallkit.export.c_text import tables
+from typing import TextIO
+
+from wallkit.export.c_text import write_tables
 from wallkit.export.level import Level
 from wallkit.export.losses import say_friction, say_single_precision, say_two_sided
 
@@ -58,7 +60,7 @@ static inline b2BodyId wallkitAddWalls(b2WorldId world)
 """
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level as a C header."""
     say_friction(level, "tangentialRestitution")
     say_two_sided(level, "Box2D v3")
@@ -69,4 +71,6 @@ def write(level: Level) -> str:
         lambda wall: wall.one_way and not wall.closed,
         "an open wall stops from both sides; it is kept as oneWay",
     )
-    return _HEAD + tables(level, chains_of_four=True) + _TAIL
+    stream.write(_HEAD)
+    write_tables(level, stream, chains_of_four=True)
+    stream.write(_TAIL)

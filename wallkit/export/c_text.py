@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TextIO
+
 from wallkit.export.box2d import for_four, is_loop
 from wallkit.export.level import Level
-from wallkit.export.number_text import rows
+from wallkit.export.number_text import Rows
 
-TABLES = """
+_HEAD = """
 // A chain for each closed wall, segments for each open one; in the order of the drawing, points in metres.
 typedef struct WallkitWall
-{{
+{
 	const char* name;
 	const char* layer;
 	int first; // of its points
@@ -18,45 +20,41 @@ typedef struct WallkitWall
 	bool oneWay; // drawn as solid from outside alone
 	float restitution;
 	float tangentialRestitution;
-}} WallkitWall;
+} WallkitWall;
 
-static const b2Vec2 wallkitPoints[] = {{
-{points}
-}};
-
-static const WallkitWall wallkitWalls[] = {{
-{walls}
-}};
-
-enum {{ wallkitWallCount = {count} }};
+static const b2Vec2 wallkitPoints[] = {
 """
-_EMPTY = '\t{ "", "", 0, 0, false, false, 0.0f, 0.0f },'
+_MIDDLE = """};
+
+static const WallkitWall wallkitWalls[] = {
+"""
+_NO_POINTS, _NO_WALLS = "\t{ 0.0f, 0.0f },\n", '\t{ "", "", 0, 0, false, false, 0.0f, 0.0f },\n'
 
 
-def tables(level: Level, chains_of_four: bool = False) -> str:
+def write_tables(level: Level, stream: TextIO, chains_of_four: bool = False) -> None:
     """Write the points and walls of a level; with ``chains_of_four`` no closed wall has fewer than four points."""
-    points: list[str] = []
-    walls: list[str] = []
-    first = 0
+    stream.write(_HEAD)
+    counts = []
     for wall in level:
-        loop = is_loop(wall)
-        vertices = for_four(wall.vertices) if loop and chains_of_four else wall.vertices
-        points.append("\t" + rows("{ %rf, %rf },", vertices, " "))
+        vertices = for_four(wall.vertices) if is_loop(wall) and chains_of_four else wall.vertices
+        counts.append(len(vertices))
+        Rows("{ %rf, %rf },", vertices, " ", "\t", "\n").write(stream)
+    stream.write(_MIDDLE if counts else _NO_POINTS + _MIDDLE)
+    first = 0
+    for wall, count in zip(level, counts, strict=True):
         marks = (
             quoted(wall.name),
             quoted(wall.layer),
             str(first),
-            str(len(vertices)),
-            str(loop).lower(),
+            str(count),
+            str(is_loop(wall)).lower(),
             str(wall.one_way).lower(),
             f"{float(wall.material.restitution)!r}f",
             f"{float(wall.material.tangential_restitution)!r}f",
         )
-        walls.append(f"\t{{ {', '.join(marks)} }},")
-        first += len(vertices)
-    return TABLES.format(
-        points="\n".join(points or ["\t{ 0.0f, 0.0f },"]), walls="\n".join(walls or [_EMPTY]), count=len(walls)
-    )
+        stream.write(f"\t{{ {', '.join(marks)} }},\n")
+        first += count
+    stream.write(f"{'' if counts else _NO_WALLS}}};\n\nenum {{ wallkitWallCount = {len(counts)} }};\n")
 
 
 def quoted(text: str) -> str:

@@ -8,6 +8,7 @@ GEOS's triangulation grows with the square of a polygon's size, so larger ones a
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,10 +17,11 @@ import shapely
 
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.material_shapes import areas_of, is_ring
+from wallkit.export.pieces import Pieces
 from wallkit.geometry.arrays import FloatArray, IntArray
 
 MOST_AT_ONCE = 200  # vertices of a polygon that is triangulated as it is
-BATCH = 20_000  # vertices whose triangles are in memory at the same time: GEOS takes some 400 bytes for each
+BATCH = 5_000  # vertices whose triangles are in memory at the same time: GEOS takes some 400 bytes for each
 MITRE = 5.0  # how far a corner of a thickened wall may stick out, in half thicknesses
 # A corner counts as convex when the sine of its angle is above this, far above the rounding (1e-16) of that sine:
 # leaving two pieces apart is never wrong.
@@ -33,11 +35,11 @@ class Solid:
 
     Attributes:
         wall: whose name, layer and material it has: its outline, or the room that it is around.
-        pieces: convex polygons (n, 2), counter-clockwise in the target's numbers.
+        pieces: convex polygons, counter-clockwise in the target's numbers.
     """
 
     wall: LevelWall
-    pieces: list[FloatArray]
+    pieces: Pieces
 
 
 def solids_of(level: Level) -> list[Solid]:
@@ -57,7 +59,7 @@ def solids_of(level: Level) -> list[Solid]:
         "--thickness sets it",
     )
     pieces = convex_pieces([polygon for polygon, _ in found], level.options.max_vertices, TINY * level.side**2)
-    return [Solid(wall, own) for (_, wall), own in zip(found, pieces, strict=True) if own]
+    return [Solid(wall, own) for (_, wall), own in zip(found, pieces, strict=True) if len(own)]
 
 
 def _material(level: Level) -> list[tuple[Any, LevelWall]]:
@@ -73,7 +75,7 @@ def _material(level: Level) -> list[tuple[Any, LevelWall]]:
     return [(area.polygon, area.walls[0]) for area in areas if area.walls]
 
 
-def convex_pieces(polygons: list[Any], most: int, smallest: float = 0.0) -> list[list[FloatArray]]:
+def convex_pieces(polygons: list[Any], most: int, smallest: float = 0.0) -> list[Pieces]:
     """Cut shapely polygons into convex pieces.
 
     Args:
@@ -82,17 +84,17 @@ def convex_pieces(polygons: list[Any], most: int, smallest: float = 0.0) -> list
         smallest: area of triangles that are left out.
 
     Returns:
-        For each polygon its pieces (n, 2), strictly convex, counter-clockwise.
+        For each polygon its pieces, strictly convex, counter-clockwise.
     """
-    result: list[list[FloatArray]] = [[] for _ in polygons]
+    found: list[list[Pieces]] = [[] for _ in polygons]
     parts, owner = _small_parts(polygons)
     batch = np.cumsum(shapely.get_num_coordinates(parts)) // BATCH
     for number in range(int(batch[-1]) + 1 if len(batch) else 0):
-        _add_pieces(result, parts[batch == number], owner[batch == number], most, smallest)
-    return result
+        _add_pieces(found, parts[batch == number], owner[batch == number], most, smallest)
+    return [Pieces.joined(own) for own in found]
 
 
-def _add_pieces(result: list[list[FloatArray]], parts: Any, owner: IntArray, most: int, smallest: float) -> None:
+def _add_pieces(result: list[list[Pieces]], parts: Any, owner: IntArray, most: int, smallest: float) -> None:
     """Triangulate some parts and merge what may be merged; ``result`` has a list for each owner."""
     found, of_part = shapely.get_parts(shapely.constrained_delaunay_triangles(parts), return_index=True)
     corners = shapely.get_coordinates(found).reshape(-1, 4, 2)[:, :3]
@@ -105,10 +107,11 @@ def _add_pieces(result: list[list[FloatArray]], parts: Any, owner: IntArray, mos
     places = np.stack([points.real, points.imag], axis=1)
     of, loops = _merged(places, which.reshape(-1, 3), owner[of_part[large]], most)
     corners = places[np.array([corner for loop in loops for corner in loop], dtype=np.int64)]
-    end = 0
-    for polygon, loop in zip(of, loops, strict=True):
-        start, end = end, end + len(loop)
-        result[polygon].append(corners[start:end])
+    offsets = np.concatenate([[0], np.cumsum([len(loop) for loop in loops])]).astype(np.int64)
+    pieces, owners = Pieces(corners, offsets), np.array(of, dtype=np.int64)
+    begins = np.concatenate([[0], np.flatnonzero(np.diff(owners)) + 1, [len(owners)]]).tolist() if of else [0]
+    for begin, end in itertools.pairwise(begins):  # pieces of one polygon stand together
+        result[of[begin]].append(pieces.cut(begin, end))
 
 
 def _small_parts(polygons: list[Any]) -> tuple[Any, IntArray]:

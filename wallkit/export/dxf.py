@@ -5,7 +5,7 @@ A bulge above 1 (more than a half circle) is cut in two: GDAL and others take su
 
 from __future__ import annotations
 
-import io
+from typing import TextIO
 
 import numpy as np
 
@@ -21,7 +21,7 @@ _CHUNK = 60  # characters: a string of extended data has at most 255 bytes, a ch
 _UNITS = {"in": 1, "mm": 4, "cm": 5, "m": 6}  # $INSUNITS; points and pixels are none of them
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level as DXF.
 
     Raises:
@@ -29,6 +29,8 @@ def write(level: Level) -> str:
     """
     try:
         from ezdxf.filemanagement import new
+
+        from wallkit.export.dxf_points import Points
     except ImportError as error:
         raise ExportError(
             "DXF needs the package ezdxf", code="missing-package", fix="pip install 'wallkit[dxf]'"
@@ -44,13 +46,9 @@ def write(level: Level) -> str:
     for wall in level:
         marks = {"layer": layers[wall.layer]}
         line = space.add_lwpolyline([], close=wall.closed, dxfattribs=marks)
-        corners = halved(wall)
-        widths = np.zeros((len(corners), 2))  # at the start and end of each edge; set at once: appending is quadratic
-        line.lwpoints.set(np.concatenate([corners[:, :2], widths, corners[:, 2:]], axis=1))
+        line.lwpoints = Points(np.insert(halved(wall), [2, 2], 0.0, axis=1))  # widths of 0 at both ends of an edge
         line.set_xdata(APP, _notes(wall))
-    stream = io.StringIO()
     document.write(stream)
-    return stream.getvalue()
 
 
 def _layers(level: Level) -> dict[str, str]:

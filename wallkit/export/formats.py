@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 from wallkit.export.options import ExportError
 
 if TYPE_CHECKING:
+    from typing import TextIO
+
     from wallkit.export.level import Level, YAxis
 
 GROUP = "wallkit.exporters"
@@ -28,7 +30,7 @@ class Format:
         y_axis: of the target.
         arcs: it keeps arcs.
         metres: it counts in metres.
-        module: in this package, whose ``write`` makes the text of a level; ``""`` for one of another package.
+        module: in this package, whose ``write`` writes the text of a level; ``""`` for one of another package.
         loader: name of a file in ``loaders`` that an engine needs beside the level; or ``""``.
         entry_point: of another package.
     """
@@ -43,10 +45,9 @@ class Format:
     loader: str = ""
     entry_point: EntryPoint | None = None
 
-    def write(self, level: Level) -> str:
-        """Give the level as the text of a file; what could not be said is in its findings."""
-        text: str = importlib.import_module(f"wallkit.export.{self.module}").write(level)
-        return text
+    def write(self, level: Level, stream: TextIO) -> None:
+        """Write the level as the text of a file; what could not be said is in its findings then."""
+        importlib.import_module(f"wallkit.export.{self.module}").write(level, stream)
 
     def foreign(self) -> Callable[..., Any]:
         """Load the function of another package.

@@ -6,17 +6,17 @@ for maps take them for degrees.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TextIO
 
 import numpy as np
 import shapely
 
-from wallkit.export.json_text import numbers, spread
+from wallkit.export.json_text import numbers, write_json
 from wallkit.export.level import Level, LevelWall, signed_areas_of
 from wallkit.export.material_shapes import areas_of, is_ring
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level as a FeatureCollection; the property ``kind`` is material (or room), ring or line."""
     if level.walls:
         level.findings.say("export-planar", "coordinates are plane; programs for maps take GeoJSON for degrees")
@@ -25,12 +25,12 @@ def write(level: Level) -> str:
         _feature({"type": "Polygon", "coordinates": _rings(area.polygon)}, {"kind": kind}) for area in areas_of(level)
     ]
     features = areas + [_wall(wall, area) for wall, area in zip(level, signed_areas_of(level.walls), strict=True)]
-    return spread({"type": "FeatureCollection", "features": features}, 2)
+    write_json({"type": "FeatureCollection", "features": features}, 2, stream)
 
 
 def _wall(wall: LevelWall, area: float) -> dict[str, Any]:
     ring = is_ring(wall)
-    properties = {
+    properties: dict[str, Any] = {
         "kind": "ring" if ring else "line",
         "name": wall.name,
         "layer": wall.layer,

@@ -11,16 +11,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TextIO
 
 import numpy as np
 
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.losses import say_friction, say_single_precision
 from wallkit.export.names import say_renamed, unique
-from wallkit.export.number_text import rows
+from wallkit.export.number_text import Rows
 from wallkit.geometry.arrays import FloatArray
 
 _FORBIDDEN = '.:@/"%'  # in the name of a node
+Line = str | Rows
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,9 +48,9 @@ class Dialect:
         """Refer to a resource."""
         return f'SubResource("{kind}_{number}")' if self.version == 3 else f"SubResource( {number} )"
 
-    def points(self, points: FloatArray) -> str:
-        """Write points as one flat list."""
-        return f"{self.vectors}({rows('%r, %r', points)})"
+    def points(self, key: str, points: FloatArray) -> Rows:
+        """Write points as one flat list, the value of ``key``."""
+        return Rows("%r, %r", points, before=f"{key} = {self.vectors}(", after=")")
 
     def notes(self, notes: dict[str, str | float]) -> list[str]:
         """Write metadata, under names that begin with ``wallkit_``."""
@@ -62,18 +64,23 @@ GODOT4 = Dialect(3, "PackedVector2Array", "physics_material_override")
 GODOT3 = Dialect(2, "PoolVector2Array", "physics_material_override")
 
 
-def write_scene(level: Level, dialect: Dialect) -> str:
+def write_scene(level: Level, stream: TextIO, dialect: Dialect) -> None:
     """Write a level as a scene of one Node2D with a body for each wall."""
     say_friction(level, "metadata")
     say_single_precision(level, "Godot")
     names = unique((wall.name for wall in level), _FORBIDDEN)
     say_renamed(level.walls, names, "the metadata wallkit_name", level.findings)
     resources = _Resources(dialect)
-    nodes: list[str] = ['[node name="walls" type="Node2D"]', ""]
+    nodes: list[Line] = ['[node name="walls" type="Node2D"]', ""]
     for wall, name in zip(level, names, strict=True):
         nodes += _body(wall, name, resources, dialect)
     head = f"[gd_scene load_steps={resources.count + 1} format={dialect.version}]"
-    return "\n".join([head, "", *resources.lines, *nodes])
+    for number, line in enumerate((head, "", *resources.lines, *nodes)):
+        stream.write("\n" if number else "")
+        if isinstance(line, Rows):
+            line.write(stream)
+        else:
+            stream.write(line)
 
 
 class _Resources:
@@ -81,11 +88,11 @@ class _Resources:
 
     def __init__(self, dialect: Dialect) -> None:
         self.dialect = dialect
-        self.lines: list[str] = []
+        self.lines: list[Line] = []
         self.count = 0
         self._materials: dict[float, str] = {}
 
-    def add(self, kind: str, *properties: str) -> str:
+    def add(self, kind: str, *properties: Line) -> str:
         """Add a resource and give the reference to it."""
         self.count += 1
         self.lines += [self.dialect.resource(self.count, kind), *properties, ""]
@@ -98,13 +105,13 @@ class _Resources:
         return self._materials[restitution]
 
 
-def _body(wall: LevelWall, name: str, resources: _Resources, dialect: Dialect) -> list[str]:
+def _body(wall: LevelWall, name: str, resources: _Resources, dialect: Dialect) -> list[Line]:
     notes: dict[str, str | float] = {"layer": wall.layer}
     if wall.name != name:
         notes["name"] = wall.name
     if wall.material.tangential_restitution != 1:
         notes["tangential_restitution"] = float(wall.material.tangential_restitution)
-    lines = [
+    lines: list[Line] = [
         f'[node name={_value(name)} type="StaticBody2D" parent="."]',
         f"{dialect.material} = {resources.material(float(wall.material.restitution))}",
         *dialect.notes(notes),
@@ -116,10 +123,10 @@ def _body(wall: LevelWall, name: str, resources: _Resources, dialect: Dialect) -
             lines += [f'[node name="edge{number}" type="CollisionShape2D" parent={parent}]', *properties, ""]
     elif wall.closed and len(wall.vertices) > 2:
         lines += [f'[node name="edges" type="CollisionPolygon2D" parent={parent}]', "build_mode = 1"]
-        lines += [f"polygon = {dialect.points(wall.vertices)}", ""]
+        lines += [dialect.points("polygon", wall.vertices), ""]
     else:
         pairs = np.repeat(wall.vertices, 2, axis=0)[1:-1]  # a, b, b, c, c, d
-        shape = resources.add("ConcavePolygonShape2D", f"segments = {dialect.points(pairs)}")
+        shape = resources.add("ConcavePolygonShape2D", dialect.points("segments", pairs))
         lines += [f'[node name="edges" type="CollisionShape2D" parent={parent}]', f"shape = {shape}", ""]
     return lines
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TextIO
+
 from wallkit.export.godot import GODOT3, write_scene
 from wallkit.export.level import Level
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level as a scene of Godot 3."""
-    return write_scene(level, GODOT3)
+    write_scene(level, stream, GODOT3)

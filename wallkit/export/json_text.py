@@ -3,64 +3,79 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, TextIO
 
 import numpy as np
 
-from wallkit.export.number_text import rows
+from wallkit.export.number_text import Rows
+from wallkit.export.pieces import Pieces
 from wallkit.geometry.arrays import FloatArray
 
 _POINT = '{"x": %r, "y": %r}'
 _LISTS = 500  # written at once
 
 
-class Written(str):
-    """A part of the file that is JSON already."""
+@dataclass(frozen=True, slots=True)
+class PointLists:
+    """Many short lists of points, each between two texts.
 
-    __slots__ = ()
+    Attributes:
+        pieces: the points of each list.
+        before: text before each list.
+        after: text behind each.
+        backwards: the last point of each list is written first.
+    """
+
+    pieces: Pieces
+    before: str = ""
+    after: str = ""
+    backwards: bool = False
+
+    def write(self, stream: TextIO) -> None:
+        """Write all of it as a JSON list."""
+        stream.write("[")
+        for number, some in enumerate(self.pieces.blocks(_LISTS)):
+            lists = [
+                f"{self.before}[{', '.join([_POINT] * count)}]{self.after}" for count in np.diff(some.offsets).tolist()
+            ]
+            points = some.turned().vertices if self.backwards else some.vertices
+            stream.write(", " if number else "")
+            stream.write(", ".join(lists) % tuple(points.ravel().tolist()))
+        stream.write("]")
 
 
-def spread(value: Any, depth: int) -> str:
+def write_json(value: Any, depth: int, stream: TextIO) -> None:
     """Write JSON and a line end: the outer ``depth`` levels one entry a line, what is deeper on one line."""
-    return "".join([*_pieces(value, depth, 0), "\n"])
+    _write(value, depth, 0, stream)
+    stream.write("\n")
 
 
-def _pieces(value: Any, depth: int, indent: int) -> Iterator[str]:
-    if isinstance(value, Written):
-        yield value
+def _write(value: Any, depth: int, indent: int, stream: TextIO) -> None:
+    if isinstance(value, Rows | PointLists):
+        value.write(stream)
         return
     if not isinstance(value, dict | list) or not value:
-        yield json.dumps(value, ensure_ascii=False, allow_nan=False)
+        stream.write(json.dumps(value, ensure_ascii=False, allow_nan=False))
         return
     before, between, after = "", ", ", ""
     if depth > 0:
         before = "\n" + " " * (indent + 1)
         between, after = "," + before, "\n" + " " * indent
-    yield ("{" if isinstance(value, dict) else "[") + before
+    stream.write(("{" if isinstance(value, dict) else "[") + before)
     for number, one in enumerate(value):
         if number:
-            yield between
+            stream.write(between)
         if isinstance(value, dict):
-            yield json.dumps(one, ensure_ascii=False) + ": "
+            stream.write(json.dumps(one, ensure_ascii=False) + ": ")
             one = value[one]
-        yield from _pieces(one, depth - 1, indent + 1)
-    yield after + ("}" if isinstance(value, dict) else "]")
+        _write(one, depth - 1, indent + 1, stream)
+    stream.write(after + ("}" if isinstance(value, dict) else "]"))
 
 
-def point_lists(pieces: Sequence[FloatArray], before: str = "", after: str = "") -> Written:
-    """Write many short lists of points, each between two texts."""
-    blocks = []
-    for start in range(0, len(pieces), _LISTS):
-        some = pieces[start : start + _LISTS]
-        lists = [f"{before}[{', '.join([_POINT] * len(piece))}]{after}" for piece in some]
-        blocks.append(", ".join(lists) % tuple(np.concatenate(some).ravel().tolist()))
-    return Written("[" + ", ".join(blocks) + "]")
-
-
-def points(vertices: FloatArray) -> Written:
+def points(vertices: FloatArray) -> Rows:
     """Write (n, 2) points as JSON has them in most engines: a list of x and y."""
-    return Written("[" + rows(_POINT, vertices) + "]")
+    return Rows(_POINT, vertices, before="[", after="]")
 
 
 def point(x: float, y: float) -> dict[str, float]:
@@ -68,7 +83,7 @@ def point(x: float, y: float) -> dict[str, float]:
     return {"x": float(x), "y": float(y)}
 
 
-def numbers(values: FloatArray) -> Written:
+def numbers(values: FloatArray) -> Rows:
     """Write an array: (n,) as a list, (n, k) as a list of lists."""
     template = "%r" if values.ndim == 1 else "[" + ", ".join(["%r"] * values.shape[1]) + "]"
-    return Written("[" + rows(template, values) + "]")
+    return Rows(template, values, before="[", after="]")

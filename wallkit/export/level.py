@@ -7,6 +7,7 @@ of its edges, outward normal (dy, -dx)), whichever way y looks.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -14,6 +15,7 @@ from typing import Literal
 import numpy as np
 
 from wallkit.export.findings import Findings
+from wallkit.export.number_text import BLOCK
 from wallkit.export.options import Box, ExportOptions, Point
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.rings import signed_areas
@@ -212,15 +214,14 @@ class _Frame:
 
 def _reversed(walls: Walls, turn: np.ndarray) -> tuple[FloatArray, FloatArray]:
     """Reverse some walls: a closed one keeps its first vertex; bulges go to the new edges, negated."""
-    counts = np.diff(walls.offsets)
-    position = np.arange(len(walls.vertices))
-    first, size = np.repeat(walls.offsets[:-1], counts), np.repeat(counts, counts)
-    closed, turned = np.repeat(walls.closed, counts), np.repeat(turn, counts)
-    rank = position - first
-    vertex = np.where(closed, (size - rank) % np.maximum(size, 1), size - 1 - rank)
-    edge = np.where(closed, size - 1 - rank, np.where(rank == size - 1, rank, size - 2 - rank))
-    vertices = walls.vertices[np.where(turned, first + vertex, position)]
-    bulges = np.where(turned, 0.0 - walls.bulges[first + edge], walls.bulges)
+    vertices, bulges = walls.vertices.copy(), walls.bulges.copy()
+    closed, offsets = walls.closed.tolist(), walls.offsets.tolist()
+    for wall in np.flatnonzero(turn).tolist():
+        a, b = offsets[wall], offsets[wall + 1]
+        kept, last = (a + 1, b) if closed[wall] else (a, b - 1)  # an open wall's last bulge is of no edge
+        vertices[kept:b] = walls.vertices[kept:b][::-1]
+        bulges[a:last] = 0.0 - walls.bulges[a:last][::-1]
+        bulges[last:b] = 0.0 - walls.bulges[last:b]
     return vertices, bulges
 
 
@@ -289,25 +290,26 @@ def _spaced(walls: list[LevelWall], spacing: float, findings: Findings) -> list[
     return kept
 
 
-def _far_enough(vertices: FloatArray, closed: bool, spacing: float) -> list[int]:
+def _far_enough(vertices: FloatArray, closed: bool, spacing: float) -> IntArray:
     """List the vertices to keep: each farther than ``spacing`` from the last kept, the ends of open walls first."""
     step = np.hypot(*np.diff(vertices, axis=0).T)
     around = float(np.hypot(*(vertices[-1] - vertices[0]))) if closed else np.inf
     if (not len(step) or step.min() > spacing) and around > spacing:
-        return list(range(len(vertices)))
-    points = vertices.tolist()
+        return np.arange(len(vertices))
+    px, py = vertices[0].tolist()
     keep = [0]
-    for index in range(1, len(points)):
-        (x, y), (px, py) = points[index], points[keep[-1]]
-        if np.hypot(x - px, y - py) > spacing:
-            keep.append(index)
-    last = len(points) - 1
+    for start in range(1, len(vertices), BLOCK):
+        for index, (x, y) in enumerate(vertices[start : start + BLOCK].tolist(), start=start):
+            if math.hypot(x - px, y - py) > spacing:
+                keep.append(index)
+                px, py = x, y
+    last = len(vertices) - 1
     if closed:
         while len(keep) > 1 and np.hypot(*(vertices[keep[-1]] - vertices[0])) <= spacing:
             keep.pop()
     elif keep[-1] != last and len(keep) > 1:
         keep[-1] = last
-    return keep
+    return np.array(keep, dtype=np.int64)
 
 
 def _say(level: Level, walls: Walls, lines: Walls, placed: Walls, exact: Walls) -> None:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TextIO
+
 from wallkit.export.level import Level
 from wallkit.export.losses import say_friction, say_one_way
-from wallkit.export.neutral import level_text
+from wallkit.export.neutral import write_level
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level for wallkit-matter.mjs."""
     say_friction(level, "tangentialRestitution")
     say_one_way(level, "oneWay")
-    return level_text(level, solids=True)
+    write_level(level, stream, solids=True)

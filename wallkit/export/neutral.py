@@ -6,17 +6,17 @@ objects of x and y, as JsonUtility of Unity wants them.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TextIO
 
 from wallkit.export.convex import solids_of
-from wallkit.export.json_text import Written, point_lists, points, spread
+from wallkit.export.json_text import PointLists, points, write_json
 from wallkit.export.level import Level, LevelWall
-from wallkit.export.number_text import rows
+from wallkit.export.number_text import Rows
 
 FORMAT, VERSION = "wallkit-level", 1
 
 
-def level_text(level: Level, solids: bool = False) -> str:
+def write_level(level: Level, stream: TextIO, solids: bool = False) -> None:
     """Write a level as ``wallkit-level``, version 1; with ``solids`` the convex pieces too."""
     whole: dict[str, Any] = {
         "format": FORMAT,
@@ -29,11 +29,11 @@ def level_text(level: Level, solids: bool = False) -> str:
         whole["solids"] = [
             {
                 **_marks(solid.wall),
-                "pieces": point_lists(solid.pieces, '{"points": ', "}"),
+                "pieces": PointLists(solid.pieces, '{"points": ', "}"),
             }
             for solid in solids_of(level)
         ]
-    return spread(whole, 2)
+    write_json(whole, 2, stream)
 
 
 def _wall(wall: LevelWall) -> dict[str, Any]:
@@ -46,7 +46,7 @@ def _wall(wall: LevelWall) -> dict[str, Any]:
     }
     if wall.curve is not None:
         template = '{"x": %r, "y": %r, "bulge": %r}'
-        result["arcs"] = Written(f"[{rows(template, wall.curve)}]")
+        result["arcs"] = Rows(template, wall.curve, before="[", after="]")
     return result
 
 

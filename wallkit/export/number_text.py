@@ -1,6 +1,10 @@
-"""Many numbers as text: rows by a template, a block at a time."""
+"""Many numbers as text: rows by a template, a block at a time, made as they are written."""
 
 from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+from typing import TextIO
 
 import numpy as np
 
@@ -9,18 +13,38 @@ from wallkit.geometry.arrays import FloatArray
 BLOCK = 2048  # rows that are Python's numbers at the same time: a number takes 24 bytes there, and a list's place
 
 
-def rows(template: str, values: FloatArray, separator: str = ", ") -> str:
-    """Write rows of numbers with all their digits.
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """Rows of numbers with all their digits. Their text is several times as large, and never stands in memory whole.
 
-    Args:
+    Attributes:
         template: of a row, with a ``%r`` for each of its numbers.
         values: (n, k) rows, or (n,) for one number each.
         separator: between rows.
+        before: text before the first row.
+        after: text behind the last.
     """
-    array = np.asarray(values, dtype=np.float64)
-    blocks = [array[start : start + BLOCK] for start in range(0, len(array), BLOCK)]
-    whole = separator.join([template] * min(BLOCK, len(array)))
-    length = len(template) + len(separator)
-    return separator.join(
-        whole[: len(block) * length - len(separator)] % tuple(block.ravel().tolist()) for block in blocks
-    )
+
+    template: str
+    values: FloatArray
+    separator: str = ", "
+    before: str = ""
+    after: str = ""
+
+    def write(self, stream: TextIO) -> None:
+        """Write all of it."""
+        array = np.asarray(self.values, dtype=np.float64)
+        whole = self.separator.join([self.template] * min(BLOCK, len(array)))
+        length = len(self.template) + len(self.separator)
+        stream.write(self.before)
+        for start in range(0, len(array), BLOCK):
+            block = array[start : start + BLOCK]
+            if start:
+                stream.write(self.separator)
+            stream.write(whole[: len(block) * length - len(self.separator)] % tuple(block.ravel().tolist()))
+        stream.write(self.after)
+
+    def __str__(self) -> str:
+        stream = io.StringIO()
+        self.write(stream)
+        return stream.getvalue()

@@ -8,23 +8,26 @@ beside the file sets it afterwards.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TextIO
 
 import numpy as np
 
 from wallkit.export.convex import Solid, solids_of
-from wallkit.export.json_text import point_lists, spread
+from wallkit.export.json_text import PointLists, write_json
 from wallkit.export.level import Level
 from wallkit.export.losses import say_friction, say_one_way
+from wallkit.export.pieces import Pieces
 from wallkit.geometry.arrays import FloatArray
 
+AT_ONCE = 2048  # pieces
 
-def write(level: Level) -> str:
+
+def write(level: Level, stream: TextIO) -> None:
     """Write a level for ``fromPhysicsEditor``."""
     say_friction(level)
     say_one_way(level)
     solids = solids_of(level)
-    x, y = centre_of_mass([piece for solid in solids for piece in solid.pieces])
+    x, y = centre_of_mass(solids)
     whole = {
         "generator_info": "wallkit export --format phaser; wallkit-phaser.mjs beside it adds the level to a scene",
         "origin": {"x": x, "y": y},
@@ -41,7 +44,7 @@ def write(level: Level) -> str:
             "fixtures": [_fixture(solid) for solid in solids],
         },
     }
-    return spread(whole, 3)
+    write_json(whole, 3, stream)
 
 
 def _fixture(solid: Solid) -> dict[str, Any]:
@@ -50,23 +53,32 @@ def _fixture(solid: Solid) -> dict[str, Any]:
         "isSensor": False,
         "restitution": float(solid.wall.material.restitution),
         "friction": 0.0,
-        "vertices": point_lists([piece[::-1] for piece in solid.pieces]),
+        "vertices": PointLists(solid.pieces, backwards=True),
     }
 
 
-def centre_of_mass(pieces: list[FloatArray]) -> tuple[float, float]:
+def centre_of_mass(solids: list[Solid]) -> tuple[float, float]:
     """Centre of all pieces by area, as matter finds it: overlaps count twice."""
-    if not pieces:
+    blocks = [_areas_and_moments(block) for solid in solids for block in solid.pieces.blocks(AT_ONCE)]
+    if not blocks:
         return 0.0, 0.0
-    counts = np.array([len(piece) for piece in pieces])
-    first = np.cumsum(counts) - counts
-    vertices = np.concatenate(pieces)
+    area = np.concatenate([area for area, _ in blocks])
+    x, y = (np.concatenate([moment for _, moment in blocks]).sum(axis=0) / area.sum()).tolist()
+    return x, y
+
+
+def _areas_and_moments(pieces: Pieces) -> tuple[FloatArray, FloatArray]:
+    """Give (m,) areas and (m, 2) areas times centres.
+
+    A polygon is the sum of triangles (o, a, b) of area a x b / 2 with the centre (o + a + b) / 3; with its own first
+    vertex as o, pieces far from the origin lose no digits.
+    """
+    first, vertices = pieces.offsets[:-1], pieces.vertices
     following = np.arange(1, len(vertices) + 1)
-    following[first + counts - 1] = first
-    start = np.repeat(vertices[first], counts, axis=0)  # far pieces lose no digits about their own first vertex
+    following[pieces.offsets[1:] - 1] = first
+    start = np.repeat(vertices[first], np.diff(pieces.offsets), axis=0)
     a, b = vertices - start, vertices[following] - start
     cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    area = np.add.reduceat(cross, first) / 2
-    moment = np.add.reduceat((a + b) * cross[:, None], first, axis=0) / 6 + area[:, None] * vertices[first]
-    x, y = (moment.sum(axis=0) / area.sum()).tolist()
-    return x, y
+    area: FloatArray = np.add.reduceat(cross, first) / 2
+    moment: FloatArray = np.add.reduceat((a + b) * cross[:, None], first, axis=0) / 6 + area[:, None] * vertices[first]
+    return area, moment

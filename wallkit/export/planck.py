@@ -5,14 +5,14 @@ A chain with ``isLoop`` must not repeat its first vertex: planck would add an ed
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TextIO
 
 from wallkit.export.box2d import is_loop, say_box2d
-from wallkit.export.json_text import point, points, spread
+from wallkit.export.json_text import point, points, write_json
 from wallkit.export.level import Level, LevelWall
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level as the list that ``planck.Serializer.fromJson`` reads: world, body, then fixture and shape."""
     say_box2d(level, "userData", keeps=lambda wall: False)
     if level.walls:
@@ -32,7 +32,7 @@ def write(level: Level) -> str:
     parts: list[dict[str, Any]] = [world, body]
     for wall in level:
         parts += [_fixture(wall, 3 + 2 * ((len(parts) - 2) // 2)), _chain(wall)]
-    return spread(parts, 1)
+    write_json(parts, 1, stream)
 
 
 def _fixture(wall: LevelWall, shape: int) -> dict[str, Any]:

@@ -5,9 +5,11 @@ Without ``set_neighbors`` a ball that meets the seam of two segments is pushed b
 
 from __future__ import annotations
 
+from typing import TextIO
+
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.losses import say_friction
-from wallkit.export.number_text import rows
+from wallkit.export.number_text import Rows
 
 _HEAD = '''"""Walls for pymunk 7, written by wallkit export.
 
@@ -65,13 +67,16 @@ def _only_from_outside(arbiter, space, data):
 '''
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level as a Python module."""
     say_friction(level, "tangential_restitution")
-    return _HEAD + "".join(f"    {_wall(wall)},\n" for wall in level) + "]\n" + _TAIL
+    stream.write(_HEAD)
+    for wall in level:
+        _wall(wall).write(stream)
+    stream.write(f"]\n{_TAIL}")
 
 
-def _wall(wall: LevelWall) -> str:
+def _wall(wall: LevelWall) -> Rows:
     marks = repr(
         {
             "name": wall.name,
@@ -82,4 +87,4 @@ def _wall(wall: LevelWall) -> str:
             "tangential_restitution": float(wall.material.tangential_restitution),
         }
     )
-    return f"{marks[:-1]}, 'points': [{rows('(%r, %r)', wall.vertices)}]}}"
+    return Rows("(%r, %r)", wall.vertices, before=f"    {marks[:-1]}, 'points': [", after="]},\n")

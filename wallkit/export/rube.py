@@ -6,17 +6,17 @@ are two-sided; from 2.4 on they stop on the right of their direction, which is w
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TextIO
 
 import numpy as np
 
 from wallkit.export.box2d import is_loop, say_box2d
-from wallkit.export.json_text import numbers, point, spread
+from wallkit.export.json_text import numbers, point, write_json
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.losses import say_single_precision, say_two_sided
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level as R.U.B.E. JSON."""
     say_box2d(level, "a custom property", keeps=lambda wall: True)
     say_two_sided(level, "Box2D from 2.4 on")
@@ -45,7 +45,7 @@ def write(level: Level) -> str:
             }
         ],
     }
-    return spread(whole, 5)
+    write_json(whole, 5, stream)
 
 
 def _fixture(wall: LevelWall) -> dict[str, Any]:

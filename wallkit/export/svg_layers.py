@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TextIO
+
 from wallkit.export.level import Level
 from wallkit.export.svg import write_svg
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level as SVG with named layers."""
-    return write_svg(level, layers=True)
+    write_svg(level, stream, layers=True)

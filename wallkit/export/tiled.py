@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from wallkit.export.level import Level, LevelWall
 from wallkit.export.losses import say_friction, say_one_way
-from wallkit.export.number_text import rows
+from wallkit.export.number_text import Rows
 from wallkit.geometry.arrays import FloatArray
 
 VERSION = "1.10"
@@ -82,7 +82,7 @@ def _properties(wall: LevelWall) -> dict[str, Value]:
         "one_way": wall.one_way,
     }
     if wall.curve is not None:  # the wall before its arcs became lines: x,y,bulge of each vertex, on the map
-        properties["arcs"] = rows("%r,%r,%r", wall.curve, " ")
+        properties["arcs"] = str(Rows("%r,%r,%r", wall.curve, " "))
     return properties
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TextIO
 
-from wallkit.export.json_text import points, spread
+from wallkit.export.json_text import points, write_json
 from wallkit.export.level import Level
 from wallkit.export.tiled import TILE, VERSION, TiledObject, tiled_map, type_of
 
 
-def write(level: Level) -> str:
+def write(level: Level, stream: TextIO) -> None:
     """Write a level as TMJ."""
     tiled = tiled_map(level)
     layers = [
@@ -42,7 +42,7 @@ def write(level: Level) -> str:
         "tilesets": [],
         "layers": layers,
     }
-    return spread(whole, 4)
+    write_json(whole, 4, stream)
 
 
 def _object(one: TiledObject) -> dict[str, Any]:

@@ -48,13 +48,14 @@ def rings_of(vertices: FloatArray, offsets: IntArray) -> NDArray[np.object_]:
     polygons = np.full(len(counts), None, dtype=object)
     if not len(full):
         return polygons
-    rows = np.repeat(counts >= 3, counts)
-    points = vertices[rows]
+    points = vertices if len(full) == len(counts) else vertices[np.repeat(counts >= 3, counts)]
     sizes = counts[full]
     starts = np.cumsum(sizes) - sizes
     index = np.repeat(np.arange(len(full)), sizes + 1)
     take = np.insert(np.arange(len(points)), starts + sizes, starts) if len(points) else np.empty(0, dtype=np.int64)
-    polygons[full] = shapely.polygons(shapely.linearrings(points[take], indices=index))
+    rings = shapely.linearrings(points[take], indices=index)
+    del points, take, index  # before each ring is copied
+    polygons[full] = shapely.polygons(rings)
     return polygons
 
 

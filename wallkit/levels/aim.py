@@ -77,8 +77,7 @@ def aim(
     limit = arguments.whole_number(most_beams, "most_beams", error=SceneError, code="bad-limit", least=1)
     finest = arguments.number(resolution, "resolution", "radians, from 1e-12 to 0.1", error=SceneError, code="bad-aim",
                               least=1e-12, most=0.1)  # fmt: skip
-    if progress is not None and not callable(progress):
-        raise arguments.refused("progress", progress, "a function of one number, or None", SceneError, "bad-argument")
+    _check_progress(progress)
     disc, pace = target_of(scene, target), _speed(scene, speed)
     alone = replace(scene, balls=Balls([place], [(pace, 0.0)], size), sensors=None)
     check_starts(alone)
@@ -90,6 +89,11 @@ def aim(
     if len(intervals):
         searched = search(Shooter.of(alone, place, disc, most, size, pace), intervals, limit, finest, progress)
     return _windows(alone, place, disc, most, unfolded, intervals, searched, finest)
+
+
+def _check_progress(progress: Callable[[int], None] | None) -> None:
+    if progress is not None and not callable(progress):
+        raise arguments.refused("progress", progress, "a function of one number, or None", SceneError, "bad-argument")
 
 
 def machine_code_at_hand(scene: Scene, start: Place, target: Disc, radius: float) -> bool:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from importers.errors import WallkitError
-from wallkit import arguments
 from wallkit.geometry.arrays import FloatArray
+from wallkit.levels.targets import disc_of
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.walls import Walls
 
@@ -93,28 +91,7 @@ def _called(sensors: Walls, index: int, name: str) -> bool:
 
 
 def _disc(target: Sequence[float]) -> Goal:
-    may_be = "three finite numbers, (x, y, radius above 0), or a name"
-    numbers = arguments.floats(target, "target", may_be, error=SceneError, code="bad-argument")
-    if numbers.shape != (3,) or not np.isfinite(numbers).all() or not numbers[2] > 0.0:
-        raise arguments.refused("target", target, may_be, SceneError, "bad-argument")
-    x, y, radius = numbers.tolist()
+    x, y, radius = disc_of(target)
     circle = [(x - radius, y), (x + radius, y)]
     sensors = Walls.from_polylines([circle], bulges=[[1.0, 1.0]])
     return Goal(f"{x:g},{y:g},{radius:g}", sensors=sensors, disc=(x, y, radius))
-
-
-def given_target(text: str | None) -> str | tuple[float, float, float] | None:
-    """Read ``X,Y,R`` as numbers, and anything else as a name.
-
-    Raises:
-        WallkitError: they are no numbers.
-    """
-    if text is None or text.count(",") != 2:
-        return text
-    try:
-        x, y, radius = (float(part) for part in text.split(","))
-    except ValueError:
-        return text
-    if not (math.isfinite(x + y + radius) and radius > 0.0):
-        raise WallkitError(f"--to is {text!r}", code="usage", fix=f"give {MAY_BE}")
-    return x, y, radius

@@ -23,14 +23,30 @@ def target_of(scene: Scene, target: Sequence[float] | str) -> Disc:
     Raises:
         SceneError: it is no disc with a radius above 0, or nothing, or more than one thing, has that name.
     """
-    if isinstance(target, str):
-        return _named(scene, target)
-    may_be = "three finite numbers, (x, y, radius above 0), or the name of a target or sensor"
-    disc = arguments.floats(target, "target", may_be, error=SceneError, code="bad-aim")
+    return _named(scene, target) if isinstance(target, str) else disc_of(target)
+
+
+def disc_of(target: Sequence[float]) -> Disc:
+    """Give a target that is said in numbers.
+
+    Raises:
+        SceneError: they are not three finite numbers with a radius above 0.
+    """
+    may_be = "three finite numbers, (x, y, radius above 0), or a name"
+    disc = arguments.floats(target, "target", may_be, error=SceneError, code="bad-target")
     if disc.shape != (3,) or not np.isfinite(disc).all() or disc[2] <= 0.0:
-        raise arguments.refused("target", target, may_be, SceneError, "bad-aim")
+        raise arguments.refused("target", target, may_be, SceneError, "bad-target")
     x, y, r = disc.tolist()
     return x, y, r
+
+
+def given_target(text: str) -> tuple[float, ...] | str:
+    """Read a target as it is typed: numbers between commas, or else a name."""
+    try:
+        numbers = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        return text
+    return numbers if len(numbers) > 1 else text
 
 
 def named_targets(scene: Scene) -> dict[str, list[Disc]]:
@@ -50,10 +66,12 @@ def _named(scene: Scene, name: str) -> Disc:
         return discs[0]
     if discs:
         places = "; ".join(f"{x:.6g},{y:.6g},{r:.6g}" for x, y, r in discs[:4])
-        raise SceneError(f"{len(discs)} things are named {name!r}", code="bad-aim", fix=f"give one of them: {places}")
+        raise SceneError(
+            f"{len(discs)} things are named {name!r}", code="bad-target", fix=f"give one of them: {places}"
+        )
     names = ", ".join(map(repr, sorted(known)[:8]))
     fix = f"there are {names}" if names else "the scene names none: give X,Y,R, or name a sensor (docs/tags.md)"
-    raise SceneError(f"no target or sensor with a size is named {name!r}", code="bad-aim", fix=fix)
+    raise SceneError(f"no target or sensor with a size is named {name!r}", code="no-target", fix=fix)
 
 
 def _markers(scene: Scene) -> Iterator[tuple[str, Disc]]:

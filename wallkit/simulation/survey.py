@@ -6,12 +6,12 @@ import concurrent.futures
 from collections.abc import Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.arguments import flag, of_type, refused, whole_number
+from wallkit.arguments import flag, of_type, whole_number
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.batches.lockstep import Outcome
 from wallkit.scene.scene import Scene, SceneError
@@ -121,23 +121,30 @@ def survey(
     Raises:
         SceneError: neither limit was given, an argument is none of what may be, or the scene cannot be simulated.
     """
-    limit_time, limit_bounces = limits(until, bounces)
+    end = limits(until, bounces)
     threads = check_threads(threads)
     _check_executor(executor)
-    may_be = "a Scene, or what prepare() made of one, or a list of such"
-    if isinstance(scene, list | tuple):
-        for one in scene:
-            of_type(one, "scene", (Scene, Prepared), may_be, error=SceneError, code="bad-scene")
-        many = [one if isinstance(one, Prepared) else prepare(one, check=check) for one in scene]
+    flag(by_edge, "by_edge", error=SceneError, code="bad-argument")
+    many: list[Any] = list(scene) if isinstance(scene, list | tuple) else [scene]
+    for one in many:
+        may_be = "a Scene, or what prepare() made of one, or a list of such"
+        of_type(one, "scene", (Scene, Prepared), may_be, error=SceneError, code="bad-scene")
+    ready = [one if isinstance(one, Prepared) else prepare(one, check=check) for one in many]
+    if not isinstance(scene, list | tuple):
+        return _survey_of(ready[0], end, threads, executor, by_edge)
 
-        def alone(one: Prepared) -> Totals:
-            return survey(one, until, bounces, threads=1, by_edge=by_edge)
+    def alone(one: Prepared) -> Totals:
+        return _survey_of(one, end, 1, None, by_edge)
 
-        return survey_each(many, alone, cores() if threads is None else threads, executor)
-    if not isinstance(scene, Scene | Prepared):
-        raise refused("scene", scene, may_be, SceneError, "bad-scene")
-    ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
-    if flag(by_edge, "by_edge", error=SceneError, code="bad-argument"):
+    return survey_each(ready, alone, cores() if threads is None else threads, executor)
+
+
+def _survey_of(
+    ready: Prepared, end: tuple[float, int], threads: int | None, executor: Executor | None, by_edge: bool
+) -> Totals:
+    """Give the totals of one scene; ``end`` is a time and a number of bounces."""
+    limit_time, limit_bounces = end
+    if by_edge:
         ready = replace(ready, modelled=ready.modelled.by_edge())
     modelled = ready.modelled
     threads = max(1, min(cores() if threads is None else threads, len(modelled.radii) // LEAST))
