@@ -94,6 +94,22 @@ def stepping(page: Any) -> None:
     wait(page, "!Wallkit.page.player.asked")
 
 
+def graphs(page: Any) -> None:
+    """Stand at a bounce under gravity, in metres, with graphs, strobe ghosts and a protractor."""
+    opened(page, "Lagoon")
+    page.locator("#metre").fill("100")
+    page.locator("#gravity-number").fill("1.5")
+    wait(page, "!Wallkit.page.foretelling.busy")
+    flying(page, "#shoot", 0.17)
+    for name in ("height", "speed", "energy"):
+        page.locator(f"[data-graph={name}]").check()
+    page.locator("[data-show=strobe]").check()
+    page.keyboard.press(".")
+    page.evaluate("document.activeElement.blur(); document.querySelector('#bounce').scrollIntoView({block: 'center'})")
+    wait(page, "Wallkit.page.instruments.graphs.drawn && !Wallkit.page.instruments.graphs.job")
+    wait(page, "!Wallkit.page.player.asked")
+
+
 def problems(page: Any) -> None:
     """Go to a problem in the list."""
     opened(page, "Leaky room")
@@ -133,6 +149,7 @@ SHOTS = (
     Shot("page-aim", DESKTOP, "light", aiming),
     Shot("page-fan", DESKTOP, "dark", fan),
     Shot("page-bounce", DESKTOP, "light", stepping),
+    Shot("page-graphs", DESKTOP, "light", graphs),
     Shot("page-problem", DESKTOP, "dark", problems),
     Shot("page-ways", DESKTOP, "light", ways),
     Shot("page-lesson", DESKTOP, "light", lesson),
