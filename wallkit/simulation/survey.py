@@ -17,7 +17,7 @@ from wallkit.kernels.batches.lockstep import Outcome
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.meeting_survey import fly_together, survey_each
-from wallkit.simulation.prepared import Prepared, prepare
+from wallkit.simulation.prepared import Prepared, prepare_once
 from wallkit.simulation.run import Ending
 from wallkit.simulation.simulate import limits
 from wallkit.simulation.survey_backends import LEAST, way_to_fly
@@ -128,7 +128,10 @@ def survey(
     if isinstance(scene, list | tuple):
         for one in scene:
             of_type(one, "scene", (Scene, Prepared), may_be, error=SceneError, code="bad-scene")
-        many = [one if isinstance(one, Prepared) else prepare(one, check=check) for one in scene]
+        many = [
+            one if isinstance(one, Prepared) else prepare_once(one, limit_time, limit_bounces, check=check)
+            for one in scene
+        ]
 
         def alone(one: Prepared) -> Totals:
             return survey(one, until, bounces, threads=1, by_edge=by_edge)
@@ -136,7 +139,7 @@ def survey(
         return survey_each(many, alone, cores() if threads is None else threads, executor)
     if not isinstance(scene, Scene | Prepared):
         raise refused("scene", scene, may_be, SceneError, "bad-scene")
-    ready = scene if isinstance(scene, Prepared) else prepare(scene, check=check)
+    ready = scene if isinstance(scene, Prepared) else prepare_once(scene, limit_time, limit_bounces, check=check)
     if flag(by_edge, "by_edge", error=SceneError, code="bad-argument"):
         ready = replace(ready, modelled=ready.modelled.by_edge())
     modelled = ready.modelled
