@@ -9,48 +9,68 @@ from wallkit.geometry.arrays import FloatArray
 
 def evaluate(cubics: FloatArray, t: FloatArray) -> FloatArray:
     """Give the point of each cubic at its t: (n, 4, 2) and (n,) to (n, 2)."""
-    s, t = (1 - t)[:, None], t[:, None]
-    p0, p1, p2, p3 = (cubics[:, i] for i in range(4))
-    return s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3
+    s = 1 - t
+    w0, w1, w2, w3 = s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t
+    points = np.empty((len(cubics), 2))
+    for axis in (0, 1):
+        p0, p1, p2, p3 = (cubics[:, i, axis] for i in range(4))
+        points[:, axis] = w0 * p0 + w1 * p1 + w2 * p2 + w3 * p3
+    return points
 
 
 def split(cubics: FloatArray, t: FloatArray | float = 0.5) -> tuple[FloatArray, FloatArray]:
     """Cut cubics (n, 4, 2) at t by de Casteljau: the two halves."""
-    t = np.broadcast_to(np.asarray(t, dtype=np.float64), len(cubics))[:, None, None]
-    first = cubics[:, :-1] + (cubics[:, 1:] - cubics[:, :-1]) * t
-    second = first[:, :-1] + (first[:, 1:] - first[:, :-1]) * t
-    third = second[:, :-1] + (second[:, 1:] - second[:, :-1]) * t
-    left = np.concatenate([cubics[:, :1], first[:, :1], second[:, :1], third], axis=1)
-    right = np.concatenate([third, second[:, 1:], first[:, 2:], cubics[:, 3:]], axis=1)
+    left, right = _by_columns(len(cubics)), _by_columns(len(cubics))
+    for axis in (0, 1):
+        p0, p1, p2, p3 = (cubics[:, i, axis] for i in range(4))
+        a, b, c = p0 + (p1 - p0) * t, p1 + (p2 - p1) * t, p2 + (p3 - p2) * t
+        d, e = a + (b - a) * t, b + (c - b) * t
+        middle = d + (e - d) * t
+        for i, column in enumerate((p0, a, d, middle)):
+            left[:, i, axis] = column
+        for i, column in enumerate((middle, e, c, p3)):
+            right[:, i, axis] = column
     return left, right
+
+
+def _by_columns(count: int) -> FloatArray:
+    """Give an empty array (count, 4, 2) of which each coordinate of each control point lies in one piece of memory."""
+    return np.moveaxis(np.empty((4, 2, count)), -1, 0)
 
 
 def cut_between(cubics: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
     """Give the piece of each cubic from t = low to t = high, as a cubic (blossoming; exact up to rounding)."""
-    lo, hi = low[:, None], high[:, None]
-    p = [cubics[:, i] for i in range(4)]
+    piece = _by_columns(len(cubics))
+    for axis in (0, 1):
+        p = [cubics[:, i, axis] for i in range(4)]
+        first = {end: [p[i] + (p[i + 1] - p[i]) * at for i in range(3)] for end, at in (("low", low), ("high", high))}
+        for i, (start, b, c) in enumerate((("low", low, low), ("low", low, high), ("low", high, high))):
+            piece[:, i, axis] = _blossom(first[start], b, c)
+        piece[:, 3, axis] = _blossom(first["high"], high, high)
+    return piece
 
-    def blossom(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
-        q = [p[i] + (p[i + 1] - p[i]) * a for i in range(3)]
-        r = [q[i] + (q[i + 1] - q[i]) * b for i in range(2)]
-        return r[0] + (r[1] - r[0]) * c
 
-    return np.stack([blossom(lo, lo, lo), blossom(lo, lo, hi), blossom(lo, hi, hi), blossom(hi, hi, hi)], axis=1)
+def _blossom(q: list[FloatArray], b: FloatArray, c: FloatArray) -> FloatArray:
+    r = [q[i] + (q[i + 1] - q[i]) * b for i in range(2)]
+    return r[0] + (r[1] - r[0]) * c
 
 
 def chord_bound(cubics: FloatArray) -> FloatArray:
     """Bound the distance between each cubic and its chord (the module's first paragraph): (n,)."""
-    chord = cubics[:, 3] - cubics[:, 0]
-    length = np.hypot(chord[:, 0], chord[:, 1])
-    arms = cubics[:, 1:3] - cubics[:, :1]
-    safe = np.where(length > 0, length, 1.0)[:, None]
-    across = (chord[:, None, 0] * arms[..., 1] - chord[:, None, 1] * arms[..., 0]) / safe
-    along = (chord[:, None, 0] * arms[..., 0] + chord[:, None, 1] * arms[..., 1]) / safe
-    beyond = np.maximum(np.maximum(-along, along - length[:, None]), 0.0)
-    hull = 0.75 * np.hypot(across, beyond).max(axis=1)
-    hull = np.where(length > 0, hull, 0.75 * np.hypot(arms[..., 0], arms[..., 1]).max(axis=1))
-    exact: FloatArray = np.abs(_heights(across[:, 0], across[:, 1])).max(axis=0)
-    bound: FloatArray = np.where((length > 0) & (beyond.max(axis=1) == 0), exact, hull)
+    x0, y0 = cubics[:, 0, 0], cubics[:, 0, 1]
+    x, y = cubics[:, 3, 0] - x0, cubics[:, 3, 1] - y0
+    length = np.hypot(x, y)
+    there = length > 0
+    safe = np.where(there, length, 1.0)
+    arms = [(cubics[:, i, 0] - x0, cubics[:, i, 1] - y0) for i in (1, 2)]
+    across = [(x * v - y * u) / safe for u, v in arms]
+    along = [(x * u + y * v) / safe for u, v in arms]
+    beyond = [np.maximum(np.maximum(-part, part - length), 0.0) for part in along]
+    bound: FloatArray = np.abs(_heights(*across)).max(axis=0)
+    rest = np.flatnonzero(there & ((beyond[0] != 0) | (beyond[1] != 0)))
+    bound[rest] = 0.75 * np.maximum(*(np.hypot(a[rest], b[rest]) for a, b in zip(across, beyond, strict=True)))
+    rest = np.flatnonzero(~there)
+    bound[rest] = 0.75 * np.maximum(*(np.hypot(u[rest], v[rest]) for u, v in arms))
     return bound
 
 

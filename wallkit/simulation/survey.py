@@ -17,7 +17,7 @@ from wallkit.kernels.batches.lockstep import Outcome
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.meeting_survey import fly_together, survey_each
-from wallkit.simulation.prepared import Prepared, prepare
+from wallkit.simulation.prepared import Prepared, prepare_once
 from wallkit.simulation.run import Ending
 from wallkit.simulation.simulate import limits
 from wallkit.simulation.survey_backends import LEAST, way_to_fly
@@ -129,7 +129,7 @@ def survey(
     for one in many:
         may_be = "a Scene, or what prepare() made of one, or a list of such"
         of_type(one, "scene", (Scene, Prepared), may_be, error=SceneError, code="bad-scene")
-    ready = [one if isinstance(one, Prepared) else prepare(one, check=check) for one in many]
+    ready = [one if isinstance(one, Prepared) else prepare_once(one, *end, check=check) for one in many]
     if not isinstance(scene, list | tuple):
         return _survey_of(ready[0], end, threads, executor, by_edge)
 

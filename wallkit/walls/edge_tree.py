@@ -12,8 +12,10 @@ import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ragged import numbered
 
-_FIRST_PORTION = 16  # edges; the next portions are as large as the pairs found let expect
+_RUN = 8  # edges at most: long enough that runs are few, short enough that their boxes are small
+_FIRST_PORTION = 16  # runs; the next portions are as large as the pairs found let expect
 _PAIRS_AT_ONCE = 200_000  # about so many a portion: bounds the memory
 
 
@@ -88,9 +90,9 @@ class Edges:
         return shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1])
 
     @cached_property
-    def tree(self) -> Any:
-        """The tree of the boxes."""
-        return shapely.STRtree(self.boxes)
+    def tree(self) -> EdgeTree:
+        """The tree of all edges."""
+        return EdgeTree(self, np.arange(len(self)))
 
     def near_pairs(self, rows: IntArray | None = None) -> Iterator[tuple[IntArray, IntArray]]:
         """All pairs of edges (first < second) whose boxes meet, neighbours along a polyline left out; in portions.
@@ -98,16 +100,107 @@ class Edges:
         Args:
             rows: (n,) the edges among which pairs are looked for, in rising order; all by default.
         """
-        tree = self.tree if rows is None else shapely.STRtree(self.boxes[rows])
-        chosen = np.arange(len(self)) if rows is None else rows
-        begin, portion = 0, _FIRST_PORTION
-        while begin < len(chosen):
-            first, second = tree.query(self.boxes[chosen[begin : begin + portion]])
-            found = len(first)
-            first += begin
-            begin += portion
-            portion = int(min(8 * portion, max(portion * _PAIRS_AT_ONCE // max(found, 1), 1)))
-            keep = first < second
-            first, second = chosen[first[keep]], chosen[second[keep]]
+        tree = self.tree if rows is None else EdgeTree(self, rows)
+        for first, second in tree.pairs():
             joined = (self.stop[first] == self.start[second]) | (self.stop[second] == self.start[first])
             yield first[~joined], second[~joined]
+
+
+class EdgeTree:
+    """A tree of runs: up to _RUN edges one after the other along a polyline, which all go the same way in x and in y.
+
+    Such edges lie corner to corner, so of one run no two boxes meet but those of neighbours, and there are several
+    times fewer runs than edges. An edge without length is a run of its own; all are where runs would be nearly as many,
+    or their boxes lie over one another, as of rings in rings.
+    """
+
+    def __init__(self, edges: Edges, rows: IntArray) -> None:
+        """Make runs of the edges ``rows`` (n,), in rising order."""
+        self.rows = rows
+        a, b = edges.a[rows], edges.b[rows]
+        self.low, self.high = np.minimum(a, b).T.copy(), np.maximum(a, b).T.copy()
+        self.first, self.goes_on = self._runs(b - a, edges.stop[rows[:-1]] == edges.start[rows[1:]])
+        self.run_low, self.run_high = self._boxes()
+        if not self._pay():
+            self.first, self.goes_on = np.arange(len(rows)), np.zeros(len(rows), dtype=np.bool_)
+            self.run_low, self.run_high = self.low, self.high
+        self.sizes = np.diff(self.first, append=len(rows))
+        self.boxes = shapely.box(*self.run_low, *self.run_high)
+        self.tree = shapely.STRtree(self.boxes)
+
+    def _boxes(self) -> tuple[FloatArray, FloatArray]:
+        """Lowest and highest corner of each run: (2, m) each."""
+        if not len(self.rows):
+            return self.low, self.high
+        return np.minimum.reduceat(self.low, self.first, 1), np.maximum.reduceat(self.high, self.first, 1)
+
+    def _pay(self) -> bool:
+        """Tell whether runs are fewer than half as many as edges, and few pairs of them are to be looked into.
+
+        Two boxes of w by h, thrown into a large one of the area A, meet with the chance 4 w h / A.
+        """
+        count, runs = len(self.rows), len(self.first)
+        if 2 * runs >= count:
+            return False
+        width, height = self.run_high - self.run_low
+        all_width, all_height = self.high.max(axis=1) - self.low.min(axis=1)
+        with np.errstate(over="ignore", invalid="ignore"):
+            covered, area = float((width * height).sum()), float(all_width * all_height)
+        return 4 * runs * covered < area * (count / _RUN)
+
+    @staticmethod
+    def _runs(step: FloatArray, follows: NDArray[np.bool_]) -> tuple[IntArray, NDArray[np.bool_]]:
+        """Give the first edge of each run, and whether it goes on as the run before it, which was full."""
+        way = np.where((step == 0).all(axis=1), -1, 2 * (step[:, 0] < 0) + (step[:, 1] < 0))
+        turns = np.ones(len(way), dtype=np.bool_)
+        turns[1:] = ~follows | (way[1:] != way[:-1]) | (way[1:] < 0)
+        rank = numbered(np.diff(np.flatnonzero(turns), append=len(way)))[1]
+        first = np.flatnonzero(rank % _RUN == 0)
+        return first, ~turns[first]
+
+    def query(self, boxes: Any) -> tuple[IntArray, IntArray]:
+        """Pairs of a shapely geometry, one of (m,), and an edge whose boxes meet: number of each, geometries rising."""
+        source, run = self.tree.query(boxes)
+        x0, y0, x1, y1 = shapely.bounds(boxes).T
+        low, high = np.stack([x0, y0]), np.stack([x1, y1])
+        which, edge = self._within(run, low[:, source], high[:, source])
+        return source[which], self.rows[edge]
+
+    def pairs(self) -> Iterator[tuple[IntArray, IntArray]]:
+        """All pairs of edges (first < second) of different runs whose boxes meet, in portions.
+
+        A run and the one that goes on as it did are left out: only neighbours meet there.
+        """
+        begin, portion = 0, _FIRST_PORTION
+        while begin < len(self.first):
+            one, two = self.tree.query(self.boxes[begin : begin + portion])
+            found = len(one)
+            one += begin
+            begin += portion
+            most = _PAIRS_AT_ONCE * len(self.first) // len(self.rows)
+            portion = int(min(8 * portion, max(portion * most // max(found, 1), 1)))
+            keep = one < two
+            one, two = one[keep], two[keep]
+            if len(self.first) == len(self.rows):
+                yield self.rows[one], self.rows[two]
+                continue
+            same = (two == one + 1) & self.goes_on[two]
+            for first, second in self._edges_of(one[~same], two[~same]):
+                order = np.lexsort((second, first))
+                yield self.rows[first[order]], self.rows[second[order]]
+
+    def _edges_of(self, one: IntArray, two: IntArray) -> Iterator[tuple[IntArray, IntArray]]:
+        """Edges whose boxes meet of pairs of runs: those of each first run that meet the second's box are compared."""
+        pair, first = self._within(one, self.run_low[:, two], self.run_high[:, two])
+        for begin in range(0, len(first), _PAIRS_AT_ONCE // _RUN):
+            some = slice(begin, begin + _PAIRS_AT_ONCE // _RUN)
+            which, second = self._within(two[pair[some]], self.low[:, first[some]], self.high[:, first[some]])
+            yield first[some][which], second
+
+    def _within(self, run: IntArray, low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
+        """Of the edges of each run (m,) those that meet a box from ``low`` to ``high`` (2, m): which box, the edge."""
+        which, rank = numbered(self.sizes[run])
+        edge = self.first[run][which] + rank
+        meets = (self.low[0, edge] <= high[0, which]) & (self.high[0, edge] >= low[0, which])
+        meets &= (self.low[1, edge] <= high[1, which]) & (self.high[1, edge] >= low[1, which])
+        return which[meets], edge[meets]

@@ -26,6 +26,7 @@ from wallkit.geometry.ragged import numbered
 from wallkit.geometry.segments import segment_distance
 from wallkit.walls.importing.segments import KIND_ARC, KIND_CUBIC, Segments
 
+_BLOCK = 4096  # cubics at once: what is made of them stays in the cache
 _DEEPEST = 40  # halvings: t is then below 1e-12, and rounding, not the curve, is what is left
 
 
@@ -101,6 +102,17 @@ def place(counts: IntArray, ends: FloatArray, *inner: tuple[IntArray, IntArray, 
 
 def _cubic_cuts(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatArray]:
     """Inner parameters of all cubics, by curve and rising: the fewest of halving, equal shares and equal steps."""
+    parts: list[tuple[IntArray, FloatArray]] = [(np.empty(0, dtype=np.int64), np.empty(0))]
+    total = 0
+    for begin in range(0, len(cubics), _BLOCK):
+        ids, ts = _block_cuts(cubics[begin : begin + _BLOCK], tolerance)
+        parts.append((ids + begin, ts))
+        total += len(ids)
+        within_limit(total)
+    return np.concatenate([ids for ids, _ in parts]), np.concatenate([ts for _, ts in parts])
+
+
+def _block_cuts(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatArray]:
     ids, ts = _halving(cubics, tolerance)
     for cuts in (_even_cuts, _wang_cuts):
         more_ids, more_ts, taken = cuts(cubics, np.bincount(ids, minlength=len(cubics)), tolerance)
@@ -147,6 +159,7 @@ def _halving(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatArray
 # Where the density is sampled, and how many edges by halving make it worth while: between samples it counts as
 # even, which near a cusp takes many. Equal shares are only kept where the bound proves them.
 _SAMPLES = ((33, 2), (513, 24))
+_ROWS = 1024  # cubics sampled at once
 
 
 def _even_cuts(
@@ -164,8 +177,8 @@ def _even_cuts(
     found: list[tuple[IntArray, FloatArray]] = [(np.empty(0, dtype=np.int64), np.empty(0))]
     for samples, worth in _SAMPLES:
         rows = np.flatnonzero((halved >= worth) & ~taken)
-        for begin in range(0, len(rows), 4096):
-            found += _even_rows(cubics, rows[begin : begin + 4096], halved, tolerance, samples, taken)
+        for begin in range(0, len(rows), _ROWS):
+            found += _even_rows(cubics, rows[begin : begin + _ROWS], halved, tolerance, samples, taken)
     return np.concatenate([ids for ids, _ in found]), np.concatenate([ts for _, ts in found]), taken
 
 
@@ -267,22 +280,37 @@ def _cubic_error(cubics: FloatArray, which: IntArray, cuts: FloatArray) -> float
     ids = np.repeat(np.arange(len(cubics)), count)
     low, high = bounds_of(which, cuts, count)
     piece = cut_between(cubics[ids], low, high)
-    a, b = piece[:, 0], piece[:, 3]
-    chord = b - a
-    d = [chord[:, 0] * (piece[:, i, 1] - a[:, 1]) - chord[:, 1] * (piece[:, i, 0] - a[:, 0]) for i in (1, 2)]
-    farthest = np.zeros(len(piece))
-    for t in (*extreme_parameters(d[0], d[1]), *(np.full(len(piece), t) for t in _MEASURED_AT)):
-        np.maximum(farthest, segment_distance(evaluate(piece, t), a, b), out=farthest)
-    worst = (_peak(piece[row], a[row], b[row]) for row in np.argsort(farthest)[-_MEASURED_AGAIN:])
+    farthest = np.concatenate([_farthest(piece[k : k + _BLOCK]) for k in range(0, len(piece), _BLOCK)])
+    worst = (_peak(piece[row]) for row in np.argsort(farthest)[-_MEASURED_AGAIN:])
     return max(float(farthest.max()), *worst)
 
 
-def _peak(cubic: FloatArray, a: FloatArray, b: FloatArray) -> float:
+def _farthest(piece: FloatArray) -> FloatArray:
+    """The largest distance of each piece from its chord, of those that are looked at: (n,).
+
+    Where the inner control points project onto the chord so does the curve (convex hull), and its extremes are it.
+    """
+    a, b = piece[:, 0], piece[:, 3]
+    x, y = b[:, 0] - a[:, 0], b[:, 1] - a[:, 1]
+    arms = [(piece[:, i, 0] - a[:, 0], piece[:, i, 1] - a[:, 1]) for i in (1, 2)]
+    farthest = np.zeros(len(piece))
+    for t in extreme_parameters(*(x * v - y * u for u, v in arms)):
+        np.maximum(farthest, segment_distance(evaluate(piece, t), a, b), out=farthest)
+    along, square = [x * u + y * v for u, v in arms], x * x + y * y
+    beyond = np.flatnonzero((np.minimum(*along) < 0) | (np.maximum(*along) > square))
+    hooks, a, b = piece[beyond], a[beyond], b[beyond]
+    for t in _MEASURED_AT:
+        distance = segment_distance(evaluate(hooks, np.full(len(hooks), t)), a, b)
+        farthest[beyond] = np.maximum(farthest[beyond], distance)
+    return farthest
+
+
+def _peak(cubic: FloatArray) -> float:
     """Look closely, and then around the farthest place still closer: a hook beyond the chord's end peaks elsewhere."""
     low, high, farthest = 0.0, 1.0, 0.0
     for _ in range(2):  # of 2048 parts, then of 2048 of two of these: the last miss is 1e-12 of the peak's width
         t = np.linspace(low, high, 2049)
-        distance = segment_distance(evaluate(np.broadcast_to(cubic, (len(t), 4, 2)), t), a, b)
+        distance = segment_distance(evaluate(np.broadcast_to(cubic, (len(t), 4, 2)), t), cubic[0], cubic[3])
         at = int(distance.argmax())
         farthest = max(farthest, float(distance[at]))
         low, high = t[max(at - 1, 0)], t[min(at + 1, 2048)]

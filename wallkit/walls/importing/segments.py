@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,47 +44,54 @@ class Segments:
 
 def gather(subpaths: Iterable[Subpath], scale: float = 1.0, flip_y: bool = False) -> Segments:
     """Collect subpaths into arrays, scaled and mirrored if asked (untouched bit for bit if not)."""
-    starts: list[tuple[float, float]] = []
-    offsets, kinds, ends = [0], [], []
-    cubics: list[tuple[float, ...]] = []
-    arcs: list[tuple[float, ...]] = []
+    first: list[Segment] = []
+    segments: list[Segment] = []
+    offsets = [0]
     for sub in subpaths:
-        x, y = sub.segments[0][1:3]
-        starts.append((x, y))
-        for segment in sub.segments[1:]:
-            kinds.append(_add(segment, x, y, cubics, arcs))
-            x, y = segment[-2:]
-            ends.append((x, y))
-        offsets.append(len(kinds))
+        first.append(sub.segments[0])
+        segments += sub.segments[1:]
+        offsets.append(len(segments))
     factor = np.array([scale, -scale if flip_y else scale])
-    start_array = np.array(starts, dtype=np.float64).reshape(-1, 2) * factor
-    end_array = np.array(ends, dtype=np.float64).reshape(-1, 2) * factor
+    start_array = _numbers([segment[1:3] for segment in first], 2)
+    end_array = _numbers([segment[-2:] for segment in segments], 2)
     offset_array = np.array(offsets, dtype=np.int64)
+    begins = _begins(start_array, offset_array, end_array)
+    letters = [segment[0] for segment in segments]
+    kinds = np.array([_KINDS[letter] for letter in letters], dtype=np.int8)
+    arc_at = np.flatnonzero(kinds == KIND_ARC)
+    arcs = np.concatenate([begins[arc_at], _numbers([segments[k][1:] for k in arc_at.tolist()], 7)], axis=1)
     return Segments(
-        starts=start_array,
+        starts=start_array * factor,
         offsets=offset_array,
-        kinds=np.array(kinds, dtype=np.int8),
-        ends=end_array,
-        begins=_begins(start_array, offset_array, end_array),
-        cubics=np.array(cubics, dtype=np.float64).reshape(-1, 4, 2) * factor,
-        arcs=_scaled(centre_form(np.array(arcs, dtype=np.float64).reshape(-1, 9)), factor),
+        kinds=kinds,
+        ends=end_array * factor,
+        begins=begins * factor,
+        cubics=_cubics(segments, letters, begins, np.flatnonzero(kinds == KIND_CUBIC)) * factor,
+        arcs=_scaled(centre_form(arcs), factor),
     )
 
 
-def _add(segment: Segment, x: float, y: float, cubics: list[tuple[float, ...]], arcs: list[tuple[float, ...]]) -> int:
-    kind = segment[0]
-    if kind == "L":
-        return KIND_LINE
-    if kind == "C":
-        cubics.append((x, y, *segment[1:]))
-        return KIND_CUBIC
-    if kind == "Q":
-        x1, y1, x2, y2 = segment[1:]
-        third = (x + 2 * x1) / 3, (y + 2 * y1) / 3, (x2 + 2 * x1) / 3, (y2 + 2 * y1) / 3
-        cubics.append((x, y, *third, x2, y2))
-        return KIND_CUBIC
-    arcs.append((x, y, *segment[1:]))
-    return KIND_ARC
+_KINDS = {"L": KIND_LINE, "C": KIND_CUBIC, "Q": KIND_CUBIC, "A": KIND_ARC}
+
+
+def _numbers(rows: list[tuple[float, ...]], width: int) -> FloatArray:
+    """Rows of ``width`` numbers as an array."""
+    flat = np.fromiter(chain.from_iterable(rows), dtype=np.float64, count=width * len(rows))
+    return flat.reshape(-1, width)
+
+
+def _cubics(segments: list[Segment], letters: list[str], begins: FloatArray, at: IntArray) -> FloatArray:
+    """Control points (C, 4, 2) of the segments ``at``, cubics and quadratics."""
+    rows = at.tolist()
+    quadratic = np.array([letters[k] == "Q" for k in rows], dtype=np.bool_)
+    cubics = np.empty((len(at), 4, 2))
+    cubics[:, 0] = begins[at]
+    cubics[~quadratic, 1:] = _numbers([segments[k][1:] for k in at[~quadratic].tolist()], 6).reshape(-1, 3, 2)
+    if quadratic.any():
+        start = cubics[quadratic, 0]
+        middle, end = np.split(_numbers([segments[k][1:] for k in at[quadratic].tolist()], 4), 2, axis=1)
+        cubics[quadratic, 1:] = np.stack([(start + 2 * middle) / 3, (end + 2 * middle) / 3, end], axis=1)
+    return cubics
 
 
 def _begins(starts: FloatArray, offsets: IntArray, ends: FloatArray) -> FloatArray:

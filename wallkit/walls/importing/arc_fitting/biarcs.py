@@ -237,7 +237,7 @@ def deviations(
     """
     width = (spans.high - spans.low)[:, None]
     u = spans.low[:, None] + width * fractions
-    place = chains.at(np.repeat(spans.ids, len(fractions)), u.ravel())[0].reshape(u.shape)
+    place = chains.places(spans.ids, u)
     distance = _offset((place - arcs.joint[:, None]) * arcs.along[:, None].conj(), arcs.bend0, arcs.bend1)[0]
     chord = (spans.p1 - spans.p0)[:, None]
     length = np.abs(chord)

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -32,7 +33,7 @@ from wallkit.walls.importing.arc_fitting.cuts import (
     strung,
 )
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, runs_on
-from wallkit.walls.importing.curves_to_lines import Pieces
+from wallkit.walls.importing.curves_to_lines import Pieces, within_limit
 from wallkit.walls.importing.segments import KIND_ARC, KIND_CUBIC, KIND_LINE, Segments
 
 # A curve that is one arc by itself stays that where it turns by more (radians): it was drawn as an arc, and is no
@@ -42,6 +43,8 @@ _LEAST_TURN = 0.35
 # 8 to 64 need the same number of arcs within some percent. With much less every joint is a cut, with much more the
 # spans around jumps get many and short.
 _LARGEST_JUMP = 32.0
+_BLOCK = 8192
+"""About so many curves are fitted at once: what the work needs for them stays in the cache."""
 _SAME_RADII = 1e-9  # relative; a circle after a turn and a scale differs by rounding, 1e-15
 
 
@@ -111,14 +114,45 @@ def _circles(arcs: Arcs, at: IntArray) -> _Edges:
 
 
 def _fit(curves: Curves, strokes: Segments, at: IntArray, tolerance: float) -> _Edges:
-    """Fit curves of one kind, whose segments are ``at``; the edges of a chain count as its last segment's."""
+    """Fit curves of one kind, whose segments are ``at``, block by block; a chain lies in one block."""
     if not len(curves):
         return _Edges(at, np.empty((0, 2)), np.empty(0))
+    smooth = runs_on(curves, strokes, at)
+    starts = np.flatnonzero(~smooth)
+    blocks = [*starts[np.flatnonzero(np.diff(starts // _BLOCK, prepend=-1))].tolist(), len(curves)]
+    parts: list[_Edges] = []
+    total = 0
+    for first, last in pairwise(blocks):
+        rows = np.arange(first, last)
+        parts.append(_fit_block(curves.take(rows), strokes, at[rows], smooth[rows], tolerance))
+        total += len(parts[-1].bulges)
+        within_limit(total)
+    return _Edges(
+        np.concatenate([part.segments for part in parts]),
+        np.concatenate([part.ends for part in parts]),
+        np.concatenate([part.bulges for part in parts]),
+        max(part.distance for part in parts),
+        max(part.turn for part in parts),
+    )
+
+
+def _fit_block(curves: Curves, strokes: Segments, at: IntArray, smooth: BoolArray, tolerance: float) -> _Edges:
+    """Fit curves; the edges of a chain count as its last segment's.
+
+    Args:
+        curves: of one kind, the first of them the start of a chain.
+        strokes: all subpaths.
+        at: (n,) the segment of each curve.
+        smooth: (n,) the curve goes on smoothly from the one before.
+        tolerance: how far arcs may be off.
+    """
     origins = as_complex(strokes.begins[at])
     chains = Chains.of(curves, origins, np.zeros(len(curves), dtype=np.bool_))
     whole = between_cusps(chains)
     spans, fit = halve(chains, whole, tolerance)
-    joined = runs_on(curves, strokes, at, _arcs_by_themselves(chains, spans))
+    joined = smooth.copy()
+    apart = _arcs_by_themselves(chains, spans)
+    joined[1:] &= ~apart[1:] & ~apart[:-1]
     joined &= _bends_on(curves, spans, fit, tolerance)
     if joined.any():
         chains = Chains.of(curves, origins, joined)

@@ -108,6 +108,23 @@ class Chains:
         direction = np.where(t == 0, self.headings[curve], unit(velocity[:, 0]))
         return self.shifts[curve] + place[:, 0], direction
 
+    def places(self, ids: IntArray, u: FloatArray) -> ComplexArray:
+        """Points of chains ``ids`` (n,) at ``u`` (n, k), rising along each row: (n, k)."""
+        first, last = self._curve_at(ids, u[:, 0]), self._curve_at(ids, u[:, -1])
+        place = self._places(first, u)
+        across = np.flatnonzero(first != last)
+        flat = u[across].reshape(-1, 1)
+        curve = self._curve_at(np.repeat(ids[across], u.shape[1]), flat[:, 0])
+        place[across] = self._places(curve, flat).reshape(-1, u.shape[1])
+        return place
+
+    def _places(self, curve: IntArray, u: FloatArray) -> ComplexArray:
+        """Points of curves (n,) at their chain's u (n, k)."""
+        start = self.starts[curve, None]
+        place = self.curves.places(curve, (u - start) / (self.stops[curve, None] - start))
+        place += self.shifts[curve, None]
+        return place
+
     def before(self, ids: IntArray, u: FloatArray) -> ComplexArray:
         """Directions of chains ``ids`` at ``u``; at a joint that of the earlier curve."""
         curve = self._curve_at(ids, u)
@@ -141,20 +158,19 @@ class Chains:
         return low
 
 
-def runs_on(curves: Curves, strokes: Segments, at: IntArray, apart: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def runs_on(curves: Curves, strokes: Segments, at: IntArray) -> NDArray[np.bool_]:
     """Tell which curves go on smoothly from the one before, in the same subpath, with nothing else at the joint.
 
     Args:
         curves: the curves.
         strokes: all subpaths.
         at: (n,) the segment of each curve, rising.
-        apart: (n,) curves that are joined to no other.
     """
     first, last = curves.end_tangents()
     along = first[1:] * last[:-1].conj()
     subpath = np.searchsorted(strokes.offsets, at, side="right")
     joined = np.zeros(len(at), dtype=np.bool_)
-    joined[1:] = (np.diff(at) == 1) & (np.diff(subpath) == 0) & ~apart[1:] & ~apart[:-1]
+    joined[1:] = (np.diff(at) == 1) & (np.diff(subpath) == 0)
     joined[1:] &= (along.real > 0) & (np.abs(along.imag) <= _SMOOTH)
     rows = np.flatnonzero(joined)
     if len(rows):

@@ -1,0 +1,129 @@
+"""What people wait for before balls fly, beside another build: ``python benchmarks/first_use.py COMMIT``.
+
+    python benchmarks/first_use.py COMMIT [--same-environment] [NAME ...]
+
+Processor seconds of whole processes, the median of turns in which both builds run one after the other: a survey with an
+empty kernel cache (once), the same again, ``simulate`` of a small drawing (with its kernels on the disk), ``check`` of
+10,000 edges, and surveys of 10,000 edges with the index made in each call. ``report`` is ``report --quick`` with an
+empty cache; name it to have it, it takes minutes.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import tempfile
+from pathlib import Path
+
+from builds import Build, beside, medians
+
+TURNS = 5
+
+SURVEY = """
+import sys
+import numpy as np
+import wallkit
+kind, samples = sys.argv[1:]
+if kind == "arcs":
+    walls, start = wallkit.import_walls(f"{samples}/lagoon.ai", curves="arcs"), (396, 150)
+else:
+    walls, start = wallkit.Walls.from_polylines([[[0, 0], [0, 300], [400, 300], [400, 0]]]), (200, 150)
+angle = np.random.default_rng(1).uniform(0, 2 * np.pi, 20000)
+velocity = 50 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+balls = wallkit.Balls(np.tile([start], (20000, 1)), velocity, 2)
+wallkit.survey(wallkit.Scene(walls, balls, gravity=(0, -100) if kind == "gravity" else None), until=20.0)
+"""
+
+WHOLE = """
+import json, sys, time
+sys.path.insert(0, sys.argv[1])
+import core_speed
+import wallkit
+seconds = []
+for name in ("curve10000", "maze10k"):
+    for _, radius, walls, position, velocity in core_speed.cases([name]):
+        scene = wallkit.Scene(walls, wallkit.Balls(position, velocity, radius))
+        wallkit.survey(scene, until=20.0, threads=1)
+        best = []
+        for _ in range(9):
+            began = time.process_time()
+            wallkit.survey(scene, until=20.0, threads=1)
+            best.append(time.process_time() - began)
+        seconds.append(min(best))
+print(json.dumps(seconds))
+"""
+
+
+def row(name: str, turns: list[list[float]]) -> None:
+    """Print one line of the table."""
+    here, there, ratio = medians(turns)
+    unit, factor = ("s", 1.0) if there >= 0.1 else ("ms", 1e3)
+    print(f"| {name} | {here * factor:.3g} {unit} | {there * factor:.3g} {unit} | {ratio:.2f} |", flush=True)
+
+
+def surveys(builds: tuple[Build, Build]) -> None:
+    """First surveys, and the same again from a new process."""
+    for kind in ("room", "arcs", "gravity"):
+        arguments = ["-c", SURVEY, kind, "samples"]
+        row(f"first survey, {kind}", [[build.seconds(arguments)[0] for build in builds]])
+        row(f"again, {kind}", [[build.seconds(arguments)[0] for build in builds] for _ in range(TURNS)])
+
+
+def commands(builds: tuple[Build, Build]) -> None:
+    """Commands as people give them."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "blobs.svg"
+        file.write_text(_ten_thousand_edges())
+        simulate = ["simulate", "samples/room.svg", "--bounces", "50"]
+        for name, words in (("simulate, a small drawing", simulate), ("check, 10,000 edges", ["check", str(file)])):
+            for build in builds:
+                build.seconds(["-m", "wallkit", *words])
+            row(name, [[build.seconds(["-m", "wallkit", *words])[0] for build in builds] for _ in range(TURNS)])
+
+
+def _ten_thousand_edges() -> str:
+    """A room with 992 decagons of different sizes in it."""
+    paths = ["M0,0H1000V1000H0Z"]
+    for number in range(32 * 31):
+        x, y, size = 20 + 30 * (number // 31), 20 + 30 * (number % 31), 8 + 4 * math.sin(number) ** 2
+        turns = [math.pi * k / 5 for k in range(10)]
+        paths.append("M" + " ".join(f"{x + size * math.cos(a):.4f},{y + size * math.sin(a):.4f}" for a in turns) + "Z")
+    shapes = "\n".join(f'<path fill="none" stroke="#000" d="{path}"/>' for path in paths)
+    return f'<svg xmlns="http://www.w3.org/2000/svg" width="1000" height="1000">{shapes}</svg>'
+
+
+def whole(builds: tuple[Build, Build]) -> None:
+    """Surveys whose index is made in each call."""
+    folder = str(Path(__file__).resolve().parent)
+    turns = [[json.loads(build.seconds(["-c", WHOLE, folder])[1]) for build in builds] for _ in range(3)]
+    for number, name in enumerate(("curve, discs", "curve, points", "maze, discs", "maze, points")):
+        row(f"whole survey, {name}", [[one[number] for one in turn] for turn in turns])
+
+
+def report(builds: tuple[Build, Build]) -> None:
+    """The quick report, compiling included."""
+    with tempfile.TemporaryDirectory() as folder:
+        turns = []
+        for build in builds:
+            cache = str(Path(folder) / build.folder.name)
+            turns.append(build.seconds(["-m", "wallkit", "report", "--quick"], WALLKIT_CACHE_DIR=cache)[0])
+        row("report --quick, first", [turns])
+
+
+PARTS = {"surveys": surveys, "commands": commands, "whole": whole, "report": report}
+
+
+def main() -> None:
+    """Print the table."""
+    words = [word for word in sys.argv[1:] if not word.startswith("--")]
+    if not words:
+        sys.exit(__doc__)
+    print("| | this build | that build | times faster |\n|" + "---|" * 4)
+    with beside(words[0], same_environment="--same-environment" in sys.argv) as builds:
+        for name in words[1:] or ["surveys", "commands", "whole"]:
+            PARTS[name](builds)
+
+
+if __name__ == "__main__":
+    main()
