@@ -159,7 +159,7 @@ def simulate_file(
     )  # fmt: skip
     targets = _targets(out or [], form)
     way = "exact" if way is None and dt is not None else way
-    _check_way(way, {"colour": colour, "heat": heat}, targets)
+    _check_way(way, {"colour": colour, "heat": heat, "strobe": strobe}, targets)
     scene = opened(file, wishes)
     run = _flown(scene, settle)
     stepped = _stepped(run, way, 1 / 60 if dt is None else dt)
@@ -206,8 +206,9 @@ def _check_way(way: str | None, look: dict[str, Any], targets: list[tuple[str, F
 
     if way is None:
         return
-    if look["heat"] or look["colour"] not in (None, "ball"):
-        option = "--heat" if look["heat"] else f"--colour {look['colour']}"
+    told = "" if look["colour"] in (None, "ball") else f"--colour {look['colour']}"
+    option = "--heat" if look["heat"] else "--strobe" if look["strobe"] is not None else told
+    if option:
         raise UsageError(
             f"{option} is for exact runs, and --way is given", code="usage", fix="leave out one of the two"
         )

@@ -6,13 +6,13 @@
 
   const PERIOD = 80; // milliseconds between changes of the text while playing
   const LONG = 90; // pixels of the longer of the two arrows
-  const FRAMES = 60; // a second, of the frames that are counted
+  W.FRAMES = 60; // a second, of the frames that are counted where no way has its own
 
   class BounceTable {
     constructor(host, player) {
       this.host = host;
       this.player = player;
-      this.frames = FRAMES;
+      this.frames = W.FRAMES;
       this.told = { motion: null, contact: -1, units: "" };
       this.shown = 0;
       player.decorations.push((ctx, colours) => this.draw(ctx, colours));
@@ -55,6 +55,7 @@
       const name = this.player.motion.balls > 1 ? `, ${this.player.nameOf(bounce.ball)}` : "";
       this.set("when", `${W.number(bounce.time)} s${name}`);
       const [frame, part] = frameOf(bounce.time, this.frames);
+      this.set("frames", W.number(this.frames));
       this.set("frame", `${frame.toLocaleString("en")} + ${part.toFixed(3)}`);
     }
 

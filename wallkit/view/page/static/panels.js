@@ -63,7 +63,7 @@
       if (!this.on) return {};
       const other = this.choice.setting();
       if (valid("restitution-b")) other.restitution = Number($("restitution-b").value);
-      if (valid("gravity-b")) other.gravity = this.gravity(Number($("gravity-b").value));
+      if (valid("gravity-b")) other.gravity = this.gravity(this.page.player.units.drawn(Number($("gravity-b").value)));
       return { other };
     }
 

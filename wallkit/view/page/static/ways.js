@@ -196,6 +196,7 @@
     load(answer) {
       this.frames = answer?.stepped ? new Frames(answer.stepped) : null;
       $("way-facts").textContent = this.frames ? `${this.frames.sentence}.` : this.told;
+      this.page.instruments.bounce.frames = this.frames ? 1 / answer.stepped.dt : W.FRAMES;
     }
   }
 
