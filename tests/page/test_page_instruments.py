@@ -14,10 +14,18 @@ WINDOWS = {"desktop": {"width": 1366, "height": 768}, "phone": {"width": 390, "h
 GRAPHS = ("height", "speed", "energy", "angular momentum")
 
 
+def sheet(page):
+    """Open or close the panel, which is a sheet on a phone."""
+    if page.locator("#sheet-button").is_visible():
+        page.locator("#sheet-button").click()
+
+
 def all_on(page, until, where):
+    sheet(page)
     for name in GRAPHS:
         page.get_by_label(f"Graph of {name}", exact=True).check()
     page.get_by_label("Strobe", exact=True).check()
+    sheet(page)
     for tool in ("Ruler", "Protractor"):
         page.get_by_role("button", name=tool, exact=True).click()
     page.keyboard.press(".")
@@ -28,9 +36,11 @@ def all_on(page, until, where):
 def test_everybody_can_use_the_page_with_all_that_measures(opened, server, drop, until, accessible, window):
     page = opened(server.url, viewport=WINDOWS[window])
     drop(page, "room.svg", ROOM)
+    sheet(page)
     page.get_by_role("button", name="Add a ball").click()
     page.get_by_label("1 m is so many").fill("100")
     page.get_by_label("Gravity in units").fill("9.81")
+    sheet(page)
     page.locator("#shoot").click()
     until(page, FLYING)
     page.keyboard.press("k")
