@@ -31,8 +31,9 @@ class Pictured:
         Args:
             **options: for all ``title`` (a line above the picture, ``""``) and ``width`` (in pixels, 720; the height
                 follows). For Walls also ``problems`` (marked with numbers; their own by default) and ``normals``
-                (True). For a Run also ``colour`` (``"time"`` or ``"speed"``), ``heat`` (False; where the balls spend
-                their time, in place of the paths) and ``problems`` (none).
+                (True). For a Run also ``colour`` (``"ball"``, ``"time"`` or ``"speed"``; by default the ball where
+                there are several, else the time), ``heat`` (False; where the balls spend their time, in place of the
+                paths), ``strobe`` (None; show the balls every so many seconds too) and ``problems`` (none).
 
         Raises:
             WallkitError: an option is not known or has a value that it cannot have, or nobody is there to draw.

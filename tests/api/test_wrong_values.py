@@ -218,7 +218,7 @@ CALLS = {
         "radius": (*NO_NUMBERS_BUT_NONE, -1.0),
         "balls": (*NO_WHOLE_NUMBERS, 0),
         "seed": NO_WHOLE_NUMBERS,
-        "gravity": (5, "down", (0.0,), (0.0, math.nan)),
+        "gravity": (math.nan, True, "down", (0.0,), (0.0, math.nan)),
         "restitution": (*NO_NUMBERS_BUT_NONE, -0.1),
         "tangential_restitution": (*NO_NUMBERS_BUT_NONE, -0.1, 1.1),
         "friction": (*NO_NUMBERS_BUT_NONE, -1.0),

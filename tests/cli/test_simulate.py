@@ -269,3 +269,19 @@ def test_a_run_that_drag_ends_can_be_written(wallkit, scene, tmp_path):
     assert "at rest" in out
     final = json.loads((tmp_path / "run.json").read_text())["final"][0]
     assert (final["vx"], final["vy"]) == (0.0, 0.0)
+
+
+def test_real_units_a_ball_falls_as_on_earth(wallkit, tmp_path):
+    """A drawing of 100 px a metre: from 5 m a ball is on the floor after sqrt(2 h / g), at sqrt(2 g h)."""
+    (tmp_path / "room.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="800" height="600">'
+        '<path d="M0 0H800V600H0Z" fill="none" stroke="black"/></svg>'
+    )
+    code, out, _ = wallkit("simulate", tmp_path / "room.svg", "--units", "1 m = 100 px", "--gravity", 9.81, "--ball",
+                           "4,1", "--speed", 0, "--radius", 0, "--bounces", 1, "--format", "csv")  # fmt: skip
+    assert code == 0
+    time, _, x, y, _, vy = (float(part) for part in out.splitlines()[1].split(",")[:6])
+    assert (x, y) == pytest.approx((4.0, 6.0), abs=1e-12)
+    assert time == pytest.approx((2 * 5 / 9.81) ** 0.5, rel=1e-14)
+    assert vy == pytest.approx(-((2 * 9.81 * 5) ** 0.5), rel=1e-14)
+    assert "--gravity is 'heavy'" in wallkit("simulate", tmp_path / "room.svg", "--gravity", "heavy")[2]

@@ -150,3 +150,28 @@ def test_flight_under_gravity_is_drawn_as_the_exact_parabola():
         # The curve is sampled at even parts of the time of its stretch: 24 chords, so every 25th of the fall is there.
         exact = frame.point(2 + t, 8 - 9.81 / 2 * t * t)
         assert np.hypot(*(points - exact).T).min() < 1e-6
+
+
+def test_strobe_shows_the_balls_at_equal_times_beside_the_ghosts_at_contacts(run):
+    frame = fit(scene_box(run.scene), True, width=960, max_height=1100, margin=28)
+    with_it = [item for item in run_canvas(run, strobe=0.7).items if isinstance(item, Disc) and item.style == "ghost"]
+    discs = [disc for disc in with_it if disc.filled and disc.title.startswith("ball ")]
+    last = float(run.final["time"].max())
+    times = [0.7 * k for k in range(int(last / 0.7) + 1)]
+    expected = [(time, ball) for time in times for ball in (0, 1) if time <= run.final["time"][ball]]
+    assert len(discs) == len(expected) > 20
+    for disc, (time, ball) in zip(discs, expected, strict=True):
+        assert (disc.x, disc.y) == pytest.approx(frame.point(*run.position(time)[ball]), abs=1e-9)
+    assert len(with_it) - len(discs) == len(run.contacts)
+
+
+def test_several_balls_have_their_colours_in_stills_as_in_films_one_shows_the_time(run):
+    def steps(of, style):
+        return {item.step for item in run_canvas(of).items if getattr(item, "style", "") == style}
+
+    assert steps(run, "path") == {0, RAMP_STEPS - 1}  # as film has them: ball k of n at k / (n - 1) of the ramp
+    assert steps(run, "ball") == {0, RAMP_STEPS - 1}
+    assert "ball 0" in run_svg(run)
+    alone = run.take([0])
+    assert len(steps(alone, "path")) > 2
+    assert steps(alone, "ball") == {None}

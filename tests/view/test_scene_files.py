@@ -218,3 +218,17 @@ def test_walls_become_sensors_by_their_names_and_then_bounce_nothing(schema):
     assert [wallkit.Kind(kind).label for kind in run.contacts["kind"]] in (["enter", "edge"], ["exit", "edge"])
     with pytest.raises(SceneError, match="no wall has a name or layer like 'gaol'"):
         read_scene(text.replace("goal*", "gaol").encode())
+
+
+@pytest.mark.parametrize(("axis", "pull"), [("up", (0.0, -9.81)), ("down", (0.0, 9.81))])
+def test_gravity_as_one_number_pulls_down_on_the_screen(tmp_path, axis, pull):
+    text = f"""gravity = 9.81
+y_axis = "{axis}"
+walls = [{{ vertices = [[0, 0], [0, 5], [5, 5], [5, 0]] }}]
+[[balls]]
+position = [2, 2]
+"""
+    (tmp_path / "scene.toml").write_text(text)
+    assert wallkit.open_scene(tmp_path / "scene.toml").scene.gravity == pull
+    half = wallkit.open_scene(tmp_path / "scene.toml", wallkit.Wishes(gravity=1.62)).scene
+    assert half.gravity == (0.0, np.copysign(1.62, pull[1]))

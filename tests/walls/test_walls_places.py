@@ -60,6 +60,29 @@ def test_a_point_is_a_seventy_second_of_an_inch():
     assert corners(walls) == [(0, 0), (0, 1), (1, 0), (1, 1)]
 
 
+@pytest.mark.parametrize(
+    ("scale", "name", "px"),
+    [("1 m = 100 px", "m", 0.01), ("1m=100px", "m", 0.01), ("5 mm = 1 px", "mm", 5.0), ("2.5 m = 1 in", "m", 2.5 / 96),
+     ("1 cm = 1e3 px", "cm", 1e-3)],
+)  # fmt: skip
+def test_a_scale_as_on_a_map_says_how_long_the_drawing_is_in_reality(scale, name, px):
+    art = drawing(path(square(10, 20, 300)), units="px", y_axis="down")
+    walls = import_walls(art, units=scale)
+    assert walls.units == name
+    np.testing.assert_allclose(walls.box(), px * np.array([10, 20, 310, 320]), rtol=4 * 2.0**-52)
+    inked = import_walls(drawing(path(square(0, 0, 72)), units="pt"), units="1 m = 96 px")  # 72 pt are 96 px
+    np.testing.assert_allclose(inked.box(), [0, 0, 1, 1], rtol=4 * 2.0**-52)
+
+
+@pytest.mark.parametrize(
+    "scale", ["1 m", "1 m =", "1 m = 100", "m = px", "0 m = 1 px", "-1 m = 1 px", "nan m = 1 px", "1 m = inf px",
+              "1 m = 1 px = 1 in", "1 yard = 3 px", "1 m = 1 yard"],
+)  # fmt: skip
+def test_what_is_no_scale_is_refused(scale):
+    with pytest.raises(WallsError, match=r"^units is .*1 m = 100 px"):
+        ImportOptions(units=scale)
+
+
 def test_lengths_are_in_the_units_asked_for_and_scale_comes_after():
     walls = import_walls(drawing(path(circle(0, 0, 72)), units="pt"), units="mm", tolerance=0.5)
     assert walls.tolerance == 0.5

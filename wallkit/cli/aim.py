@@ -64,7 +64,7 @@ def aim_at(
 ) -> None:
     """Find all directions that reach a target within K bounces, and how wide each window is."""
     from wallkit.cli.progress import progress_bar
-    from wallkit.cli.scene_input import opened, pair, pair_or_none
+    from wallkit.cli.scene_input import gravity_or_none, opened, pair
     from wallkit.levels.aim import aim
     from wallkit.scene.opening import Wishes
     from wallkit.view.write import check_picture_ending
@@ -73,7 +73,7 @@ def aim_at(
         check_picture_ending(Path(out).suffix, out)
     wishes = Wishes(
         ball=() if start is None else (pair(start, "--from"),), radius=radius, speed=speed, bounces=bounces,
-        gravity=pair_or_none(gravity, "--gravity"), restitution=restitution,
+        gravity=gravity_or_none(gravity), restitution=restitution,
         tangential_restitution=tangential_restitution, friction=friction, drag=drag,
         importing=drawing_options.options_of(importing or {}),
     )  # fmt: skip

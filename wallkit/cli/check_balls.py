@@ -60,10 +60,10 @@ class Wanted:
 
     def wishes(self, importing: ImportOptions) -> Wishes:
         """What is asked of the scene."""
-        from wallkit.cli.scene_input import pair_or_none
+        from wallkit.cli.scene_input import gravity_or_none
         from wallkit.scene.opening import Wishes
 
-        gravity = pair_or_none(self.gravity, "--gravity")
+        gravity = gravity_or_none(self.gravity)
         return Wishes(importing=importing, may_be_empty=True, gravity=gravity, until=self.until, bounces=self.bounces)
 
 

@@ -35,8 +35,11 @@ _Room = Annotated[str, _option("The closed wall of this name is a room: free ins
 _Scale = Annotated[float, _option("Factor on all coordinates.")]
 _Page = Annotated[str | None, _option("Page or artboard, from 1; or all.", metavar="N")]
 _Units = Annotated[
-    Literal["px", "pt", "mm", "cm", "m", "in"] | None,
-    _option("Units of all lengths and places, by the drawing's physical size."),
+    str | None,
+    _option(
+        "Of all lengths and places: px, pt, mm, cm, m, in, by the drawing's physical size; or a scale: '1 m = 100 px'.",
+        metavar="UNITS",
+    ),
 ]
 _Origin = Annotated[str, _option("What becomes 0,0: page, box (their corner), or X,Y.", metavar="WHAT")]
 _Grid = Annotated[float, _option("Move vertices to multiples of G.", metavar="G")]

@@ -55,6 +55,24 @@ def pair_or_none(text: str | None, option: str) -> tuple[float, float] | None:
     return None if text is None else pair(text, option)
 
 
+def gravity_or_none(text: str | None) -> tuple[float, float] | float | None:
+    """Read ``--gravity``, if it was given: GX,GY, or one number that pulls down on the screen.
+
+    Raises:
+        UsageError: it is neither.
+    """
+    if text is None or "," in text:
+        return pair_or_none(text, "--gravity")
+    try:
+        size = float(text)
+    except ValueError:
+        size = math.nan
+    if not math.isfinite(size):
+        fix = "give GX,GY, or one number that pulls down, such as 9.81"
+        raise UsageError(f"--gravity is {text!r}", code="usage", fix=fix)
+    return size
+
+
 def pairs(texts: Sequence[str] | None, option: str) -> tuple[tuple[float, float], ...]:
     """Read each ``X,Y``."""
     return tuple(pair(text, option) for text in texts or ())

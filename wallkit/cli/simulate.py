@@ -44,7 +44,10 @@ Seed = Annotated[int, _ball(metavar="K", help="Seed of --balls.")]
 Settle = Annotated[
     bool, _ball("--settle", help="Move discs that overlap a wall at the start to the nearest free spot.")
 ]
-Gravity = Annotated[str | None, _acts(metavar="GX,GY", help="Units per second squared, in the drawing's axes.")]
+Gravity = Annotated[
+    str | None,
+    _acts(metavar="G", help="Units per second squared: GX,GY in the drawing's axes; or one number, downwards."),
+]
 Restitution = Annotated[
     float | None, _acts(metavar="E", help="Part of the normal speed that a bounce leaves.", min=0, max=10)
 ]
@@ -89,8 +92,9 @@ Out = Annotated[
 Form = Annotated[Format | None, _output("--format", help="Format, whatever the ending says.")]
 Colour = Annotated[
     Literal["ball", "time", "speed"] | None,
-    _output(help="What colours tell [default: time in pictures, ball in films].", show_default=False),
+    _output(help="What colours tell [default: ball, where there are several; time].", show_default=False),
 ]
+Strobe = Annotated[float | None, _output(metavar="T", help="Pictures show the balls every T seconds too.", min=1e-9)]
 Heat = Annotated[bool, _output("--heat", help="Pictures show where balls spend their time.")]
 Theme = Annotated[Literal["light", "dark"], _output(help="Of PNG, GIF and MP4; SVG and HTML follow the reader.")]
 Size = Annotated[
@@ -135,6 +139,7 @@ def simulate_file(
     way: WayOfFrames = None,
     dt: Dt = None,
     colour: Colour = None,
+    strobe: Strobe = None,
     heat: Heat = False,
     theme: Theme = "light",
     size: Size = None,
@@ -144,12 +149,12 @@ def simulate_file(
     importing: dict[str, Any] | None = None,
 ) -> None:
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
-    from wallkit.cli.scene_input import opened, pair_or_none, pairs
+    from wallkit.cli.scene_input import gravity_or_none, opened, pair_or_none, pairs
     from wallkit.scene.opening import Wishes
 
     wishes = Wishes(
         pairs(ball, "--ball"), pair_or_none(velocity, "--velocity"), speed, angle, radius,
-        balls, seed, pair_or_none(gravity, "--gravity"), restitution, tangential_restitution,
+        balls, seed, gravity_or_none(gravity), restitution, tangential_restitution,
         friction, drag, meeting, ball_restitution, until, bounces, drawing_options.options_of(importing or {}),
     )  # fmt: skip
     targets = _targets(out or [], form)
@@ -158,7 +163,7 @@ def simulate_file(
     scene = opened(file, wishes)
     run = _flown(scene, settle)
     stepped = _stepped(run, way, 1 / 60 if dt is None else dt)
-    look: dict[str, Any] = {"colour": colour, "heat": heat, "theme": theme, "size": size}
+    look: dict[str, Any] = {"colour": colour, "heat": heat, "theme": theme, "size": size, "strobe": strobe}
     look |= {"seconds": seconds, "fps": fps, "pace": pace, "stepped": stepped}
     trust = _trust(run)
     for target, kind in targets:
@@ -269,7 +274,7 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
 
         size = {} if look["size"] is None else {"width": look["size"]}
         return picture_data(f".{kind}", ways_canvas(run, look["stepped"], title=look["title"], **size), look["theme"])
-    canvas = run_canvas(run, title=look["title"], heat=look["heat"], **given)
+    canvas = run_canvas(run, title=look["title"], heat=look["heat"], strobe=look["strobe"], **given)
     return picture_data(f".{kind}", canvas, look["theme"])
 
 

@@ -73,13 +73,13 @@ def survey_file(
 ) -> None:
     """Fly any number of balls and keep only counts: endings, bounces by edge, crossings. Memory does not grow."""
     from wallkit.cli.progress import progress_bar
-    from wallkit.cli.scene_input import opened, pair_or_none
+    from wallkit.cli.scene_input import gravity_or_none, opened
     from wallkit.levels.starts import starts_of
     from wallkit.scene.opening import Wishes
     from wallkit.simulation.count import count
 
     wishes = Wishes(
-        speed=speed, radius=radius, seed=seed, gravity=pair_or_none(gravity, "--gravity"),
+        speed=speed, radius=radius, seed=seed, gravity=gravity_or_none(gravity),
         restitution=restitution, tangential_restitution=tangential_restitution, friction=friction, drag=drag,
         until=until, bounces=bounces, importing=drawing_options.options_of(importing or {}), may_be_empty=True,
     )  # fmt: skip

@@ -21,7 +21,7 @@ from wallkit import arguments
 from wallkit.scene.ball_findings import ball_findings
 from wallkit.scene.drawn_scene import ANGLE, SPEED, Drawn, apart, drawn_scene
 from wallkit.scene.lesson import Lesson
-from wallkit.scene.scene import Balls, Scene
+from wallkit.scene.scene import Balls, Scene, downwards
 from wallkit.walls import Walls
 from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
 from wallkit.walls.origins import Marker
@@ -50,7 +50,7 @@ class Wishes:
         radius: of every ball.
         balls: so many balls at random places.
         seed: of that randomness.
-        gravity: (gx, gy).
+        gravity: (gx, gy), or one number: it pulls down on the screen.
         restitution: of every wall.
         tangential_restitution: the same along the wall.
         friction: deceleration of a rolling ball, units per second squared.
@@ -70,7 +70,7 @@ class Wishes:
     radius: float | None = None
     balls: int | None = None
     seed: int = 0
-    gravity: tuple[float, float] | None = None
+    gravity: tuple[float, float] | float | None = None
     restitution: float | None = None
     tangential_restitution: float | None = None
     friction: float | None = None
@@ -118,6 +118,14 @@ def _pair(value: Any, name: str) -> tuple[float, float]:
     return float(pair[0]), float(pair[1])
 
 
+def _gravity(value: Any, name: str) -> tuple[float, float] | float:
+    return _number()(value, name) if isinstance(value, int | float) else _pair(value, name)
+
+
+def _gravity_of(gravity: tuple[float, float] | float, walls: Walls) -> tuple[float, float]:
+    return downwards(gravity, walls) if isinstance(gravity, float) else gravity
+
+
 def _places(value: Any, name: str) -> tuple[tuple[float, float], ...]:
     arguments.of_type(value, name, (tuple, list, np.ndarray), "a list of (x, y)", error=UsageError, code="usage")
     return tuple(_pair(place, name) for place in value)
@@ -137,7 +145,7 @@ _WISHES: dict[str, Callable[[Any, str], Any]] = {
     "radius": _number(least=0.0),
     "balls": _whole(1),
     "seed": _whole(0),
-    "gravity": _pair,
+    "gravity": _gravity,
     "restitution": _number(0.0, 1.0),
     "tangential_restitution": _number(0.0, 1.0),
     "friction": _number(least=0.0),
@@ -309,7 +317,7 @@ def _completed(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> Open
         scene,
         walls=_with_material(walls, wishes),
         balls=balls,
-        gravity=scene.gravity if wishes.gravity is None else wishes.gravity,
+        gravity=scene.gravity if wishes.gravity is None else _gravity_of(wishes.gravity, walls),
         rolling_friction=scene.rolling_friction if wishes.friction is None else wishes.friction,
         drag=scene.drag if wishes.drag is None else wishes.drag,
         meeting=scene.meeting if wishes.meeting is None else wishes.meeting,

@@ -201,6 +201,11 @@ def _gravity(value: Any) -> tuple[float, float] | None:
     return float(array[0]), float(array[1])
 
 
+def downwards(gravity: float, walls: Walls) -> tuple[float, float]:
+    """Give the gravity of this size that pulls down on the screen: (0, -g) with y upwards, (0, g) with y downwards."""
+    return 0.0, gravity if walls.y_axis == "down" else -gravity
+
+
 def _slowing(name: str) -> Callable[[Any], float | None]:
     def checked(value: Any) -> float | None:
         if value is None:

@@ -21,7 +21,7 @@ from importers.limits import check_input_size
 from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.drawn_scene import apart, drawn_scene, together
 from wallkit.scene.lesson import Lesson, read_lesson
-from wallkit.scene.scene import Balls, Scene, SceneError, area_of
+from wallkit.scene.scene import Balls, Scene, SceneError, area_of, downwards
 from wallkit.scene.scene_rules import FIT_KEYS, RULE_KEYS, Fit, Rule, Ruled, say_roles
 from wallkit.walls import Material, Walls
 from wallkit.walls.fields import MOST_RESTITUTION
@@ -186,7 +186,7 @@ class _Reader:
         elif drawn is not None:
             drawn = replace(drawn, used=False, still=False)
         self.materials(walls, table)
-        gravity = self.pair(table["gravity"], "gravity") if "gravity" in table else None
+        gravity = self.gravity(table["gravity"], walls) if "gravity" in table else None
         slowing: dict[str, Any] = {
             key: self.number(table[key], key, least=0.0) for key in ("rolling_friction", "drag") if key in table
         }
@@ -200,6 +200,11 @@ class _Reader:
         scene = Scene(walls, balls, gravity, sensors=sensors, **slowing | self.meeting(table))
         lesson = read_lesson(table["lesson"], self.wrong) if "lesson" in table else None
         return SceneFile(scene, until, bounces, drawn, self.drawing, self.options, lesson)
+
+    def gravity(self, value: Any, walls: Walls) -> tuple[float, float] | None:
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            return downwards(self.number(value, "gravity"), walls)
+        return self.pair(value, "gravity")
 
     def meeting(self, table: dict[str, Any]) -> dict[str, Any]:
         """Whether discs meet, and with what restitution."""

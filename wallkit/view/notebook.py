@@ -59,13 +59,14 @@ _PAINTERS: dict[type, tuple[Callable[..., str], tuple[str, ...]]] = {
     Drawing: (drawing_svg, ()),
     Walls: (_draw_walls, ("problems", "normals")),
     Scene: (scene_svg, ()),
-    Run: (run_svg, ("colour", "heat", "problems")),
+    Run: (run_svg, ("colour", "heat", "problems", "strobe")),
 }
 _CHECKS: dict[str, Callable[[Any], Any]] = {
     "title": lambda value: arguments.text(value, "title", **_BAD),
     "width": _width,
     "problems": _problems,
     "normals": lambda value: arguments.flag(value, "normals", **_BAD),
+    "strobe": lambda value: arguments.number(value, "strobe", "seconds above 0", least=1e-9, **_BAD),
     "heat": lambda value: arguments.flag(value, "heat", **_BAD),
     "colour": lambda value: arguments.word(value, "colour", get_args(Colouring), **_BAD),
 }

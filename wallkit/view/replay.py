@@ -67,7 +67,7 @@ def replay_page(
         "lesson": lesson.to_json() if lesson is not None else None,
         "frames": frames_table(run, lesson) if lesson is not None and lesson.way else None,
     }
-    style = look.theme_css() + "".join(look.part(name) for name in ("look.css", "replay.css", "sheet.css"))
+    style = look.theme_css() + "".join(look.part(name) for name in (*look.SHARED_STYLES, "replay.css", "sheet.css"))
     script = "\n".join(look.part(name) for name in (*look.SHARED_SCRIPTS, "ways.js", "replay.js"))
     values = {"title": escape(name), "policy": policy(style, script), "links": links, "style": style, "script": script}
     return look.filled("replay.html", {**values, "data": inlined(data)})

@@ -37,6 +37,7 @@ Colouring = Literal["ball", "time", "speed"]
 MAX_STRETCHES = 20_000  # drawn at most; the picture says so where there are more
 MAX_MEASURED = 1_000_000  # for a heat map
 MAX_GHOSTS = 400
+MAX_STROBES = 2_000
 _POINT = 2.2  # pixels: a ball smaller than that is drawn as a dot
 _ARROW = 0.35  # seconds of flight that the start's arrow shows, at most 90 pixels
 
@@ -45,10 +46,11 @@ def run_svg(
     run: Run,
     *,
     title: str = "",
-    colour: Colouring = "time",
+    colour: Colouring | None = None,
     heat: bool = False,
     problems: Sequence[Problem] = (),
     width: float = WIDTH,
+    strobe: float | None = None,
 ) -> str:
     """Draw a run as one SVG document, light or dark as its reader prefers.
 
@@ -57,22 +59,26 @@ def run_svg(
             older, the fainter), start with an arrow and end. Of more than 20,000 stretches between contacts each
             ball's first ones are drawn, and the picture says how many.
         title: a line above the picture.
-        colour: what the path's colour tells.
+        colour: what the path's colour tells; None: which ball it is where there are several, else the time.
         heat: show where the balls spend their time instead of the path.
         problems: marked with numbers and listed below.
         width: of the picture in pixels.
+        strobe: show the balls at whole multiples of this time too, in seconds, at most 2,000 of them.
     """
-    return run_canvas(run, title=title, colour=colour, heat=heat, problems=problems, width=width).to_svg()
+    return run_canvas(
+        run, title=title, colour=colour, heat=heat, problems=problems, width=width, strobe=strobe
+    ).to_svg()
 
 
 def run_canvas(
     run: Run,
     *,
     title: str = "",
-    colour: Colouring = "time",
+    colour: Colouring | None = None,
     heat: bool = False,
     problems: Sequence[Problem] = (),
     width: float = WIDTH,
+    strobe: float | None = None,
 ) -> Canvas:
     """Draw a run as :func:`run_svg` does, on a canvas that can become SVG or pixels."""
     canvas, frame = scene_base(run.scene, title, width)
@@ -82,11 +88,14 @@ def run_canvas(
         size, rows = heat_rows(flight, frame)
         canvas.items.insert(0, Bitmap(frame.left, frame.top, size, rows, 0.9))
     else:
+        colour = colour or usual_colouring(run)
         steps, low, high = _steps(flight, colour)
-        _draw_flight(canvas, run, frame, flight, steps)
+        if strobe is not None:
+            _draw_strobe(canvas, run, frame, strobe, colour, low, high)
+        _draw_flight(canvas, run, frame, flight, steps, colour)
     draw_problems(canvas, problems, frame)
     row = finish(canvas, frame, run.scene.walls.units)
-    unit = {"ball": "", "time": " s"}.get(colour, f" {run.scene.walls.units or 'units'}/s")
+    unit = {"ball": "", "time": " s"}.get(colour or "", f" {run.scene.walls.units or 'units'}/s")
     if heat:
         _draw_key(canvas, "time spent: none", "most", width)
     elif high > low:
@@ -106,10 +115,17 @@ def run_marks(run: Run) -> tuple[Canvas, Frame]:
     return canvas, frame
 
 
-def _draw_flight(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: NDArray[np.int64]) -> None:
+def usual_colouring(run: Run) -> Colouring:
+    """Say what colours tell where nobody says it: which ball it is, as in films, or of one ball the time."""
+    return "ball" if len(run.ending) > 1 else "time"
+
+
+def _draw_flight(
+    canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: NDArray[np.int64], colour: Colouring = "time"
+) -> None:
     draw_paths(canvas, flight, steps, frame)
     _draw_ghosts(canvas, run, frame, flight, steps)
-    draw_starts(canvas, run.scene, frame)
+    draw_starts(canvas, run.scene, frame, colour)
     _draw_ends(canvas, flight, frame)
 
 
@@ -253,16 +269,41 @@ def _draw_ghosts(canvas: Canvas, run: Run, frame: Frame, flight: Tracks, steps: 
         canvas.add(Disc("ghost", x, y, max(size, _POINT), int(steps[index]), size < _POINT, opacity, told))
 
 
-def draw_starts(canvas: Canvas, scene: Scene, frame: Frame) -> None:
-    """Draw the balls of a scene where they start, each with an arrow along its velocity."""
+def _draw_strobe(
+    canvas: Canvas, run: Run, frame: Frame, every: float, colour: Colouring, low: float, high: float
+) -> None:
+    """Draw the balls where they are at 0, T, 2 T, ... until their runs end; of very many times the first ones."""
+    balls, last = len(run.ending), float(run.final["time"].max(initial=0.0))
+    times = np.arange(int(min(last / every, MAX_STROBES / max(balls, 1))) + 1) * every
+    radius = run.scene.balls.radius * frame.scale
+    for time, places in zip(times.tolist(), run.position(times), strict=True):
+        if colour == "ball":
+            values = np.arange(balls, dtype=np.float64)
+        else:
+            values = np.full(balls, time) if colour == "time" else np.hypot(*run.velocity(time).T)
+        steps = ramp_steps((values - low) / (high - low) if high > low else np.zeros(balls)).tolist()
+        for ball in np.flatnonzero(time <= run.final["time"]).tolist():
+            x, y = frame.point(*places[ball].tolist())
+            told = f"ball {ball} at {time:.6g} s"
+            size = max(float(radius[ball]), _POINT)
+            canvas.add(Disc("ghost", x, y, size, steps[ball], filled=True, opacity=0.3, title=told))
+
+
+def draw_starts(canvas: Canvas, scene: Scene, frame: Frame, colour: Colouring = "time") -> None:
+    """Draw each ball at its start, with an arrow; in its own colour where colours tell which it is."""
     position, velocity, radius = (array[:MAX_GHOSTS] for array in arrays_of(scene.balls))
-    for (x, y), v, r in zip(frame.points(position), velocity, radius.tolist(), strict=True):
+    for ball, ((x, y), v, r) in enumerate(zip(frame.points(position), velocity, radius.tolist(), strict=True)):
         arrow = v * np.array([1.0, -1.0 if frame.up else 1.0]) * frame.scale * _ARROW
         length = float(np.hypot(*arrow))
         if length > 0 and len(position) <= 40:
             tip = arrow * (min(max(length, r * frame.scale + 18.0), 90.0 + r * frame.scale) / length)
             canvas.add(Shape("arrow", _arrow(x, y, tip)))
-        canvas.add(Disc("ball", x, y, max(r * frame.scale, _POINT + 1), title=f"start, velocity {v[0]:g}, {v[1]:g}"))
+        told, size = f"start, velocity {v[0]:g}, {v[1]:g}", max(r * frame.scale, _POINT + 1)
+        if colour == "ball" and len(scene.balls) > 1:
+            step = int(ramp_steps(np.array([ball / (len(scene.balls) - 1)]))[0])
+            canvas.add(Disc("ball", x, y, size, step, filled=True, title=f"ball {ball}: {told}"))
+        else:
+            canvas.add(Disc("ball", x, y, size, title=told))
 
 
 def _arrow(x: float, y: float, tip: FloatArray) -> list[Command]:

@@ -8,17 +8,18 @@ the command line.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Any, Literal, TypedDict, get_args
+from typing import Any, Literal, NamedTuple, TypedDict
 
 from importers.page_choice import PageChoice
 from wallkit.walls.repairing.passes import Repairs
 from wallkit.walls.walls import Sides, WallsError
 
 Curves = Literal["lines", "arcs"]
-Units = Literal["", "px", "pt", "mm", "cm", "m", "in"]
-"""``""`` for those of the file."""
+INCH = {"px": 96.0, "pt": 72.0, "mm": 25.4, "cm": 2.54, "m": 0.0254, "in": 1.0}
+"""So many of each are an inch: CSS fixes the px, PostScript the point."""
 
 _FLAGS = (
     "hidden", "unpainted", "outline_strokes", "apply_clips", "arena", "solid", "flip_y",
@@ -55,7 +56,7 @@ class ImportWishes(TypedDict, total=False):
     simplify: float
     repairs: Repairs | None
     page: PageChoice
-    units: Units
+    units: str
     origin: str
     grid: float
 
@@ -89,7 +90,8 @@ class ImportOptions:
         simplify: repair: vertices go where the wall then moves by at most this; drawing's units.
         via: ``"ghostscript"`` lets that program, which must be installed, run PostScript; ``""`` runs none.
         page: which page or artboard, from 1; ``"all"`` for all; None as :func:`importers.read.read_drawing` has it.
-        units: of all lengths and places, by the drawing's physical size; then the drawing's units are these.
+        units: of all lengths and places: ``"px"``, ``"pt"``, ``"mm"``, ``"cm"``, ``"m"`` or ``"in"``, by the drawing's
+            physical size; or a scale as on a map, such as ``"1 m = 100 px"``. ``""`` leaves those of the file.
         origin: what becomes (0, 0): ``"page"`` and ``"box"`` for the corner of smallest coordinates of the page, or of
             the box of what is visible; ``"X,Y"`` for that point, in these units; ``""`` leaves it.
         grid: vertices go to the nearest multiples of this, in the units of the result; 0 leaves them.
@@ -119,7 +121,7 @@ class ImportOptions:
     min_width: float = 0.0
     simplify: float = 0.0
     page: PageChoice = None
-    units: Units = ""
+    units: str = ""
     origin: str = ""
     grid: float = 0.0
     via: str = ""
@@ -135,7 +137,8 @@ class ImportOptions:
         self._number("scale", least=0.0, above=True)
         self._word("curves", ("lines", "arcs"))
         self._word("sides", ("both", "outward"))
-        self._word("units", get_args(Units))
+        if not isinstance(self.units, str) or (self.units and scale_of(self.units) is None):
+            raise self._wrong("units", f'give one of {", ".join(INCH)}, or a scale such as "1 m = 100 px"')
         self._word("via", ("", "ghostscript"))
         self._place()
         self._names()
@@ -213,6 +216,28 @@ class ImportOptions:
 
     def _wrong(self, name: str, fix: str) -> WallsError:
         return WallsError(f"{name} is {getattr(self, name)!r}", code="bad-option", fix=fix)
+
+
+def scale_of(units: str) -> Scale | None:
+    """Read units or a scale: ``m`` is the scale "1 m = 1 m"; None where it is something else."""
+    sides = [side.split() for side in re.sub(r"([0-9.])([a-z]+ *(=|$))", r"\1 \2", units).split("=")]
+    if len(sides) == 1 and units in INCH:
+        return Scale(units, 1.0, 1.0, units)
+    try:
+        (shown, name), (drawn, of) = ((float(side[0]), side[1]) for side in sides if len(side) == 2)
+    except (ValueError, IndexError):
+        return None
+    fit = len(sides) == 2 and name in INCH and of in INCH and 0.0 < shown < math.inf and 0.0 < drawn < math.inf
+    return Scale(name, shown, drawn, of) if fit else None
+
+
+class Scale(NamedTuple):
+    """So many units are shown for so many of others on the drawing's paper, as on a map: ``shown name = drawn of``."""
+
+    name: str
+    shown: float
+    drawn: float
+    of: str
 
 
 def point_of(text: str) -> tuple[float, float] | None:

@@ -24,7 +24,7 @@ from wallkit.view.page import aiming, ways
 from wallkit.view.page.documents import Document, Reader
 from wallkit.view.page.payload import Table, run_table, starts, walls_table
 from wallkit.view.page.questions import Opening
-from wallkit.view.page.worlds import CompilingError, Worlds, check_index
+from wallkit.view.page.worlds import SLOWING, CompilingError, Worlds, check_index
 from wallkit.walls import Walls
 from wallkit.walls.fields import MOST_RESTITUTION
 from wallkit.walls.import_options import ImportOptions
@@ -204,6 +204,7 @@ class Answers:
             "lesson": opened.lesson.to_json() if opened.lesson is not None else None,
             "targets": aiming.targets_of(opened.scene),
             "gravity": opened.scene.gravity,
+            **{name: getattr(opened.scene, name) for name in SLOWING},
             "materials": {
                 "restitution": first.restitution if first else 1.0,
                 "tangential_restitution": first.tangential_restitution if first else 1.0,
@@ -249,7 +250,8 @@ def scene_of(body: Table, document: Document) -> Scene:
     scene = document.opened.scene
     walls = with_material(scene.walls, body)
     gravity, meeting = pair_or_none(body.get("gravity"), "gravity"), scene.meeting and body.get("alone") is not True
-    return replace(scene, walls=walls, balls=balls_of(body), gravity=gravity, meeting=meeting)
+    slowing: Table = {name: number_or_none(body[name], name) for name in SLOWING if name in body}
+    return replace(scene, walls=walls, balls=balls_of(body), gravity=gravity, meeting=meeting, **slowing)
 
 
 def limits_of(body: Table, balls: int) -> tuple[float | None, int]:
@@ -282,6 +284,11 @@ def number(value: object, name: str, least: float = -math.inf, most: float = mat
         words = str(value)[:60]
         raise QuestionError(f"{name} is {words}", code="bad-request", fix=f"give a number, {least:g} to {most:g}")
     return float(real)
+
+
+def number_or_none(value: object, name: str) -> float | None:
+    """Take a number from 0 on, or null."""
+    return None if value is None else number(value, name, 0.0, MAX_COORDINATE)
 
 
 def pair_or_none(value: object, name: str) -> tuple[float, float] | None:

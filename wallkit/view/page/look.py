@@ -8,8 +8,10 @@ from importlib.resources import files
 from wallkit.view.theme import MATERIALS, RAMP_STEPS, Theme, colour, ramp
 
 # Scripts in the order in which they build on one another.
-SHARED_SCRIPTS = ("pendulum.js", "motion.js", "stage.js", "walls.js", "player.js", "readout.js", "controls.js",
-                  "lesson.js", "legend.js", "sheet.js")  # fmt: skip
+SHARED_SCRIPTS = ("pendulum.js", "motion.js", "units.js", "quantities.js", "stage.js", "walls.js", "player.js",
+                  "readout.js", "numbers.js", "graphs.js", "rulers.js", "controls.js", "lesson.js", "legend.js",
+                  "sheet.js")  # fmt: skip
+SHARED_STYLES = ("look.css", "numbers.css")
 
 _NAMES = ("paper", "ink", "muted", "outline", "hidden", "normal", "error", "warning", "info",
           *(f"material{index}" for index in range(MATERIALS)))  # fmt: skip

@@ -27,19 +27,10 @@ from wallkit.view.page.workers import QUESTIONS, InternalError, LostError, Worke
 
 MAX_BODY = 32 * 1024 * 1024
 PATIENCE = 30.0  # seconds that a connection may say nothing
-_OWN_SCRIPTS = (
-    "desk.js",
-    "windows.js",
-    "aim.js",
-    "panel.js",
-    "checks.js",
-    "ways.js",
-    "panels.js",
-    "gallery.js",
-    "page.js",
-)
+_OWN_SCRIPTS = ("desk.js", "windows.js", "aim.js", "panel.js", "balls.js", "checks.js", "ways.js", "panels.js",
+                "gallery.js", "page.js")  # fmt: skip
 PAGE_SCRIPTS = (*look.SHARED_SCRIPTS, *_OWN_SCRIPTS)
-PAGE_STYLES = ("theme.css", "look.css", "page.css", "ways.css", "cards.css", "sheet.css")
+PAGE_STYLES = ("theme.css", *look.SHARED_STYLES, "page.css", "ways.css", "cards.css", "sheet.css")
 
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; "

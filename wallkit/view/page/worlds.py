@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 Fly = Callable[[float | None, int], "Run"]
 """Flies all balls to a time, or for so many bounces each."""
-WORLD = ("restitution", "tangential_restitution", "gravity")
+SLOWING = ("rolling_friction", "drag")
+WORLD = ("restitution", "tangential_restitution", "gravity", *SLOWING)
 """What of a question changes the world that balls fly in; the balls alone differ while somebody aims."""
 
 

@@ -9,13 +9,10 @@ from importers.boxes import Box, box_of
 from importers.drawing import Artboard, Drawing, DrawnPath, Segment, Subpath
 from importers.page_choice import keep_artboard
 from importers.problems import Problem
-from wallkit.walls.import_options import ImportOptions, point_of
+from wallkit.walls.import_options import INCH, ImportOptions, point_of, scale_of
 from wallkit.walls.importing.clips import clipped
 from wallkit.walls.importing.segments import default_tolerance, gather
 from wallkit.walls.walls import WallsError
-
-INCH = {"px": 96.0, "pt": 72.0, "mm": 25.4, "cm": 2.54, "m": 0.0254, "in": 1.0}
-"""So many of each are an inch: CSS fixes the px, PostScript the point."""
 
 Point = Callable[[float, float], tuple[float, float]]
 
@@ -23,8 +20,8 @@ Point = Callable[[float, float], tuple[float, float]]
 def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
     """Give the part of a drawing that is asked for, in its units, with its origin.
 
-    A length l of the file is l * a / b in the units asked for, where a and b of both are an inch. Then the origin is
-    taken away; scale and flip, which come later, leave it where it is.
+    A length l of the file is l * a / b in the units asked for, see :func:`_ratio`. Then the origin is taken away; scale
+    and flip, which come later, leave it where it is.
 
     Args:
         drawing: as read; it stays as it is.
@@ -40,15 +37,11 @@ def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
         keep_artboard(drawing, options.page)
     elif options.page is None and len(drawing.artboards) > 1:
         drawing = replace(drawing, problems=[*drawing.problems, _several(drawing)])
-    units = options.units or drawing.units
+    units, a, b = _ratio(drawing, options)
     if options.apply_clips:
-        drawing = clipped(drawing, _nearness(drawing, options))
-    if units == drawing.units and not options.origin:
+        drawing = clipped(drawing, _nearness(drawing, options, a / b))
+    if units == drawing.units and a == b and not options.origin:
         return drawing
-    for word in (units, drawing.units):
-        if word not in INCH:
-            raise WallsError(f"units {word!r} have no size", code="bad-option", fix=f"one of: {', '.join(INCH)}")
-    a, b = (1.0, 1.0) if units == drawing.units else (INCH[units], INCH[drawing.units])
     x0, y0 = point_of(options.origin) or _corner(drawing, options, a, b)
     factor = a / b
 
@@ -65,9 +58,27 @@ def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
     )
 
 
-def _nearness(drawing: Drawing, options: ImportOptions) -> float:
-    """Give half the tolerance in the drawing's own units: the other half is for what becomes of the lines."""
-    own = INCH.get(options.units or drawing.units, 1.0) / INCH.get(drawing.units, 1.0)
+def _ratio(drawing: Drawing, options: ImportOptions) -> tuple[str, float, float]:
+    """Give the units asked for, and a and b, of which the one of these is as long as the other of the drawing's.
+
+    With the scale ``A u = B w`` of units u and w, and i(w) of w and i(d) of the drawing's to the inch, a length l of
+    the drawing is l i(w) / i(d) w on its paper, and is to be A / B of that: a / b = A i(w) / (B i(d)).
+    """
+    scale = scale_of(options.units or drawing.units)
+    if scale is None and not options.origin:
+        return drawing.units, 1.0, 1.0
+    if scale is None or drawing.units not in INCH:
+        raise WallsError(f"units {drawing.units!r} have no size", code="bad-option", fix=f"one of: {', '.join(INCH)}")
+    if scale.of == drawing.units:
+        return scale.name, scale.shown, scale.drawn
+    return scale.name, scale.shown * INCH[scale.of], scale.drawn * INCH[drawing.units]
+
+
+def _nearness(drawing: Drawing, options: ImportOptions, own: float) -> float:
+    """Give half the tolerance in the drawing's own units, of which one is ``own`` of those asked for.
+
+    The other half is for what becomes of the lines.
+    """
     usual = default_tolerance(gather(sub for path in drawing.paths for sub in path.subpaths), 0.1 / own)
     return (usual if options.tolerance is None else options.tolerance / own) / 2
 

@@ -18,6 +18,7 @@
       this.foretold = null;
       this.changed = () => {};
       this.placed = () => {};
+      this.picked = () => {}; // another ball was chosen
       this.wedges = () => {}; // draws what lies under the balls
       this.aside = null; // takes the next press: a click for something else than a ball
       this.placing = false;
@@ -77,18 +78,17 @@
       this.stage.host.classList.toggle("over-ball", !this.placing && this.near(this.stage.place(event)) !== null);
     }
 
-    // A press on a ball is an aim, from where it is; in placing mode a press anywhere moves the chosen ball there.
-    grab(place) {
+    // A press on a ball is an aim, from where it is; with Shift it moves the ball. In placing mode a press on a ball, too,
+    // and a press elsewhere moves the chosen ball there.
+    grab(place, event) {
       if (this.aside) {
         this.aside(place);
         return { move: () => {}, end: () => {} };
       }
-      if (this.placing) {
-        this.moveTo(place);
-        return { move: (to) => this.moveTo(to), end: () => this.placed() };
-      }
       const found = this.near(place);
+      if (this.placing || (event?.shiftKey && found)) return this.shift(place, found);
       if (!found) return null;
+      const other = this.chosen !== found.index;
       this.chosen = found.index;
       const before = { ...this.ball };
       let begun = false;
@@ -101,9 +101,18 @@
         end: (_to, cancelled) => {
           if (begun && cancelled) Object.assign(this.ball, before);
           if (begun) this.changed();
+          if (other) this.picked();
           else this.player.wake();
         },
       };
+    }
+
+    shift(place, found) {
+      if (found && found.index !== this.chosen) {
+        this.chosen = found.index;
+        this.picked();
+      } else if (!found) this.moveTo(place);
+      return { move: (to) => this.moveTo(to), end: () => this.placed() };
     }
 
     pull(to) {
@@ -138,11 +147,12 @@
         ctx.strokeStyle = colours.ink;
         if (flying) ctx.setLineDash([3, 3]);
         if (!flying) {
-          ctx.fillStyle = index === this.chosen ? colours.info : colours.paper;
+          ctx.fillStyle = W.colourOf(index, this.balls.length, colours);
           ctx.fill();
         }
         ctx.stroke();
         ctx.setLineDash([]);
+        if (!flying && index === this.chosen && this.balls.length > 1) ring(ctx, x, y, radius + 4, colours.info);
         this.drawArrow(ctx, ball, x, y, colours);
       });
       ctx.globalAlpha = 1;
@@ -179,6 +189,14 @@
       ctx.globalAlpha = 1;
     }
   }
+
+  const ring = (ctx, x, y, radius, colour) => {
+    ctx.beginPath();
+    ctx.arc(x, y, radius, 0, 2 * Math.PI);
+    ctx.lineWidth = 2.5;
+    ctx.strokeStyle = colour;
+    ctx.stroke();
+  };
 
   const FLIGHT = {};
   W.Aim = Aim;

@@ -15,6 +15,7 @@
       this.player = new W.Player(this.stage, $("transport"));
       this.readOut = new W.ReadOut($("read-out"), this.player);
       this.aim = new W.Aim(this.player);
+      this.instruments = new W.Instruments(this.player);
       this.windows = new W.Windows(this);
       this.document = null;
       this.shot = null; // {balls, until, alone} of the run that is shown
@@ -31,6 +32,7 @@
       W.showBoxes(this.player);
       this.gallery = new W.Gallery(this);
       this.controls = new W.Panel(this);
+      this.balls = new W.BallList(this);
       this.ways = new W.Ways(this);
       this.panels = new W.Panels(this);
       this.checks = new W.Checks(this);
@@ -74,6 +76,7 @@
       this.player.showWalls(picture, document.problems);
       if (!again) {
         this.stage.show(document.box, picture.up);
+        this.instruments.begin(document.box);
         this.aim.set(document.balls.map((ball) => ({ ...ball })));
         this.aim.suitArrow(this.size);
         this.forgetShot();
@@ -100,7 +103,7 @@
 
     followed(answer) {
       if (answer.id !== this.document.id) return void this.follow();
-      const world = ({ gravity, materials }) => JSON.stringify([gravity, materials]);
+      const world = (made) => JSON.stringify([made.gravity, made.rolling_friction, made.drag, made.materials]);
       const changed = world(answer) !== world(this.document);
       this.document = answer;
       if (changed) this.controls.showWorld(answer); // the file says so; else what the person chose stays
@@ -240,6 +243,7 @@
       if (asked.again) return this.player.load(motion);
       this.player.time = 0;
       this.player.load(motion);
+      this.instruments.graphs.fit();
       this.player.suitRate();
       this.player.play();
     }
@@ -261,6 +265,7 @@
       if (this.player.playing && motion && !motion.partial && this.player.time > 0.6 * motion.duration) this.wantsMore();
       this.readOut.refresh();
       this.panels.follow();
+      this.instruments.refresh();
     }
 
     tapped(place) {

@@ -14,18 +14,19 @@
     }
 
     listenAim() {
-      for (const id of ["speed", "angle", "radius"]) $(id).addEventListener("input", () => this.readAim());
+      for (const id of ["speed", "angle", "radius", "ball-x", "ball-y"]) $(id).addEventListener("input", () => this.readAim());
     }
 
     readAim() {
       const { ball } = this.page.aim;
       if (!ball) return;
-      const speed = positive("speed");
+      const { units } = this.page.player;
+      const [speed, radius] = ["speed", "radius"].map((id) => units.drawn(positive(id)));
+      const [x, y] = ["ball-x", "ball-y"].map((id) => units.drawn(number(id)));
       const angle = (number("angle") * Math.PI) / 180;
-      if (!Number.isFinite(speed) || !Number.isFinite(angle) || !Number.isFinite(positive("radius"))) return;
-      Object.assign(ball, { vx: speed * Math.cos(angle), vy: speed * Math.sin(angle) });
+      if (![speed, radius, angle, x, y].every(Number.isFinite)) return;
+      Object.assign(ball, { vx: speed * Math.cos(angle), vy: speed * Math.sin(angle), radius, x, y });
       this.page.aim.suitArrow(this.page.size);
-      for (const each of this.page.aim.balls) each.radius = positive("radius");
       this.page.forgetShot();
       this.page.foretell();
       this.page.player.wake();
@@ -38,9 +39,12 @@
       if (!ball) return;
       const span = seconds === 1 ? "in a second" : `in ${seconds} s`;
       $("aim-hint").textContent = `Drag from the ball to aim, also in mid-flight. The arrow is how far it goes ${span}.`;
-      put("speed", Math.hypot(ball.vx, ball.vy));
+      const { units } = this.page.player;
+      put("speed", units.shown(Math.hypot(ball.vx, ball.vy)));
       put("angle", (Math.atan2(ball.vy, ball.vx) * 180) / Math.PI);
-      put("radius", ball.radius);
+      put("radius", units.shown(ball.radius));
+      put("ball-x", units.shown(ball.x));
+      put("ball-y", units.shown(ball.y));
     }
 
     spread() {
@@ -50,15 +54,17 @@
 
     listenWorld() {
       $("gravity").addEventListener("input", () => {
-        put("gravity-number", strength(Number($("gravity").value), this.page.size));
+        put("gravity-number", this.page.player.units.shown(strength(Number($("gravity").value), this.page.size)));
         this.worldChanged();
       });
       $("gravity-number").addEventListener("input", () => {
         const value = positive("gravity-number");
         if (!Number.isFinite(value)) return;
-        $("gravity").value = inverse(value, this.page.size);
+        $("gravity").value = inverse(this.page.player.units.drawn(value), this.page.size);
         this.worldChanged();
       });
+      for (const id of ["friction", "drag"]) $(id).addEventListener("input", () => positive(id) >= 0 && this.worldChanged());
+      $("metre").addEventListener("input", () => this.measureIn(positive("metre")));
       $("gravity-way").addEventListener("change", () => this.worldChanged());
       for (const id of ["restitution", "tangential"]) {
         $(id).addEventListener("input", () => {
@@ -66,6 +72,27 @@
           this.worldChanged();
         });
       }
+    }
+
+    // So many of the drawing's units are a metre; NaN or 0: lengths are told in the drawing's own units.
+    measureIn(metre) {
+      const { player, readOut } = this.page;
+      const friction = player.units.drawn(positive("friction"));
+      const gravity = player.units.drawn(positive("gravity-number"));
+      player.units.metre = metre > 0 ? metre : null;
+      if (friction >= 0) put("friction", player.units.shown(friction));
+      if (gravity >= 0) put("gravity-number", player.units.shown(gravity));
+      this.showAim();
+      this.showUnits();
+      player.stage.touch();
+      readOut.refresh(true);
+    }
+
+    showUnits() {
+      const { units } = this.page.player;
+      for (const label of document.querySelectorAll("[data-rate]")) label.dataset.unit = units.name + label.dataset.rate;
+      $("own-unit").textContent = units.own || "units";
+      $("metre-row").hidden = units.own === "m";
     }
 
     worldChanged() {
@@ -86,15 +113,25 @@
 
     // What acts, in the drawing's axes, as the server takes it.
     world() {
-      const value = positive("gravity-number");
-      const up = this.page.stage.up ? 1 : -1;
-      const ways = { down: [0, -up], up: [0, up], left: [-1, 0], right: [1, 0], file: this.fileWay };
-      const way = ways[$("gravity-way").value];
+      const { units } = this.page.player;
       return {
-        gravity: value > 0 ? way.map((part) => part * value) : null,
+        gravity: this.gravity(units.drawn(positive("gravity-number"))),
+        rolling_friction: positive("friction") > 0 ? units.drawn(positive("friction")) : null,
+        drag: positive("drag") > 0 ? positive("drag") : null,
         restitution: this.touched.has("restitution") ? Number($("restitution").value) : null,
         tangential_restitution: this.touched.has("tangential") ? Number($("tangential").value) : null,
       };
+    }
+
+    // As in the file, to the last bit, until somebody changes it.
+    gravity(size) {
+      if (!(size > 0)) return null;
+      const [gx, gy] = this.fileGravity;
+      const known = Math.hypot(gx, gy);
+      const up = this.page.stage.up ? 1 : -1;
+      const way = $("gravity-way").value;
+      if (way === "file") return size === known ? [gx, gy] : [(gx / known) * size, (gy / known) * size];
+      return { down: [0, -up], up: [0, up], left: [-1, 0], right: [1, 0] }[way].map((part) => part * size);
     }
 
     listenWalls() {
@@ -120,7 +157,13 @@
         put("tolerance", made.tolerance);
         for (const radio of document.querySelectorAll("[name=curves]")) radio.checked = radio.value === made.curves;
       }
-      if (!again) this.showWorld(made);
+      if (!again) {
+        $("metre").value = "";
+        this.page.player.units.metre = null;
+        this.showWorld(made);
+        this.page.balls.show();
+      }
+      this.showUnits();
       this.showAim();
       this.showSliders();
       this.list(made.problems);
@@ -134,9 +177,11 @@
       $("tangential").value = made.materials.tangential_restitution;
       const [gx, gy] = made.gravity ?? [0, 0];
       const size = Math.hypot(gx, gy);
-      put("gravity-number", size);
+      put("gravity-number", this.page.player.units.shown(size));
+      put("friction", this.page.player.units.shown(made.rolling_friction ?? 0));
+      put("drag", made.drag ?? 0);
       $("gravity").value = inverse(size, this.page.size);
-      this.fileWay = size > 0 ? [gx / size, gy / size] : [0, 0];
+      this.fileGravity = [gx, gy];
       const up = made.walls.y_axis === "up" ? 1 : -1;
       const name = gx === 0 ? (gy * up > 0 ? "up" : "down") : gy === 0 ? (gx > 0 ? "right" : "left") : "file";
       const select = $("gravity-way");
@@ -189,10 +234,19 @@
   };
 
   const short = (value) => String(Number(value.toPrecision(6)));
-  const number = (id) => ($(id).value.trim() === "" ? NaN : Number($(id).value));
+  // A field shows six figures of a number; as long as nobody changes them, it means the number itself.
+  const exact = new Map();
+  const number = (id) => {
+    const text = $(id).value.trim();
+    const known = exact.get(id);
+    if (known?.text === text) return known.value;
+    return text === "" ? NaN : Number(text);
+  };
   const positive = (id) => (number(id) >= 0 ? number(id) : NaN);
   const put = (id, value) => {
-    if (document.activeElement !== $(id)) $(id).value = String(Number(Number(value).toPrecision(6)));
+    if (document.activeElement === $(id)) return;
+    $(id).value = String(Number(Number(value).toPrecision(6)));
+    exact.set(id, { text: $(id).value, value: Number(value) });
   };
 
   // The slider is finer near 0: at its end a ball falls through the picture in less than a second.

@@ -9,6 +9,7 @@
   const TRAIL = 80; // flights behind one ball
   const MANY = 20; // balls; of more than these each shows only a little of where it was
   const TRAIL_OF_MANY = 7;
+  const STROBES = 1200; // ghosts at equal times of all balls together
   const FRAMES = 600; // draw times that are kept
 
   class Player {
@@ -24,11 +25,19 @@
       this.ghosts = true;
       this.trails = true;
       this.pins = true;
+      this.strobe = false; // ghosts at equal times too, so many seconds apart
+      this.strobeEvery = 0.1;
+      this.units = new W.Units();
+      this.about = { x: 0, y: 0 }; // the point of the angular momentum
+      this.followed = 0; // the ball whose numbers are told where there are several
+      this.names = []; // of the balls, where a person named them
       this.problems = [];
       this.chosen = -1;
       this.frameTimes = []; // milliseconds that each frame took to draw, for tests and for the curious
       this.onframe = () => {};
       this.decorate = () => {}; // draws what a page has beside the balls
+      this.decorations = []; // and these draw over it
+      this.standing = () => []; // balls at their start, before any flies
       this.part = (name) => bar.querySelector(`[data-part=${name}]`);
       stage.changed = () => this.wake();
       this.fillRates();
@@ -91,11 +100,24 @@
       const size = Math.hypot(x1 - x0, y1 - y0) || 1;
       if (gravity) speed = Math.max(speed, Math.sqrt(2 * Math.hypot(...gravity) * size) / 2);
       const wanted = speed > 0 ? size / speed / 3 : 1;
+      if (!this.strobeChosen) this.setStrobe(W.roundLength(wanted / 4));
       this.setRate(RATES.reduce((best, rate) => (Math.abs(Math.log(rate / wanted)) < Math.abs(Math.log(best / wanted)) ? rate : best)));
+    }
+
+    setStrobe(seconds) {
+      this.strobeEvery = seconds;
+      const field = document.getElementById("strobe-every");
+      if (field && document.activeElement !== field) field.value = String(seconds);
+    }
+
+    nameOf(ball) {
+      const named = !this.motion || this.motion.balls === this.names.length; // a fan's balls have no names
+      return (named && this.names[ball]) || `ball ${ball + 1}`;
     }
 
     showWalls(picture, problems = []) {
       this.picture = picture;
+      this.units.own = picture.units;
       this.problems = problems;
       this.chosen = -1;
       this.stage.touch();
@@ -187,12 +209,14 @@
         stage.dirty = false;
         const back = stage.context(stage.back);
         this.picture?.draw(back, stage, colours, { normals: this.normals });
+        if (this.picture) W.scaleBar(back, stage, this.units, colours);
       }
       const ctx = stage.context(stage.front);
       ctx.lineJoin = ctx.lineCap = "round";
       if (this.pins) W.drawMarks(ctx, stage, colours, this.problems, this.chosen);
       if (this.motion) this.drawMotion(ctx, colours);
       this.decorate(ctx, colours);
+      for (const draw of this.decorations) draw(ctx, colours);
     }
 
     drawMotion(ctx, colours) {
@@ -202,18 +226,17 @@
       const ghosts = many ? 1 : 8;
       for (let b = 0; b < motion.balls; b++) {
         ctx.strokeStyle = this.colourOf(b, colours);
+        if (this.strobe) this.drawStrobe(ctx, b, colours);
         if (this.trails) this.drawTrail(ctx, b, flights);
         if (this.ghosts) this.drawGhosts(ctx, b, ghosts);
       }
       ctx.globalAlpha = 1;
       for (let b = 0; b < motion.balls; b++) this.drawBall(ctx, b, colours);
-      if (motion.balls === 1) this.drawContact(ctx, colours);
+      if (!many) this.drawContact(ctx, colours);
     }
 
     colourOf(ball, colours) {
-      const { ramp } = colours;
-      if (this.motion.balls === 1) return colours.info;
-      return ramp[Math.round((ball * (ramp.length - 1)) / (this.motion.balls - 1))];
+      return W.colourOf(ball, this.motion.balls, colours);
     }
 
     // The last flights: straight lines, or parabolas drawn as the quadratic curves that they are. They fade in
@@ -254,6 +277,24 @@
       }
     }
 
+    // The ball at whole multiples of a time: of these the last, each exactly where it was.
+    drawStrobe(ctx, ball, colours) {
+      const { motion, stage, strobeEvery } = this;
+      if (!(strobeEvery > 0)) return;
+      const radius = this.shownRadius(ball);
+      const last = Math.floor(Math.min(this.time, motion.endOf(ball)) / strobeEvery);
+      const most = Math.max(4, Math.min(60, Math.floor(STROBES / motion.balls)));
+      ctx.fillStyle = this.colourOf(ball, colours);
+      for (let k = Math.max(0, last - most + 1); k <= last; k++) {
+        const s = motion.state(ball, k * strobeEvery, STATE);
+        ctx.globalAlpha = 0.5 * (1 - (0.85 * (last - k)) / most);
+        ctx.beginPath();
+        ctx.arc(stage.screenX(s.x), stage.screenY(s.y), radius, 0, 2 * Math.PI);
+        ctx.fill();
+      }
+      ctx.globalAlpha = 1;
+    }
+
     // A point is shown as a small disc; a ball as large as it is.
     shownRadius(ball) {
       return Math.max(this.motion.radius[ball] * this.stage.scale, this.motion.balls > MANY ? 2.5 : 3.5);
@@ -282,12 +323,12 @@
     // Exactly at a contact: its normal, so that the law of reflection can be seen.
     drawContact(ctx, colours) {
       const { motion, stage } = this;
-      const s = motion.state(0, this.time, STATE);
-      if (s.contact < 0 || motion.time[s.contact] !== this.time) return;
-      const nx = motion.nx[s.contact];
-      const ny = stage.up ? -motion.ny[s.contact] : motion.ny[s.contact];
-      const radius = motion.radius[0] * stage.scale;
-      const [x, y] = [stage.screenX(s.x) - nx * radius, stage.screenY(s.y) - ny * radius];
+      const i = W.lastContact(motion, this.time);
+      if (i < 0 || motion.time[i] !== this.time) return;
+      const nx = motion.nx[i];
+      const ny = stage.up ? -motion.ny[i] : motion.ny[i];
+      const radius = motion.radius[motion.ball[i]] * stage.scale;
+      const [x, y] = [stage.screenX(motion.contactX(i)) - nx * radius, stage.screenY(motion.contactY(i)) - ny * radius];
       W.arrow(ctx, x, y, x + nx * (2 * radius + 34), y + ny * (2 * radius + 34), colours.normal);
       ctx.beginPath();
       ctx.arc(x, y, 4, 0, 2 * Math.PI);
@@ -344,6 +385,9 @@
     }
   };
 
+  // A ball's colour: one of several along the ramp, as in films.
+  W.colourOf = (ball, balls, { info, ramp }) => (balls === 1 ? info : ramp[Math.round((ball * (ramp.length - 1)) / (balls - 1))]);
+
   W.arrow = (ctx, ax, ay, bx, by, colour, width = 2) => {
     const length = Math.hypot(bx - ax, by - ay);
     if (!(length > 0)) return;
@@ -383,5 +427,6 @@
   };
   W.colours = () => W.data.colours[W.theme()];
 
+  W.MANY = MANY;
   W.Player = Player;
 })();

@@ -48,7 +48,9 @@
         [least, most] = [Math.min(least, speed), Math.max(most, speed)];
       }
       const same = most - least <= 1e-9 * most;
-      return `${same ? W.number(most) : `${W.number(least)} to ${W.number(most)}`} ${unit(this.player)}/s`;
+      const { units } = this.player;
+      const range = same ? [most] : [least, most];
+      return `${range.map((speed) => W.number(units.shown(speed))).join(" to ")} ${units.name}/s`;
     }
 
     // Kinetic and potential energy of all balls per mass, and how much of the first is left.
@@ -59,8 +61,8 @@
         now += mass * motion.energy(b, time);
         first += mass * motion.energy(b, 0);
       }
-      if (!(first > 0)) return `${W.number(now / motion.balls)}`;
-      return `${W.number(now / motion.balls)} (${((100 * now) / first).toFixed(2)} %)`;
+      const told = W.number(this.player.units.shown(now / motion.balls, 2));
+      return first > 0 ? `${told} (${((100 * now) / first).toFixed(2)} %)` : told;
     }
 
     lastContact(motion, time) {
@@ -69,7 +71,7 @@
       const { picture } = this.player;
       const name = picture ? picture.label(motion.wall[k - 1]) : `wall ${motion.wall[k - 1]}`;
       const where = [name, `a corner of ${name}`, `slides on ${name}`, `leaves ${name}`][motion.kind[k - 1]] ?? "another ball";
-      return motion.balls > 1 ? `ball ${motion.ball[k - 1] + 1}: ${where}` : where;
+      return motion.balls > 1 ? `${this.player.nameOf(motion.ball[k - 1])}: ${where}` : where;
     }
 
     // Where the path of the first ball stops being the path, and becomes one of many possible ones.
@@ -84,8 +86,6 @@
       this.set("horizon", beyond ? `${told.sentence} — now beyond it: one of many possible paths` : told.sentence);
     }
   }
-
-  const unit = (player) => player.picture?.units || "units";
 
   // The page asks for more while it plays, so that a run which reached its time goes on there.
   const endings = (motion) => {
