@@ -143,8 +143,9 @@ def room(opened, server, drop):
         page = opened(server.url, viewport={"width": size[0], "height": size[1]}, **options)
         drop(page, "room.svg", ROOM)
         page.evaluate("Object.assign(Wallkit.page.aim.ball, {vx: 30, vy: 40}); Wallkit.page.aimed()")
-        if page.locator("#sheet-button").is_visible():  # a small window: the controls are a sheet
-            page.locator("#sheet-button").click()
+        if size[0] <= 860:  # on a phone the controls are a sheet
+            tab_to(page, "sheet-button")
+            page.keyboard.press("Enter")
         return page
 
     return made
@@ -189,9 +190,9 @@ def test_a_way_chosen_by_keys_alone_is_shown_over_the_exact_run(room, until, siz
     # the frame of 5 s stands at (242.5, 290); the exact ball has gone on to (265, 260)
     assert pixel(page, "stage", 242.5 - 4, 290 - 4) == hue(page, "normal")
     ring = page.evaluate("(Wallkit.page.player.shownRadius(0) + 6) / Wallkit.page.stage.scale")
-    ink = pixel(page, "stage", 242.5 - ring, 290)  # a thin line: its edge may share the pixel
-    assert ink[3] > 128
-    assert ink[:3] == pytest.approx(hue(page, "error")[:3], abs=8)
+    *colour, cover = pixel(page, "stage", 242.5 - ring, 290)
+    assert cover > 100  # a thin line, smoothed, whose colours are rounded by what it covers
+    assert colour == pytest.approx(hue(page, "error")[:3], abs=3)
     tab_to(page, "way")
     page.keyboard.press("ArrowUp")  # exact again
     until(page, FLOWN + " && !Wallkit.page.ways.frames")

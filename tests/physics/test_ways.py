@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from wallkit import Balls, Kind, Material, Scene, SceneError, Walls, World, simulate
 from wallkit.accuracy import scenes
-from wallkit.simulation.ways import MOST_FRAMES, flown_through, partings, step_through
+from wallkit.simulation.ways import MOST_FRAMES, flown_through, last_moment, partings, step_through
 
 WRONG_WAYS = ("stop", "full-step", "reflect-in-place", "overlap")
 
@@ -171,6 +171,19 @@ def test_a_run_that_ended_at_its_bounces_is_not_compared_beyond():
     scene = along_x(4.0)
     run = simulate(scene, bounces=0)
     assert partings(run, step_through(scene, "stop", 0.75, 6.0)) == []
+
+
+@pytest.mark.parametrize("gravity", [None, (0.0, -8.0)])
+def test_a_ball_that_leaves_is_compared_beyond_its_last_contact(gravity):
+    floor = Walls.from_polylines([[(-100.0, 0.0), (100.0, 0.0)]], closed=False)
+    scene = Scene(floor, Balls([(0.0, 60.0)], [(50.0, -40.0)], 10.0), gravity=gravity)
+    run = simulate(scene, bounces=9)
+    until = last_moment(run)
+    assert partings(run, step_through(scene, "exact", 0.25, until)) == []
+    if gravity is None:  # met at 1.25 s, left for good; stopped for the rest of a frame that ends at 2 s
+        assert until == pytest.approx(1.25 + 200.0 / math.hypot(50.0, 40.0))
+        (parting,) = partings(run, step_through(scene, "stop", 2.0, until))
+        assert (parting.time, parting.place, parting.exact) == (2.0, (62.5, 10.0), (100.0, 40.0))
 
 
 def test_a_frame_is_shown_until_the_next_one():

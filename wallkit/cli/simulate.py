@@ -224,9 +224,9 @@ def _stepped(run: Run, way: Any, dt: float) -> Stepped | None:
     """Step the balls of a run by frames, if a way is given."""
     if way is None:
         return None
-    from wallkit.simulation.ways import step_through
+    from wallkit.simulation.ways import last_moment, step_through
 
-    return step_through(run.scene, way, dt, float(run.final["time"].max(initial=0.0)))
+    return step_through(run.scene, way, dt, last_moment(run))
 
 
 def _trust(run: Run) -> list[Any]:

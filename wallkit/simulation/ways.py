@@ -12,6 +12,7 @@ from wallkit.arguments import ABOVE_0, number, of_type, word
 from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.scene.start_overlaps import TOUCHING
+from wallkit.simulation.damping import damping_of
 from wallkit.simulation.run import Ending, Kind, Run
 from wallkit.simulation.world import Way, World
 
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
 WRONG = 0.01
 """A ball is somewhere else when it is off by this part of the scene's size: some seven pixels where that is drawn 700
 pixels wide, which the eye sees, and far more than any rounding."""
-MOST_FRAMES = 1_000_000
-"""Of all balls together; 32 MB of places and velocities."""
+MOST_FRAMES = 200_000
+"""Of all balls together: some ten seconds of work, and a thousand frames a second for three minutes of one ball."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,10 +152,10 @@ def partings(run: Run, stepped: Stepped) -> list[Parting]:
     A run that ended at a limit of bounces is not looked at beyond that. Balls that never part are left out.
     """
     limit = WRONG * size_of(run.scene.walls)
-    exact = run.position(stepped.time)
+    exact = _exact_places(run, stepped.time)
     off = np.hypot(*np.moveaxis(stepped.state[:, :, 0:2] - exact, -1, 0))
     known = stepped.time[:, None] <= run.final["time"]
-    known |= np.array([ending is Ending.AT_REST for ending in run.ending], dtype=np.bool_)
+    known |= np.array([ending is Ending.AT_REST for ending in run.ending], dtype=np.bool_) | _flies_off(run)
     apart = known & (off > limit)
     first = apart.argmax(axis=0)
     found = []
@@ -164,6 +165,32 @@ def partings(run: Run, stepped: Stepped) -> list[Parting]:
         u, v = exact[frame, ball].tolist()
         found.append(Parting(ball, float(stepped.time[frame]), (x, y), (u, v)))
     return found
+
+
+def _flies_off(run: Run) -> NDArray[np.bool_]:
+    """(n,) balls that left the scene, and that nothing slows down: where they are later is known, too."""
+    free = damping_of(run.scene) is None
+    return np.array([free and ending is Ending.LEFT_SCENE for ending in run.ending], dtype=np.bool_)
+
+
+def _exact_places(run: Run, times: FloatArray) -> FloatArray:
+    """(F, n, 2) places of a run, of a ball that left the scene beyond its end, too: p + v s + g s^2 / 2."""
+    places = run.position(times)
+    gravity = np.array(run.scene.gravity or (0.0, 0.0))
+    for ball in np.flatnonzero(_flies_off(run)).tolist():
+        last = run.final[ball]
+        span = np.maximum(times - last["time"], 0.0)[:, None]
+        velocity = np.array([last["vx"], last["vy"]])
+        places[:, ball] += span * (velocity + 0.5 * span * gravity)
+    return places
+
+
+def last_moment(run: Run) -> float:
+    """When there is nothing more to see of a run: its end, or, of what left the scene, one width of that later."""
+    size = size_of(run.scene.walls)
+    speed = np.hypot(run.final["vx"], run.final["vy"])
+    more = np.divide(size, speed, out=np.zeros(len(speed)), where=_flies_off(run) & (speed > 0.0))
+    return float((run.final["time"] + more).max(initial=0.0))
 
 
 def size_of(walls: Walls) -> float:
