@@ -22,7 +22,7 @@ ARGUMENTS = [
     "--disable-component-update",
     "--disable-sync",
 ]
-PATIENCE = 60_000  # milliseconds: a slow machine with other work may have to compile first
+PATIENCE = 240_000  # milliseconds: a slow machine with other work may have to compile first
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 

@@ -32,11 +32,11 @@
       W.showBoxes(this.player);
       this.gallery = new W.Gallery(this);
       this.controls = new W.Panel(this);
+      this.balls = new W.BallList(this);
       this.ways = new W.Ways(this);
       this.panels = new W.Panels(this);
       this.checks = new W.Checks(this);
       W.sheet("Controls", [$("shots")]);
-      this.balls = new W.BallList(this);
       this.listen();
     }
 
