@@ -20,8 +20,6 @@ MOST_DRAWS = 200
 """So many times places are drawn, more of them than balls each time, before there is said to be no room."""
 _FINE_STEP = math.pi / 256  # chords of arcs are then off by at most 2e-5 of the radius
 _WAYS = 64  # directions that are tried out of a face that may be open
-MOST_CROSSINGS = 100_000
-"""Walls that cross more often are a tangle: where a ball has room among them is not looked for."""
 _FACES = 24  # so many of the largest faces are searched for the roomiest spot
 
 
@@ -82,7 +80,7 @@ def _noded(walls: Walls) -> Any:
     import shapely
 
     from wallkit.walls.crossings import find_touches
-    from wallkit.walls.noding import noded
+    from wallkit.walls.noding import MOST_CROSSINGS, noded
 
     rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
     if not rings:

@@ -9,6 +9,9 @@ from wallkit.geometry.same_points import merged
 from wallkit.walls.crossings import Touches
 from wallkit.walls.edge_tree import Edges
 
+MOST_CROSSINGS = 20_000
+"""Walls that cross more often are a tangle: the faces between them are not looked at."""
+
 
 def noded(edges: Edges, touches: Touches) -> tuple[FloatArray, FloatArray]:
     """Cut edges where they meet: the ends of the pieces, (n, 2) each, every piece once.

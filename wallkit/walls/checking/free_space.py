@@ -32,11 +32,10 @@ from wallkit.walls.checking.room_circles import larger_circles
 from wallkit.walls.checking.self_check import diagonal
 from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
-from wallkit.walls.noding import noded
+from wallkit.walls.noding import MOST_CROSSINGS, noded
 from wallkit.walls.walls import Walls, WallsError
 
 MOST_EDGES = 200_000
-MOST_CROSSINGS = 20_000
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
