@@ -1,8 +1,12 @@
-"""Time and memory of tangles by size, beside another build: ``python benchmarks/tangles.py COMMIT [NAME...]``.
+"""Time and memory of tangles by size.
+
+    python benchmarks/tangles.py                     # shapes of up to 78,000 edges: import, and check
+    python benchmarks/tangles.py COMMIT [NAME...]    # tangles beside another build
 
 Each figure is one process of its own: processor seconds of the import (or check) alone, and the most memory of the
 process. COMMIT is checked out into a temporary git worktree, and the same inputs are given to both. The exponent is
-that of time between the last two sizes. What takes more than a minute is ended and shown as ``-``.
+that of time between the last two sizes. What takes more than a minute of processor time is ended and shown as ``-``;
+``tangled`` is what ended with the free space unknown.
 """
 
 from __future__ import annotations
@@ -27,8 +31,22 @@ TANGLES = {
     "crossing lines": ((1750, 3500, 7000), False, "list(rng.uniform(0, 1000, (n, 2, 2))), False"),
     "walks of 100": ((100, 200, 400), False, "list(1000 * rng.random((n, 1, 2)) + walks(n)), False"),
     "identical squares": ((500, 1000, 2000), False, "[SQUARE] * n, True"),
+    "crossing lines, check": ((100, 250, 500), True, "list(rng.uniform(0, 1000, (n, 2, 2))), False"),
+    "ring across a square, check": ((75, 150, 300), True, "[rng.uniform(0, 1000, (n, 2)), SQUARE], True"),
+    "rings of 150, check": ((5, 10, 20), True, "list(rng.uniform(0, 1000, (n, 150, 2))), True"),
     "near lines, check": ((10, 20, 50), True, "[[(0, k / 1000), (9000, k / 1000)] for k in range(n)], False"),
     "nested squares, check": ((20, 40, 80), True, "[np.array(SQUARE) * k / n for k in range(1, n + 1)], True"),
+}
+# The same for as many as 78,000 edges, import and check
+SHAPES = {
+    "walks of 100 edges": ((197, 394, 788), "list(1000 * rng.random((n, 1, 2)) + walks(n)), False"),
+    "hatch, n by n lines": ((25, 50, 100), "hatch(n), False"),
+    "tiles, n by n": (
+        (35, 70, 140),
+        "[np.array(SQUARE) + (600 * i, 600 * j) for i in range(n) for j in range(n)], True",
+    ),
+    "nested squares": ((2500, 5000, 10000), "[np.array(SQUARE) * k / n for k in range(1, n + 1)], True"),
+    "identical squares": ((500, 1000, 2000), "[SQUARE] * n, True"),
 }
 
 CHILD = """
@@ -41,10 +59,16 @@ try:
 except ImportError:  # builds from before these had folders of their own
     from wallkit.walls.build import import_walls
     from wallkit.walls.free_space import free_space
+try:
+    from wallkit.scene.starting_places import roomiest
+except ImportError:
+    from wallkit.starts import roomiest
+resource.setrlimit(resource.RLIMIT_CPU, (60, 60))
 n, looks, code = int(sys.argv[1]), sys.argv[2] == "True", sys.argv[3]
 rng = np.random.default_rng(1)
 SQUARE = [(-300, -300), (300, -300), (300, 300), (-300, 300)]
 walks = lambda n: np.cumsum(rng.normal(0, 8, (n, 100, 2)), axis=1)
+hatch = lambda n: [[(-1, k), (n, k)] for k in range(n)] + [[(k + 0.5, -1), (k + 0.5, n)] for k in range(n)]
 lines, closed = eval(code)
 paths = []
 for line in lines:
@@ -53,44 +77,48 @@ for line in lines:
 drawing = d.Drawing("pt", "up", paths=paths)
 start = time.process_time()
 walls = import_walls(drawing)
-if looks:
-    free_space(walls)
-print(json.dumps([time.process_time() - start, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024]))
+known = True
+if looks:  # as check does: a place for the ball, and free space
+    roomiest(walls)
+    known = free_space(walls).complete
+took = time.process_time() - start
+print(json.dumps([took, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, known]))
 """
 
 
-def measured(build: Path, n: int, looks: bool, code: str) -> tuple[float, float] | None:
-    """Seconds and megabytes; None where it did not end."""
+def measured(build: Path, n: int, looks: bool, code: str) -> tuple[float, float, bool] | None:
+    """Seconds, megabytes, and whether all is known; None where it did not end."""
     command = [sys.executable, "-c", CHILD, str(n), str(looks), code]
-    try:
-        done = subprocess.run(
-            command,
-            capture_output=True,
-            text=True,
-            timeout=MOST_SECONDS,
-            cwd=build,
-            env=os.environ | {"PYTHONPATH": str(build)},
-        )
-    except subprocess.TimeoutExpired:
-        return None
+    around = os.environ | {"PYTHONPATH": str(build)}
+    done = subprocess.run(command, capture_output=True, text=True, cwd=build, env=around, check=False)
     return tuple(json.loads(done.stdout)) if done.returncode == 0 else None
 
 
+def cell(one: tuple[float, float, bool] | None) -> str:
+    """One measurement in words."""
+    return "-" if one is None else f"{one[0]:.2f} s {one[1]:.0f} MB{'' if one[2] else ' tangled'}"
+
+
+def exponent(sizes: tuple[int, ...], found: list[tuple[float, float, bool] | None]) -> str:
+    """That of time between the last two sizes."""
+    *_, before, last = found
+    if before is None or last is None:
+        return "-"
+    return f"{math.log(last[0] / before[0]) / math.log(sizes[-1] / sizes[-2]):.2f}"
+
+
 def row(name: str, other: Path) -> str:
-    """One line of the table."""
+    """One line of the table beside another build."""
     sizes, looks, code = TANGLES[name]
     mine = [measured(ROOT, n, looks, code) for n in sizes]
     theirs = measured(other, sizes[-1], looks, code)
-    cells = ["-" if one is None else f"{one[0]:.2f} s {one[1]:.0f} MB" for one in [*mine, theirs]]
-    exponent = "-"
-    if mine[-1] and mine[-2]:
-        exponent = f"{math.log(mine[-1][0] / mine[-2][0]) / math.log(sizes[-1] / sizes[-2]):.2f}"
     ratio = "-" if not mine[-1] else f"{(theirs[0] if theirs else MOST_SECONDS) / mine[-1][0]:.1f}"
-    return f"| {name} {sizes} | {' | '.join(cells)} | {exponent} | {'' if theirs else '> '}{ratio} |"
+    cells = " | ".join(map(cell, [*mine, theirs]))
+    return f"| {name} {sizes} | {cells} | {exponent(sizes, mine)} | {'' if theirs else '> '}{ratio} |"
 
 
-def main(commit: str, names: list[str]) -> None:
-    """Print the table."""
+def beside(commit: str, names: list[str]) -> None:
+    """Print the table beside another build."""
     print("| tangle | first | second | third | third, before | exponent | times faster |\n|" + "---|" * 7)
     with tempfile.TemporaryDirectory() as folder:
         other = Path(folder) / "build"
@@ -102,5 +130,18 @@ def main(commit: str, names: list[str]) -> None:
             subprocess.run(["git", "worktree", "remove", "--force", str(other)], cwd=ROOT, check=True)
 
 
+def shapes() -> None:
+    """Print the table of shapes by size."""
+    print("| shape | | first | second | third | exponent |\n|" + "---|" * 6)
+    for name, (sizes, code) in SHAPES.items():
+        for what in ("import", "check"):
+            found = [measured(ROOT, n, what == "check", code) for n in sizes]
+            cells = " | ".join(map(cell, found))
+            print(f"| {name} {sizes} | {what} | {cells} | {exponent(sizes, found)} |", flush=True)
+
+
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2:])
+    if len(sys.argv) > 1:
+        beside(sys.argv[1], sys.argv[2:])
+    else:
+        shapes()

@@ -32,6 +32,7 @@ class Clips:
     def __init__(self, references: References, cascade: Cascade, source: Source, prefix: str) -> None:
         self._references, self._cascade, self._source, self._prefix = references, cascade, source, prefix
         self._regions: dict[tuple[Any, Viewport], Region] = {}
+        self._styles: dict[Any, Style] = {}
 
     def region(
         self, declared: Declared, viewport: Viewport, own_box: Callable[[], Box | None], read: ReadAside
@@ -69,8 +70,9 @@ class Clips:
         children = list(clip.iterchildren("*", reversed=True))
         if len(open_now) >= _MAX_CLIPS or clip in open_now or any(c.tag == self._prefix + "text" for c in children):
             return UNKNOWN
-        declared = self._cascade.declared(clip, self._source.attributes(clip), _INITIAL)
-        style = self._cascade.inherited(_INITIAL, declared)
+        around = self._style(clip.getparent())
+        declared = self._cascade.declared(clip, self._source.attributes(clip), around)
+        style = self._cascade.inherited(around, declared)
         matrix = element_matrix(declared, style, viewport, lambda: None) if has_transform(declared) else IDENTITY
         shown = {self._prefix + tag for tag in (*SHAPES, "use")}
         region = region_of(read([child for child in children if child.tag in shown], matrix, style, viewport))
@@ -79,3 +81,15 @@ class Clips:
             region = region.within(self._clip_region(outer, viewport, read, open_now | {clip}))
         self._regions[key] = region
         return region
+
+    def _style(self, element: Any) -> Style:
+        """Give what an element hands down where it stands in the file, whoever names what is in it."""
+        waiting = []
+        while element is not None and element not in self._styles:
+            waiting.append(element)
+            element = element.getparent()
+        style = _INITIAL if element is None else self._styles[element]
+        for one in reversed(waiting):
+            declared = self._cascade.declared(one, self._source.attributes(one), style)
+            style = self._styles[one] = self._cascade.inherited(style, declared)
+        return style

@@ -20,6 +20,7 @@ class Style:
         stroke: the same.
         stroke_width: as a length, resolved where it is used.
         fill_rule: ``"nonzero"`` or ``"evenodd"``.
+        clip_rule: the same, for shapes in a clipPath.
         fill_seen: the fill has some opacity.
         stroke_seen: the stroke has some opacity.
         color: what ``currentColor`` means, as ``"#rrggbb"`` or ``"none"``.
@@ -33,6 +34,7 @@ class Style:
     stroke: str | None = None
     stroke_width: Terms = ((1.0, "px"),)
     fill_rule: str = "nonzero"
+    clip_rule: str = "nonzero"
     fill_seen: bool = True
     stroke_seen: bool = True
     color: str = "#000000"
@@ -68,8 +70,9 @@ def inherit(parent: Style, declared: Declared) -> Style:
     if declared.get("stroke-width", INHERIT) != INHERIT:
         value = declared["stroke-width"]
         changes["stroke_width"] = ((1.0, "px"),) if value == INITIAL else value
-    if declared.get("fill-rule", INHERIT) != INHERIT:
-        changes["fill_rule"] = "nonzero" if declared["fill-rule"] == INITIAL else declared["fill-rule"]
+    for name, rule in (("fill-rule", "fill_rule"), ("clip-rule", "clip_rule")):
+        if declared.get(name, INHERIT) != INHERIT:
+            changes[rule] = "nonzero" if declared[name] == INITIAL else declared[name]
     if declared.get("visibility", INHERIT) != INHERIT:
         changes["visible"] = declared["visibility"] in ("visible", INITIAL)
     return replace(parent, **changes) if changes else parent

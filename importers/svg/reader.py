@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from importers.boxes import Box, box_of
-from importers.drawing import Drawing, DrawnPath, Layer, Level, Subpath
+from importers.drawing import Drawing, DrawnPath, FillRule, Layer, Level, Subpath
 from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.numbers import NumberError
 from importers.regions import ALL, Region
@@ -398,8 +398,9 @@ class Reader:
                 message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
                 self.notes.add("bad-coordinate", "error", message, element, layer=around.layer, name=name)
             return
-        if self.aside:  # its box is all that is asked for
-            self.drawing.paths.append(DrawnPath(subpaths=subpaths, visible=style.visible and not hidden))
+        if self.aside:  # its box is all that is asked for, and of a clip what is inside
+            rule: FillRule = "evenodd" if style.clip_rule == "evenodd" else "nonzero"
+            self.drawing.paths.append(DrawnPath(subpaths, visible=style.visible and not hidden, fill_rule=rule))
             return
         levels = (*around.levels, level_of(element, attributes, own_name, "object"), *around.clones)
         fill, stroke, width = None, None, None

@@ -63,6 +63,7 @@ INHERITED = frozenset(
         "stroke",
         "stroke-width",
         "fill-rule",
+        "clip-rule",
         "fill-opacity",
         "stroke-opacity",
         "color",
@@ -74,6 +75,7 @@ INHERITED = frozenset(
 _KEYWORDS = {
     "visibility": frozenset(("visible", "hidden", "collapse")),
     "fill-rule": frozenset(("nonzero", "evenodd")),
+    "clip-rule": frozenset(("nonzero", "evenodd")),
     "overflow": frozenset(("visible", "hidden", "scroll", "auto", "clip")),
     "transform-box": frozenset(("content-box", "border-box", "fill-box", "stroke-box", "view-box")),
 }

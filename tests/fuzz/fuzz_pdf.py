@@ -39,10 +39,16 @@ def make_file(data: bytes) -> bytes:
     pdf.Root.OCProperties = pikepdf.Dictionary(OCGs=[group], D=pikepdf.Dictionary(OFF=[group]))
     rule = pdf.make_indirect(pikepdf.Dictionary(Type=pikepdf.Name.OCMD, VE=[pikepdf.Name.Not, group]))
     unseen = pikepdf.Dictionary({"/ca": 0, "/LW": 2})
+    tiles = pdf.make_stream(b"0 0 1 1 re f", PatternType=1, Resources=pikepdf.Dictionary())
     page.Annots = [pikepdf.Dictionary(Subtype=pikepdf.Name.Square)]
     form = pdf.make_indirect(pdf.make_stream(rest if kind == 2 else b"0 0 1 1 re f", Subtype=pikepdf.Name.Form))
+    masked = pikepdf.Dictionary(SMask=pikepdf.Dictionary(S=pikepdf.Name.Alpha, G=form))
     form.Resources = page.Resources = pikepdf.Dictionary(
-        XObject={"/X": form}, Properties={"/A": group, "/B": rule}, ExtGState={"/S": unseen}
+        XObject={"/X": form},
+        Properties={"/A": group, "/B": rule},
+        ExtGState={"/S": unseen, "/M": masked},
+        Pattern={"/T": tiles, "/H": pikepdf.Dictionary(PatternType=2)},
+        ColorSpace={"/P": pikepdf.Array([pikepdf.Name.Pattern, pikepdf.Name.DeviceRGB])},
     )
     page.Contents = pdf.make_stream(rest if kind == 1 else b"/OC /A BDC /X Do EMC")
     if kind == 3:

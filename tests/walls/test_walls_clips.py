@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import html
 import io
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -12,6 +14,7 @@ import pikepdf
 import pytest
 import shapely
 from drawn import codes
+from PIL import Image
 
 import wallkit
 
@@ -43,6 +46,8 @@ BIG = '<rect x="10" y="10" width="100" height="80" fill="red" clip-path="url(#c)
         ('<rect width="50" height="50"/>', 'transform="translate(80 60)"', 30 * 30),
         ('<path d="M20 20h60v60h-60zM40 40h20v20h-20z"/>', "", 60 * 60),  # nonzero: the inner one is no hole
         ('<path d="M20 20h60v60h-60zM40 40v20h20v-20z"/>', "", 60 * 60 - 20 * 20),
+        ('<path d="M20 20h60v60h-60zM40 40h20v20h-20z" fill-rule="evenodd"/>', "", 60 * 60),  # for fills alone
+        ('<path d="M20 20h60v60h-60zM40 40h20v20h-20z" clip-rule="evenodd"/>', "", 60 * 60 - 20 * 20),
     ],
 )
 def test_a_filled_shape_becomes_what_is_seen_of_its_area(shapes, attributes, expected):
@@ -53,6 +58,75 @@ def test_a_filled_shape_becomes_what_is_seen_of_its_area(shapes, attributes, exp
     whole = wallkit.import_walls(svg(BIG, clip(shapes, attributes)))
     assert area(whole) == 8000
     assert "clip-not-applied" in codes(whole)
+
+
+RINGS = '<path d="M20 20h60v60h-60zM40 40h20v20h-20zM10 70h50v15h-50z" {}/>'
+STAR = '<polygon points="60,12 85,88 20,40 100,40 35,88" {}/>'
+EVENODD = 'clip-rule="evenodd"'
+FRAME = '<path id="p" d="M0 0h50v50h-50zM10 10h30v30h-30z"/>'
+RULES = {
+    "on the shape": clip(RINGS.format(EVENODD)),
+    "on a star": clip(STAR.format(EVENODD)),
+    "nonzero again": clip(STAR.format('clip-rule="nonzero"'), EVENODD),
+    "for fills alone": clip(STAR.format('fill-rule="evenodd"')),
+    "on the clip": clip(STAR.format(""), EVENODD),
+    "around the clip": f"<g {EVENODD}>{clip(RINGS.format(''))}</g>",
+    "around the clip, as a style": f'<g style="fill-rule:evenodd;clip-rule:evenodd">{clip(STAR.format(""))}</g>',
+    "by a sheet": "<style>clipPath path { clip-rule: evenodd }</style>" + clip(RINGS.format("")),
+    "inherited": f"<g {EVENODD}>" + clip(STAR.format('style="clip-rule:inherit"')) + "</g>",
+    "initial": f"<g {EVENODD}>" + clip(STAR.format('style="clip-rule:initial"')) + "</g>",
+    "two shapes": clip(STAR.format(EVENODD) + '<rect x="53" y="46" width="14" height="8"/>'),
+    "through a use": f"<g {EVENODD}>{FRAME}</g>" + clip('<use href="#p" x="30" y="20"/>'),
+    "a use that says it": FRAME + clip(f'<use href="#p" x="30" y="20" {EVENODD}/>'),
+    "where the clip is named": clip(STAR.format("")) + f"|{EVENODD}",
+}
+
+
+@pytest.fixture(scope="module")
+def seen(tmp_path_factory):
+    """What Chromium shows of all cases, side by side: case to (200, 200) booleans."""
+    names = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+    browser = os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, names)), None)
+    if not browser:
+        pytest.skip("no browser")
+    folder = tmp_path_factory.mktemp("clips")
+    pictures = "".join(f'<iframe srcdoc="{html.escape(drawn(case))}"></iframe>' for case in RULES)
+    style = "<style>*{margin:0}iframe{border:0;width:200px;height:200px;float:left}</style>"
+    (folder / "all.html").write_text(f"<!doctype html>{style}{pictures}")
+    command = [
+        browser,
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--hide-scrollbars",
+        "--run-all-compositor-stages-before-draw",
+    ]
+    command += [f"--user-data-dir={folder / 'profile'}", f"--window-size=200,{200 * len(RULES)}"]
+    command += [f"--screenshot={folder / 'all.png'}", (folder / "all.html").as_uri()]
+    subprocess.run(command, check=True, capture_output=True, timeout=240)
+    pixels = np.asarray(Image.open(folder / "all.png").convert("RGB"))
+    return {case: pixels[200 * k : 200 * (k + 1), :200, 1] < 128 for k, case in enumerate(RULES)}
+
+
+def drawn(case):
+    defs, _, attribute = RULES[case].partition("|")
+    shape = BIG.replace("/>", f" {attribute}/>").replace("red", "#000")
+    margin = "<style>svg{display:block}</style>"
+    return f"<style>*{{margin:0}}</style>{HEAD}<defs>{defs}</defs>{margin}{shape}</svg>"
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("case", RULES)
+def test_the_rule_of_a_clip_is_that_of_a_browser(case, seen):
+    text = drawn(case)
+    walls = wallkit.import_walls(io.StringIO(text[text.index("<svg") :]), apply_clips=True)
+    x, y = np.meshgrid(np.arange(200) + 0.5, np.arange(200) + 0.5)
+    inside = walls.to_shapely().geoms[0]
+    clear = ~shapely.dwithin(inside.boundary, shapely.points(x, y), 1.5)  # of edges, which a browser blurs
+    shown = shapely.contains_xy(inside, x, y)
+    assert clear.sum() > 30_000
+    assert seen[case].any()
+    np.testing.assert_array_equal(shown[clear], seen[case][clear])
 
 
 def test_what_is_wholly_inside_keeps_its_curves_and_what_is_outside_goes():

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.orientation import side
+from wallkit.geometry.same_points import SAME, merged
 
 MOST_POINTS = 30_000  # that walls may be cut to, and MOST_CUTS more for each piece that is given
 MOST_CUTS = 2
 _ROUNDS = 40
 SHORTEST = 1e-7  # of the size of everything: shorter pieces of walls are not cut further, and may be no edges
 _MOST_LOOKED_AT = 1_000_000  # points, in all rounds for ties together
-_SAME = 1e-11  # of the size of everything: points as near are one
 _TIES = 20  # rounds for points on one circle, whose triangles are a matter of taste; feet make many
 _FLAT = 1 / 8  # of a segment: with an intruder nearer than that it is halved
 _MANY = 2**31  # more points than there can be
@@ -67,7 +67,7 @@ def triangulate(a: FloatArray, b: FloatArray) -> Triangulation | None:
     points, which = np.unique(np.concatenate([a, b]), axis=0, return_inverse=True)
     low, high = points.min(axis=0), points.max(axis=0)
     origin, size = (low + high) / 2, float(np.hypot(*(high - low))) or 1.0
-    which = _merged(points, _SAME * size)[which.reshape(-1)]
+    which = merged(points)[which.reshape(-1)]
     kept, which = np.unique(which, return_inverse=True)
     points = points[kept]
     segments = np.sort(which.reshape(2, -1).T, axis=1)
@@ -80,7 +80,7 @@ def triangulate(a: FloatArray, b: FloatArray) -> Triangulation | None:
 def cut_further(mesh: Triangulation, edge: IntArray, at: FloatArray) -> Triangulation | None:
     """Triangulate once more, with (n, 2) places ``at`` on edges that are pieces of walls among the points."""
     work = replace(mesh.cut)
-    work.split_often(mesh.ends[edge], at - work.origin, _SAME * work.size)
+    work.split_often(mesh.ends[edge], at - work.origin, SAME * work.size)
     return _triangulated(work)
 
 
@@ -90,7 +90,7 @@ def _triangulated(work: _Cut) -> Triangulation | None:
     frame = _FRAME * size * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     looked_at = 0
     for _ in range(_TIES):
-        if not _conform(work, SHORTEST * size, _SAME * size):
+        if not _conform(work, SHORTEST * size, SAME * size):
             return None
         everything = np.concatenate([work.points, frame])
         looked_at += len(everything)
@@ -235,20 +235,6 @@ def _neighbours(edge: IntArray) -> IntArray:
 
 def _most_points(work: _Cut) -> int:
     return MOST_POINTS + MOST_CUTS * len(work.original)
-
-
-def _merged(points: FloatArray, within: float) -> IntArray:
-    """For each point the first of those that are as near as rounding: a triangulation would leave the others out."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-    from scipy.spatial import cKDTree
-
-    one, two = cKDTree(points).query_pairs(within, output_type="ndarray").T
-    links = coo_matrix((np.ones(len(one)), (one, two)), shape=(len(points), len(points)))
-    _, group = connected_components(links, directed=False)
-    _, first = np.unique(group, return_index=True)
-    chosen: IntArray = first[group].astype(np.int64)
-    return chosen
 
 
 @dataclass(slots=True)

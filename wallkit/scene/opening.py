@@ -429,7 +429,7 @@ def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, B
     if spot is None:
         if wishes.may_be_empty:
             return walls, Balls(np.empty((0, 2)), np.empty((0, 2)))
-        raise UsageError("there is no room for a ball inside these walls", code="no-room", fix="give --ball X,Y")
+        raise UsageError("no room for a ball was found inside these walls", code="no-room", fix="give --ball X,Y")
     count = wishes.balls
     radius = wishes.radius
     meeting = opened.scene.meeting if wishes.meeting is None else wishes.meeting

@@ -12,6 +12,7 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.walls import Walls
 from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.self_check import straight_edges
+from wallkit.walls.edge_tree import Edges
 from wallkit.walls.sample import flattened
 from wallkit.walls.solid import walls_around
 
@@ -44,12 +45,11 @@ def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
     Returns:
         The spot, or None where no face has room.
     """
-    rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
-    if not rings:
-        return None
     import shapely
 
-    noded = _noded(walls, rings)
+    noded = _noded(walls)
+    if noded is None:
+        return None
     tree = shapely.STRtree(shapely.get_parts(noded))
     best: Spot | None = None
     for face in _faces(walls, noded, anywhere):
@@ -67,21 +67,30 @@ def face_around(walls: Walls, x: float, y: float) -> Spot | None:
     """Give the roomiest spot of the face of the walls that a place is in; None where it is in no bounded one."""
     import shapely
 
-    rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
-    if not rings:
+    noded = _noded(walls)
+    if noded is None:
         return None
-    noded = _noded(walls, rings)
     faces = [face for face in _faces(walls, noded, anywhere=True) if shapely.contains_xy(face, x, y)]
     tree = shapely.STRtree(shapely.get_parts(noded))
     return _spot(min(faces, key=shapely.area), tree) if faces else None
 
 
-def _noded(walls: Walls, rings: list[FloatArray]) -> Any:
-    """Give the walls' lines, cut where they cross."""
+def _noded(walls: Walls) -> Any:
+    """Give the walls' lines, cut where they cross; None where there are none, or too many places where they do."""
     import shapely
 
-    lines = [np.vstack([ring, ring[:1]]) if c else ring for ring, c in zip(rings, walls.closed, strict=True)]
-    return shapely.node(shapely.multilinestrings([shapely.linestrings(line) for line in lines]))
+    from wallkit.walls.crossings import find_touches
+    from wallkit.walls.noding import MOST_CROSSINGS, noded
+
+    rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
+    if not rings:
+        return None
+    offsets = np.concatenate([[0], np.cumsum([len(ring) for ring in rings])])
+    edges = Edges(np.concatenate(rings), offsets, walls.closed)
+    touches = find_touches(edges)
+    if not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS or not len(edges):
+        return None
+    return shapely.multilinestrings(shapely.linestrings(np.stack(noded(edges, touches), axis=1)))
 
 
 def _faces(walls: Walls, noded: Any, anywhere: bool) -> list[Any]:

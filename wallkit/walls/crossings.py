@@ -25,6 +25,8 @@ class Touches:
         overlap_length: (m,) its length.
         touch_walls: (k, 2) walls that touch at a point without crossing there.
         touch_at: (k, 2) where.
+        cut_edge: (c,) edges that something else meets between their ends; copies are not asked.
+        cut_at: (c, 2) where that is.
         copy_of: (W,) the first wall with the same edges. Only that one is told to cross or touch others; its copies
             lie on it, told as one overlap each.
         complete: false when there were more touches, or more pairs of near edges, than are looked at.
@@ -37,6 +39,8 @@ class Touches:
     overlap_length: FloatArray
     touch_walls: IntArray
     touch_at: FloatArray
+    cut_edge: IntArray
+    cut_at: FloatArray
     copy_of: IntArray
     complete: bool
 
@@ -65,10 +69,28 @@ def find_touches(edges: Edges) -> Touches:
     proper, flat, touch = (np.concatenate([none, *kind]) for kind in kinds)
     at = _meeting(edges.a[proper[:, 0]], edges.b[proper[:, 0]], edges.a[proper[:, 1]], edges.b[proper[:, 1]])
     met = np.concatenate([touch, flat])
-    more_walls, more_at, touch_walls, touch_at = _through_vertices(edges, *_passages(edges, met[:, 0], met[:, 1]))
+    passages = _passages(edges, met[:, 0], met[:, 1])
+    more_walls, more_at, touch_walls, touch_at = _through_vertices(edges, *passages)
     walls = np.sort(np.concatenate([edges.wall[proper], more_walls]), axis=1)
+    cuts = _cuts(edges, proper, at, passages)
     overlaps = _with_copies(edges, copy_of, *_overlaps(edges, flat[:, 0], flat[:, 1]))
-    return Touches(walls, np.concatenate([at, more_at]), *overlaps, touch_walls, touch_at, copy_of, complete)
+    return Touches(walls, np.concatenate([at, more_at]), *overlaps, touch_walls, touch_at, *cuts, copy_of, complete)
+
+
+def _cuts(
+    edges: Edges, proper: IntArray, at: FloatArray, passages: tuple[IntArray, IntArray, FloatArray]
+) -> tuple[IntArray, FloatArray]:
+    """Where something meets edges between their ends: crossings, and vertices that lie on them, folds among them."""
+    count = len(edges.vertices)
+    vertex, partner, _ = passages
+    inside = partner >= count
+    first, second = _folds(edges)
+    back = np.concatenate([first, second])  # the end of the shorter one lies on the longer
+    end = np.concatenate([edges.stop[second], edges.start[first]])
+    length = np.hypot(*(edges.b - edges.a).T)
+    longer = np.concatenate([length[first] > length[second], length[first] < length[second]])
+    edge = np.concatenate([proper.T.ravel(), partner[inside] - count, back[longer]])
+    return edge, np.concatenate([at, at, edges.vertices[vertex[inside]], edges.vertices[end[longer]]])
 
 
 def _with_copies(

@@ -13,6 +13,7 @@ with the smaller roomiest circle is a room behind a gap.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,10 +32,10 @@ from wallkit.walls.checking.room_circles import larger_circles
 from wallkit.walls.checking.self_check import diagonal
 from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
+from wallkit.walls.noding import MOST_CROSSINGS, noded
 from wallkit.walls.walls import Walls, WallsError
 
 MOST_EDGES = 200_000
-MOST_CROSSINGS = 20_000
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
@@ -203,22 +204,11 @@ def reached(walls: Walls, radius: float, starts: FloatArray, places: FloatArray)
 
 
 def _noded(edges: Edges) -> tuple[FloatArray, FloatArray] | None:
-    """All edges, cut where they cross or touch, each piece once; None for a tangle: the pieces would be too many.
-
-    GEOS looks for crossings in steps that grow with the square of walls around each other, so where there are none
-    it is not asked.
-    """
+    """All edges, cut where they cross or touch, each piece once; None for a tangle: the pieces would be too many."""
     touches = find_touches(edges)
     if not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS:
         return None
-    copied = (touches.copy_of != np.arange(len(touches.copy_of))).any()
-    if not (copied or len(touches.crossing_at) or len(touches.touch_at) or len(touches.overlap_at)):
-        return edges.a, edges.b
-    lines = shapely.linestrings(np.stack([edges.a, edges.b], axis=1))
-    parts = shapely.get_parts(shapely.node(shapely.multilinestrings(lines)))
-    coordinates, index = shapely.get_coordinates(parts, return_index=True)
-    joined = index[1:] == index[:-1]
-    return coordinates[:-1][joined], coordinates[1:][joined]
+    return noded(edges, touches)
 
 
 @dataclass(slots=True)
@@ -269,21 +259,24 @@ def _rooms(mesh: Triangulation, narrow: float, least: float) -> FreeSpace:
     size = np.concatenate([np.where(mesh.outer, np.inf, 0.0), circle])
     tree = _spanning_tree(count, turns)
     outside = int(np.flatnonzero(mesh.outer)[0])
-    parent, best = np.arange(count), np.arange(count)  # best: the node with the roomiest circle of each part
-    parent[:edge_count][mesh.outer] = outside
+    parts = np.arange(count)
+    parts[:edge_count][mesh.outer] = outside
+    parent, roomy = parts.tolist(), size.tolist()  # of a part's root: the size of its roomiest circle
+    best = list(range(count))  # of a part's root: the node with that circle
     notes: list[tuple[int, int, bool]] = []  # way; best node of the smaller room; the larger is the outside
-    for turn in tree[np.argsort(-turns.width[tree], kind="stable")].tolist():
-        one, two = _find(parent, int(turns.one[turn])), _find(parent, int(turns.two[turn]))
+    order = tree[np.argsort(-turns.width[tree], kind="stable")]
+    columns = (order, turns.one[order], turns.two[order], turns.width[order])
+    for turn, one, two, width in zip(*(column.tolist() for column in columns), strict=True):
+        one, two = _find(parent, one), _find(parent, two)
         if one == two:
             continue
-        if size[best[one]] < size[best[two]]:
+        if roomy[one] < roomy[two]:
             one, two = two, one
-        room = int(best[two])
-        if 2 * narrow * size[room] >= turns.width[turn] > 0 and size[room] > least:
-            notes.append((turn, room, bool(np.isinf(size[best[one]]))))
+        if 2 * narrow * roomy[two] >= width > 0 and roomy[two] > least:
+            notes.append((turn, best[two], math.isinf(roomy[one])))
         parent[two] = one
-    roots = np.unique([_find(parent, edge) for edge in np.flatnonzero(~mesh.wall).tolist()])
-    closed = best[roots[np.isfinite(size[best[roots]]) & (size[best[roots]] > least)]]
+    roots = sorted({_find(parent, edge) for edge in np.flatnonzero(~mesh.wall).tolist()})
+    closed = np.array([best[root] for root in roots if least < roomy[root] < math.inf], dtype=np.int64)
     gaps = sorted(_gaps(mesh, turns, tree, notes, size, place, outside), key=lambda gap: gap.width)
     return FreeSpace(gaps, np.column_stack([place[closed], size[closed]]))
 
@@ -347,18 +340,20 @@ def _ways_out(
     reached = order[1:]
     step[reached] = np.asarray(graph[reached, before[reached]]).ravel().astype(np.int64) - 1
     widths = np.concatenate([turns.width, [np.inf]])
-    narrowest = np.zeros(nodes)
-    narrowest[outside] = np.inf
-    for node in reached.tolist():
-        narrowest[node] = min(narrowest[before[node]], widths[step[node]])
-    return before, narrowest, step
+    narrowest = [0.0] * nodes
+    narrowest[outside] = math.inf
+    for node, last, width in zip(
+        reached.tolist(), before[reached].tolist(), widths[step[reached]].tolist(), strict=True
+    ):
+        narrowest[node] = min(narrowest[last], width)
+    return before, np.array(narrowest), step
 
 
-def _find(parent: IntArray, node: int) -> int:
+def _find(parent: list[int], node: int) -> int:
     """The representative of a node, with the path halved on the way."""
     while parent[node] != node:
         parent[node] = parent[parent[node]]
-        node = int(parent[node])
+        node = parent[node]
     return node
 
 
@@ -369,6 +364,9 @@ def _circles(mesh: Triangulation) -> tuple[FloatArray, FloatArray]:
     rows = np.flatnonzero((mesh.corners < len(mesh.points) - 4).all(axis=1))
     size, place = np.zeros(len(mesh.corners)), mesh.points[mesh.corners].mean(axis=1)
     for centre in _centres(mesh):
+        # no farther from walls than from the corners, which are on walls: most of the second ones are no better
+        nearest = np.min([np.hypot(*(centre[rows] - mesh.points[mesh.corners[rows, k]]).T) for k in range(3)], axis=0)
+        rows = rows[nearest > size[rows]]
         points = shapely.points(centre[rows])
         (source, _), distance = tree.query_nearest(points, return_distance=True, all_matches=False)
         larger = distance > size[rows[source]]

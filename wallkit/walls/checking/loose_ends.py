@@ -119,11 +119,22 @@ def _chosen(found: list[tuple[int, LooseEnd]]) -> list[LooseEnd]:
 def _near(scene: Surroundings, ends: OpenEnds, reach: float) -> _Near:
     x, y = ends.at.real, ends.at.imag
     end, edge = scene.tree.query(shapely.box(x - reach, y - reach, x + reach, y + reach))
+    maybe = _by_the_line(scene, ends.at[end], edge, reach)
+    end, edge = end[maybe], edge[maybe]
     e = scene.edges.take(edge)
     foot = e.nearest(ends.at[end])
     distance = np.abs(foot - ends.at[end])
     keep = (distance <= reach) & ~scene.own_bend(ends.take(end), edge, distance)
     return _Near(end[keep], edge[keep], distance[keep], foot[keep])
+
+
+def _by_the_line(scene: Surroundings, at: ComplexArray, edge: IntArray, reach: float) -> BoolArray:
+    """Tell where the line that a straight edge is on is within reach: the boxes of long edges are met far from them."""
+    a = scene.edges.a[edge]
+    d, v = scene.edges.b[edge] - a, at - a
+    off = np.abs(d.real * v.imag - d.imag * v.real)
+    within: BoolArray = off <= (reach * (1 + 1e-9) + scene.there) * np.abs(d)
+    return within | (scene.edges.radius[edge] > 0)
 
 
 def _pairs(
