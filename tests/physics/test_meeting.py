@@ -356,11 +356,80 @@ def test_under_gravity_energy_stays_among_discs_that_bounce_and_meet() -> None:
     assert np.array_equal(run.contacts, simulate_meeting(scene, 10.0, 10**6, per_disc=0.2).contacts)
 
 
-def test_under_gravity_walls_that_would_hold_discs_are_refused_by_name() -> None:
-    floor = wallkit.Scene(room(restitution=0.8), wallkit.Balls([(5, 5)], [(0, 0)], 0.5), (0.0, -1.0), meeting=True)
-    with pytest.raises(wallkit.SceneError, match=r"wall 0 has the restitution 0\.8") as told:
-        wallkit.prepare(floor)
-    assert told.value.code == "meeting-not-modelled"
-    standing = wallkit.Scene(room(), wallkit.Balls([(5, 0.5)], [(0, 0)], 0.5), (0.0, -1.0), meeting=True)
-    with pytest.raises(wallkit.SceneError, match=r"ball 0 at \(5, 0.5\) starts in touch with a wall"):
-        wallkit.simulate(standing, until=1.0)
+HOP = 2.0**-12
+"""By this part of the smallest radius discs hop off what they would come to lie on."""
+
+
+def marbles(count: int, **kept: Any) -> wallkit.Run:
+    """Discs let fall into a narrow trough, for four seconds."""
+    random = np.random.default_rng(0)
+    e, f = kept.pop("e", 1.0), kept.pop("f", 1.0)
+    walls = wallkit.Walls.from_polylines(
+        [[(0, 0), (0, 40), (10, 40), (10, 0)]],
+        bulges=[[0, 0, 0, kept.pop("bulge", 0.0)]],
+        material=wallkit.Material(e, f),
+    )
+    places = [(1.2 + 2.4 * (k % 4) + random.uniform(-0.1, 0.1), 3 + 2.2 * (k // 4)) for k in range(count)]
+    balls = wallkit.Balls(places, 0.3 * random.normal(size=(count, 2)), random.uniform(0.8, 1.0, count))
+    return wallkit.simulate(
+        wallkit.Scene(walls, balls, (0.0, -10.0), meeting=True, **kept), until=4.0, mode="interpreted"
+    )
+
+
+@pytest.mark.parametrize(
+    "kept",
+    [
+        {"e": 0.5, "ball_restitution": 0.5},
+        {"e": 0.5, "f": 0.95, "ball_restitution": 0.8, "bulge": -0.4},
+        {"e": 0.0, "ball_restitution": 0.0},
+        {"ball_restitution": 0.3},
+    ],
+    ids=str,
+)
+def test_a_pile_of_marbles_goes_on_hopping_without_overlap(kept: dict[str, float]) -> None:
+    run = marbles(12, **kept)
+    radius = run.scene.balls.radius
+    assert set(run.ending) == {wallkit.Ending.TIME_REACHED}
+    assert (
+        len(run.contacts) < 12 * 4 * 1000
+    )  # a hop takes 2 sqrt(2 h / g) = 9 ms, and in a pile a disc meets some six others
+    for time in np.linspace(0.0, 4.0, 9):
+        places = run.position(float(time))
+        gap = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1)) - radius[:, None] - radius
+        np.fill_diagonal(gap, 1.0)
+        assert gap.min() > -1e-12
+        assert (places[:, 0] - radius).min() > -1e-12
+    hop = math.sqrt(2.0 * 10.0 * HOP * float(radius.min()))
+    assert np.hypot(*run.velocity(4.0).T).max() < 10.0 * hop  # what is left is of the order of hops
+    assert run.position(4.0)[:, 1].max() < 4.5  # three rows of at most 2, pushed into one another
+
+
+def test_discs_stacked_on_a_floor_stay_stacked() -> None:
+    floor = wallkit.Walls.from_polylines([[(0, 0), (10, 0)]], closed=False, material=wallkit.Material(0.3))
+    balls = wallkit.Balls([(5, 0.5), (5, 1.5), (5, 2.5)], np.zeros((3, 2)), 0.5)
+    scene = wallkit.Scene(floor, balls, (0.0, -10.0), meeting=True, ball_restitution=0.3)
+    run = wallkit.simulate(scene, until=1.0, mode="interpreted")
+    assert run.final["y"] == pytest.approx([0.5, 1.5, 2.5], abs=20 * HOP)
+    assert run.final["x"].tolist() == [5.0] * 3
+
+
+def test_a_disc_slides_down_a_slope_by_hops_as_far_as_without_them() -> None:
+    """s = g sin(a) t^2 / 2 along a slope of 3 in 4 (sin a = 0.6), whatever the hops; then it falls off the end."""
+    slope = wallkit.Walls.from_polylines([[(0, 30), (40, 0)]], closed=False, material=wallkit.Material(0.2, 1.0))
+    far = (2 + 0.6 * 1.0, 28.5 + 0.8 * 1.0)
+    balls = wallkit.Balls([far, (500, 500)], np.zeros((2, 2)), 1.0)
+    run = wallkit.simulate(wallkit.Scene(slope, balls, (0.0, -10.0), meeting=True), until=6.0, mode="interpreted")
+    way = run.position(3.0)[0] - far
+    assert math.hypot(*way) == pytest.approx(0.6 * 10.0 * 9.0 / 2.0, abs=1e-3)
+    assert run.position(6.0)[0, 1] < 0.0
+
+
+def test_a_disc_alone_on_a_floor_bounces_as_alone_until_it_hops() -> None:
+    balls = wallkit.Balls([(5, 3)], [(0.2, 0)], 0.5)
+    box = room(restitution=0.6)
+    alone = wallkit.simulate(wallkit.Scene(box, balls, (0.0, -10.0)), bounces=5).contacts
+    run = wallkit.simulate(wallkit.Scene(box, balls, (0.0, -10.0), meeting=True), until=5.0, mode="interpreted")
+    assert np.array_equal(run.contacts["time"][:5], alone["time"])
+    tops = run.position(np.linspace(4.0, 5.0, 200))[:, 0, 1]
+    assert tops.max() <= 0.5 + 1.001 * HOP * 0.5
+    assert tops.min() >= 0.5 - 1e-12

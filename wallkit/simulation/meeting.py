@@ -29,13 +29,13 @@ from wallkit.kernels.meeting.records import (
     Discs,
 )
 from wallkit.kernels.meeting.wall_contacts import states_at
-from wallkit.kernels.records import LOG_STRIDE, STATE_SIZE, Counts, in_lists
+from wallkit.kernels.records import LOG_STRIDE, STATE, STATE_SIZE, Counts, in_lists
 from wallkit.scene.scene import Scene
 from wallkit.simulation.meeting_cells import along_a_curve, box_of, cell_of, cells_for, near_walls
 from wallkit.simulation.meeting_rules import check_modelled
 from wallkit.simulation.modelled import Modelled
 
-PER_DISC = 2.0
+PER_DISC = 3.0
 """Cells a disc, where the discs themselves do not set their size."""
 CHUNK = 1 << 16
 """Contacts in one piece of a log."""
@@ -46,6 +46,8 @@ FEW = 500
 MANY, OFTEN = 2_000, 50
 """Discs from which on they are brought into order again, so that neighbours are close in memory, and after how many
 contacts a disc."""
+HOP = 2.0**-12
+"""By this part of the radius of the smallest disc a disc under gravity hops off what it would come to lie on."""
 _compiled: set[tuple[bool, ...]] = set()
 
 
@@ -133,8 +135,9 @@ class Meeting:
             near=near,
             cells=cells,
             restitution=_restitution(scene),
-            states=states,
-            counts=np.tile(counts, (count, 1)),
+            cold=states[:, [STATE.energy, STATE.from_x, STATE.from_y, STATE.from_vx, STATE.from_vy, STATE.tolerance]],
+            counts=np.tile(counts.astype(np.int32), (count, 1)),
+            hop=_hop(scene, radii),
             tries=(np.zeros(STATE_SIZE), counts.copy(), hits, np.zeros(LOG_STRIDE)),
             start=counts,
         )
@@ -193,7 +196,7 @@ class Meeting:
         order = along_a_curve(np.stack([cell & ((1 << discs.cells.shift) - 1), cell >> discs.cells.shift], axis=1))
         place = np.empty(self._count, dtype=np.uint32)
         place[order] = np.arange(self._count, dtype=np.uint32)
-        for part in (discs.ball, discs.link, discs.mass, discs.leave, discs.step, discs.states, discs.counts):
+        for part in (discs.ball, discs.link, discs.mass, discs.leave, discs.step, discs.cold, discs.counts):
             part[:] = part[order]
         leaves = discs.key[len(discs.key) // 2 :][: self._count]
         leaves[:] = leaves[order]
@@ -249,6 +252,12 @@ def compile_each(*wanted: tuple[Any, tuple[Any, ...]]) -> None:
 def _restitution(scene: Scene) -> FloatArray | None:
     pair = (scene.ball_restitution, scene.ball_tangential_restitution)
     return None if pair == (1.0, 1.0) else np.array(pair, dtype=np.float64)
+
+
+def _hop(scene: Scene, radii: FloatArray) -> float:
+    """Speed at which the smallest disc rises by ``HOP`` of its radius: v^2 = 2 g h."""
+    pull = math.hypot(*scene.gravity) if scene.gravity is not None else 0.0
+    return math.sqrt(2.0 * pull * HOP * float(radii.min(initial=math.inf))) if len(radii) else 0.0
 
 
 def _copy_back(arrays: Any, lists: Any) -> None:
