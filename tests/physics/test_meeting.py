@@ -223,12 +223,38 @@ def test_discs_that_overlap_at_the_start_are_refused_with_their_places() -> None
         wallkit.prepare(scene)
 
 
-@pytest.mark.parametrize("acting", [{"drag": 0.1}, {"rolling_friction": 1.0}])
-def test_what_is_not_modelled_is_named_when_it_is_prepared(acting: dict[str, float]) -> None:
-    scene = gas(**acting)
+def test_what_is_not_modelled_is_named_when_it_is_prepared() -> None:
     with pytest.raises(wallkit.SceneError, match="relative motion is not straight") as told:
-        wallkit.prepare(scene)
+        wallkit.prepare(gas(rolling_friction=1.0))
     assert told.value.code == "meeting-not-modelled"
+    with pytest.raises(wallkit.SceneError, match="World with drag"):
+        wallkit.World(gas(drag=0.1))
+
+
+def test_drag_leaves_paths_as_they_are_and_slows_all_alike() -> None:
+    """dv/dt = -c v: what takes s without drag takes -ln(1 - c s) / c, and 1 - c s of each speed is left."""
+    free = wallkit.simulate(gas(), until=3.0)
+    slowed = wallkit.simulate(gas(drag=0.2), until=-math.log1p(-0.2 * 3.0) / 0.2)
+    for name in ("ball", "other", "wall", "x", "y"):
+        assert np.array_equal(slowed.contacts[name], free.contacts[name])
+    assert slowed.contacts["time"] == pytest.approx(-np.log1p(-0.2 * free.contacts["time"]) / 0.2, rel=1e-14)
+    assert slowed.contacts["other_vx"] == pytest.approx(
+        free.contacts["other_vx"] * (1.0 - 0.2 * free.contacts["time"]), rel=1e-13
+    )
+    assert states(slowed)[:, 0:2] == pytest.approx(states(free)[:, 0:2], abs=1e-12)
+    assert slowed.position(2.0) == pytest.approx(free.position((1.0 - math.exp(-0.4)) / 0.2), abs=1e-12)
+    assert [said.bounces for said in slowed.trusted_until(1e-10)] == [
+        said.bounces for said in free.trusted_until(1e-10)
+    ]
+
+
+def test_drag_brings_discs_that_meet_to_rest_where_it_brings_one_alone() -> None:
+    balls = wallkit.Balls([(3, 3)], [(1.1, 0.7)], 0.5)
+    alone = wallkit.simulate(wallkit.Scene(room(), balls, drag=0.05), until=2000.0)
+    run = wallkit.simulate(wallkit.Scene(room(), balls, drag=0.05, meeting=True), until=2000.0)
+    assert run.ending == alone.ending == (wallkit.Ending.AT_REST,)
+    assert states(run) == pytest.approx(states(alone), abs=1e-12)
+    assert run.contacts["time"] == pytest.approx(alone.contacts["time"], rel=1e-9)
 
 
 def test_under_gravity_two_falling_discs_meet_where_straight_lines_say() -> None:

@@ -31,6 +31,7 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.scene.scene import Scene
 from wallkit.scene.start_overlaps import clearances
+from wallkit.simulation.damping import damping_of
 from wallkit.simulation.horizon import (
     RMS_ROUNDING,
     VERTEX,
@@ -44,6 +45,7 @@ from wallkit.simulation.horizon import (
 from wallkit.simulation.meeting_flights import Flights, in_turns, joined, least_gap, passing
 from wallkit.simulation.near_misses import NEAR_CORNER, FlightTable, near_misses
 from wallkit.simulation.run import Ending, Kind, Run
+from wallkit.simulation.shared_clock import SharedClock
 
 SAMPLES = 64
 SURE_TOGETHER = 6.0
@@ -55,13 +57,29 @@ AT_ONCE = 64
 def trusted_together(run: Run, tolerance: float, source: ErrorSource) -> list[Horizon]:
     """Say for each ball up to where its contacts are good; see :meth:`wallkit.Run.trusted_until`."""
     discs = np.flatnonzero(run.scene.balls.radius > 0.0)
-    found: list[Horizon] = _Trust(run, discs, tolerance, source).found()
+    found = _Trust(_on_a_free_clock(run), discs, tolerance, source).found()
+    if run.scene.drag:
+        clock = SharedClock(run.scene.drag)
+        found = [replace(said, time=float(clock.time(np.array(said.time)))) for said in found]
     said = dict(zip(discs.tolist(), found, strict=True))
     alone = replace(run.scene, meeting=False)
     for point in np.flatnonzero(run.scene.balls.radius == 0.0).tolist():
         end = float(run.final["time"][point])
         said[point] = trusted_until(alone, run.contacts_of(point), point, tolerance, source, end)
     return [said[ball] for ball in range(len(run.final))]
+
+
+def _on_a_free_clock(run: Run) -> Run:
+    """Give a run as it would be if drag slowed nothing down: the errors of places are the same."""
+    if damping_of(run.scene) is None:
+        return run
+    clock = SharedClock(float(run.scene.drag or 0.0))
+    contacts, final = run.contacts.copy(), run.final.copy()
+    for table, names in ((contacts, ("vx", "vy", "other_vx", "other_vy")), (final, ("vx", "vy"))):
+        table["time"] = np.minimum(-np.expm1(-clock.drag * table["time"]) / clock.drag, clock.whole)
+        for name in names:
+            table[name] /= clock.kept(table["time"])
+    return replace(run, scene=replace(run.scene, drag=None), contacts=contacts, final=final)
 
 
 @dataclass(slots=True)

@@ -8,20 +8,21 @@ from wallkit.scene.scene import Scene, SceneError, check_masses
 def check_modelled(scene: Scene) -> None:
     """Refuse what is not modelled where discs meet; see docs/meeting.md.
 
-    Discs that fall see one another move in straight lines, and so do those that nothing pulls. Under gravity all fall:
-    what would come to lie on a wall, or on another disc, hops (``wallkit.kernels.meeting.wall_contacts``).
+    Discs that fall see one another move in straight lines, and so do those that nothing pulls, and those that drag
+    slows (``shared_clock``). Under gravity all fall: what would come to lie on a wall, or on another disc, hops
+    (``wallkit.kernels.meeting.wall_contacts``).
 
     Raises:
         SceneError: it names what acts, and what to leave out.
     """
     check_masses(scene.balls.radius, scene.balls.mass)
-    for name in ("rolling_friction", "drag"):
-        if getattr(scene, name):
-            acts = name.replace("_", " ")
-            raise _not_modelled(
-                f"balls meet, and {acts} acts: between contacts their relative motion is not straight",
-                f"leave out {name}, or meeting",
-            )
+    if scene.rolling_friction:
+        raise _not_modelled(
+            "balls meet, and rolling friction acts: between contacts their relative motion is not straight",
+            "leave out rolling_friction, or take drag, or leave out meeting",
+        )
+    if scene.drag and scene.gravity is not None and any(scene.gravity):
+        raise _not_modelled("balls meet under gravity, and drag acts", "leave out drag, gravity or meeting")
 
 
 def refuse_meeting(scene: Scene, what: str) -> None:
