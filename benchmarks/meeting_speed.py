@@ -2,8 +2,10 @@
 
     python benchmarks/meeting_speed.py            # speed by number of discs and packing
     python benchmarks/meeting_speed.py pi         # Galperin: contacts of masses 100^d : 1, d up to 7
-    python benchmarks/meeting_speed.py pressure   # equation of state beside the virial series
+    python benchmarks/meeting_speed.py pressure   # equation of state beside what is published
     python benchmarks/meeting_speed.py room       # a room of 10,000 edges beside a box
+    python benchmarks/meeting_speed.py soak       # a thousand million contacts: overlap, energy, momentum
+    python benchmarks/meeting_speed.py peer       # beside billiards 0.5 (pip install billiards)
 
 Times are those of the processor, of one thread, without compiling.
 """
@@ -20,6 +22,7 @@ import numpy as np
 import wallkit
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.meeting.meet import meet
+from wallkit.scene.start_overlaps import close_pairs
 from wallkit.simulation.meeting import Meeting
 from wallkit.simulation.simulate import START
 
@@ -96,23 +99,107 @@ def pi() -> None:
         print(f"masses 100^{digits} : 1: {met:,} contacts in {seconds:.1f} s, floor(pi 10^{digits}) = {known:,}")
 
 
+def luding(packing: float) -> float:
+    """Z = 1 + 2 y g of hard discs, fitted to simulations within some 0.1 % up to the packing y = 0.67.
+
+    g = (1 - 7 y / 16) / (1 - y)^2 - (y / 2)^3 / (16 (1 - y)^4), S. Luding 2001, Phys. Rev. E 63:042201.
+    """
+    y = packing
+    g = (1.0 - 7.0 * y / 16.0) / (1.0 - y) ** 2 - y**3 / 128.0 / (1.0 - y) ** 4
+    return 1.0 + 2.0 * y * g
+
+
+def coexisting(packing: float) -> float:
+    """Z at a packing of 0.700 to 0.716, where liquid and hexatic coexist: their pressure P* = 4 p r^2 / kT is 9.185.
+
+    E. P. Bernard, W. Krauth 2011, Phys. Rev. Lett. 107:155704. With n = y / (pi r^2), Z = P* pi / (4 y).
+    """
+    return 9.185 * math.pi / 4.0 / packing
+
+
+INNER = 10.0
+"""Contacts and discs nearer to a wall than this, ten diameters, are left out of the pressure."""
+
+
+def inner_pressure(packing: float, settle: int, rounds: int = 20) -> tuple[float, float]:
+    """(packing, Z) of 10,000 discs of the diameter 1 far from the walls, by the virial of contacts.
+
+    Z = 1 + sqrt(pi) c / (2 sqrt(kT / m)), c contacts of pairs a disc and second.
+    """
+    count = 10_000
+    balls, side = filled(count, packing)
+    meeting = Meeting(wallkit.Scene(box(side), balls, meeting=True), START, mode="compiled")
+    go(meeting, settle * count)
+    centre, middle = side / 2.0 - meeting.modelled.origin, side / 2.0 - INNER
+    met, inside, begun = 0, [], float(meeting._discs.key[1])
+    for _ in range(rounds):
+        log = next(meeting.go(math.inf, 2**31, most=5 * count))
+        pairs = log[log[:, 12] >= 0.0]
+        met += int(np.count_nonzero(np.abs((pairs[:, 1:3] + pairs[:, 13:15]) / 2.0 - centre).max(axis=1) < middle))
+        states, _codes = meeting.states(float(meeting._discs.key[1]))
+        inside.append(int(np.count_nonzero(np.abs(states[:, 0:2] - centre).max(axis=1) < middle)))
+    span, within = float(meeting._discs.key[1]) - begun, float(np.mean(inside))
+    heat = float((meeting._discs.ball[:, 2:4] ** 2).sum()) / (2.0 * count)
+    z = 1.0 + math.sqrt(math.pi) / 2.0 * met / within / span / math.sqrt(heat)
+    return within * math.pi / 4.0 / (2.0 * middle) ** 2, z
+
+
 def pressure() -> None:
-    """Z = 1 + sqrt(pi) d c / (2 N t sqrt(kT / m)), c contacts of N discs in the time t: the virial of contacts."""
-    for packing in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7):
-        count = 10_000
-        balls, side = filled(count, packing)
-        meeting = Meeting(wallkit.Scene(box(side), balls, meeting=True), START, mode="compiled")
-        go(meeting, 50 * count)
-        begun, walls = float(meeting._discs.key[1]), int(meeting.hits.sum())
-        go(meeting, 200 * count)
-        span = float(meeting._discs.key[1]) - begun
-        met = 200 * count - (int(meeting.hits.sum()) - walls)
-        heat = float((meeting._discs.ball[:, 2:4] ** 2).sum()) / (2.0 * count)
-        z = 1.0 + math.sqrt(math.pi) / 2.0 * met / count / span / math.sqrt(heat)
-        inner = packing * (side / (side - 1.0)) ** 2  # centres are kept off the walls by a radius
-        series = sum(b * (2.0 * packing) ** k for k, b in enumerate(VIRIAL))
-        words = f"Z {z:.4f}, virial series to B10 {series:.4f}"
-        print(f"packing {packing} ({inner:.4f} of where centres are): {words}", flush=True)
+    for packing in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.65, 0.705):
+        inner, z = inner_pressure(packing, 50 if packing < 0.6 else 400)
+        series = sum(b * (2.0 * inner) ** k for k, b in enumerate(VIRIAL))
+        said = f"virial series to B10 {series:.4f}, Luding {luding(inner):.4f}"
+        if inner > 0.69:
+            said = f"Bernard and Krauth {coexisting(inner):.3f} (from 0.700 to 0.716)"
+        print(f"packing {packing}, {inner:.4f} far from the walls: Z {z:.4f}; {said}", flush=True)
+
+
+def soak(contacts: int = 1_000_000_000) -> None:
+    """Fly 10,000 discs on and on: deepest overlap, drift of the energy, and of the momentum less what walls gave."""
+    count, piece = 10_000, 10_000_000
+    balls, side = filled(count, 0.3)
+    meeting = Meeting(wallkit.Scene(box(side), balls, meeting=True), START, mode="compiled")
+    energy, made, deepest, slip = float((balls.velocity**2).sum()), 0, 0.0, 0.0
+    while made < contacts:
+        go(meeting, piece)
+        before = meeting.states(float(meeting._discs.key[1]))[0]
+        log = next(meeting.go(math.inf, 2**31, most=100_000))
+        made += piece + len(log)
+        states = meeting.states(float(meeting._discs.key[1]))[0]
+        walls = log[log[:, 12] < 0.0]
+        pushed = (2.0 * (walls[:, 3:5] * walls[:, 7:9]).sum(axis=1)[:, None] * walls[:, 7:9]).sum(axis=0)
+        slip = max(slip, float(np.abs(states[:, 2:4].sum(axis=0) - before[:, 2:4].sum(axis=0) - pushed).max()))
+        one, two = close_pairs(states[:, 0:2], 0.5)
+        gap = np.hypot(*(states[one, 0:2] - states[two, 0:2]).T) - 1.0
+        deepest = max(deepest, float(-gap.min()))
+        drift = float((states[:, 2:4] ** 2).sum()) / energy - 1.0
+        bounces = int(meeting.bounces.sum())
+        print(
+            f"{made:,} contacts: deepest overlap {deepest:.1e} diameters, energy {drift:.1e}, momentum {slip:.1e} "
+            f"(of {count:,} discs, in 100,000 contacts); {bounces:,} takings part",
+            flush=True,
+        )
+
+
+def peer() -> None:
+    """``billiards`` 0.5 beside this, 100 discs in a box: contacts of two discs a second."""
+    import billiards
+
+    balls, side = filled(100, 0.3)
+    table = billiards.Billiard([billiards.obstacles.InfiniteWall(a, b) for a, b in _sides(side)])
+    for place, velocity in zip(balls.position, balls.velocity, strict=True):
+        table.add_ball(place, velocity, 0.5)
+    begun = time.process_time()
+    found = table.evolve(20.0)
+    theirs = sum(isinstance(other, int) for _time, _ball, other in found) / (time.process_time() - begun)
+    ours, _ = pairs_a_second(wallkit.Scene(box(side), balls, meeting=True), 500_000)
+    words = f"billiards {billiards.__version__}: {theirs:,.0f} pairs a second; wallkit {ours:,.0f}"
+    print(f"{words}: {ours / theirs:,.0f} times as many")
+
+
+def _sides(side: float) -> list[Any]:
+    corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)]
+    return list(zip(corners, corners[1:] + corners[:1], strict=True))
 
 
 def room() -> None:
@@ -124,4 +211,4 @@ def room() -> None:
 
 
 if __name__ == "__main__":
-    {"pi": pi, "pressure": pressure, "room": room}.get("".join(sys.argv[1:2]), speed)()
+    {"pi": pi, "pressure": pressure, "room": room, "soak": soak, "peer": peer}.get("".join(sys.argv[1:2]), speed)()

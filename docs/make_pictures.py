@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
-from wallkit import ImportOptions, Run, aim, simulate, step_through
+import numpy as np
+
+from wallkit import Balls, ImportOptions, Run, Scene, Walls, aim, simulate, step_through, survey
 from wallkit.scene.opening import Wishes, open_scene
 from wallkit.view.aim_picture import aim_canvas
+from wallkit.view.canvas import Canvas, Label, Shape
 from wallkit.view.film import film
 from wallkit.view.picture import walls_svg
 from wallkit.view.raster import png
@@ -71,6 +75,38 @@ def aimed() -> str:
     return aim_canvas(scene, windows, title="samples/room.svg: all shots that reach the ring within 5 bounces").to_svg()
 
 
+def maxwell() -> str:
+    """Speeds of 2,000 discs that all had the speed 1, before and after they met, beside Maxwell's distribution."""
+    random = np.random.default_rng(5)
+    places = np.array([(x, y) for x in range(50) for y in range(40)], dtype=float) + 0.5
+    angle = random.uniform(0.0, 2.0 * math.pi, len(places))
+    balls = Balls(places, np.stack([np.cos(angle), np.sin(angle)], axis=1), 0.3)
+    box = Walls.from_polylines([[(0, 0), (0, 40), (50, 40), (50, 0)]])
+    speed = np.hypot(*survey(Scene(box, balls, meeting=True), until=30.0).velocity.T)
+    step, most, high = 0.1, 3.0, 1.0
+    left, bottom, width, height = 56.0, 300.0, 560.0, 250.0
+    picture = Canvas(640.0, 350.0, "2,000 discs of one speed, after they have met: Maxwell's distribution")
+    picture.add(Label("title", left, 28.0, "2,000 discs that all had the speed 1, 30 s later", 15.0, bold=True))
+    for k in range(round(most / step)):
+        share = float(np.count_nonzero((speed >= k * step) & (speed < (k + 1) * step))) / len(speed) / step
+        x, y = left + k * step / most * width, bottom - share / high * height
+        side = step / most * width - 1.0
+        bar = [("M", x, bottom), ("L", x, y), ("L", x + side, y), ("L", x + side, bottom), ("Z",)]
+        picture.add(Shape("material2", bar, title=f"{k * step:.1f} to {(k + 1) * step:.1f}: {share * step:.1%}"))
+    at = np.linspace(0.0, most, 121)
+    curve = 2.0 * at * np.exp(-at * at)  # of the speed v in two dimensions, with the mean of v^2 = 1
+    line = [
+        (left + v / most * width, bottom - p / high * height) for v, p in zip(at.tolist(), curve.tolist(), strict=True)
+    ]
+    picture.add(Shape("arrow", [("M" if k == 0 else "L", *place) for k, place in enumerate(line)]))
+    picture.add(Shape("scale", [("M", left, bottom), ("L", left + width, bottom)]))
+    for v in (0.0, 1.0, 2.0, 3.0):
+        picture.add(Label("note", left + v / most * width, bottom + 18.0, f"{v:g}", 12.0, "middle"))
+    picture.add(Label("text", left + width, bottom + 38.0, "speed", 12.0, "end"))
+    picture.add(Label("text", left + 0.46 * width, bottom - 0.62 * height, "Maxwell: 2 v exp(-v\u00b2)", 13.0))
+    return picture.to_svg()
+
+
 PICTURES: dict[str, Callable[[], str | bytes]] = {
     "lagoon.svg": lagoon,
     "lagoon-walls.svg": lagoon_walls,
@@ -79,6 +115,7 @@ PICTURES: dict[str, Callable[[], str | bytes]] = {
     "aim.svg": aimed,
     "sinai.gif": sinai_film,
     "overlap.svg": overlap,
+    "maxwell.svg": maxwell,
 }
 
 

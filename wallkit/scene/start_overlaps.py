@@ -54,7 +54,7 @@ def check_apart(scene: Scene) -> None:
     """
     discs = np.flatnonzero(scene.balls.radius > 0.0)
     position, radius = scene.balls.position[discs], scene.balls.radius[discs]
-    one, two = _close_pairs(position, float(radius.max(initial=0.0)))
+    one, two = close_pairs(position, float(radius.max(initial=0.0)))
     gap = np.hypot(*(position[one] - position[two]).T) - (radius[one] + radius[two])
     size = max(_size(scene.walls) if len(scene.walls) else 0.0, float(np.abs(position).max(initial=0.0)))
     overlapping = np.flatnonzero(gap < -TOUCHING * size)
@@ -71,7 +71,7 @@ def check_apart(scene: Scene) -> None:
     )
 
 
-def _close_pairs(position: FloatArray, radius: float) -> tuple[IntArray, IntArray]:
+def close_pairs(position: FloatArray, radius: float) -> tuple[IntArray, IntArray]:
     """Pairs (lower, higher) of places that may be within two radii: those in the same cell or in neighbouring ones."""
     if len(position) < 2:
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)

@@ -62,7 +62,8 @@ class Horizon:
         whole: nothing of the run is in doubt.
         source: what the error comes from: the rounding of the arithmetic, or the drawing's own tolerance.
         reason: why trust ends: ``"growth"``, ``"corner"`` (it may pass a corner on the other side), ``"graze"``
-            (it may miss what it grazed), or ``""``.
+            (it may miss what it grazed), ``"meeting"`` (it may meet another ball, or one of its balls may be in
+            doubt), or ``""``.
     """
 
     tolerance: float
@@ -77,7 +78,11 @@ class Horizon:
         to = f"{self.tolerance:g}".replace("e-0", "e-")
         if self.whole:
             return f"good to {to} throughout ({self.bounces} bounces)"
-        after = {"corner": "a corner decides after that", "graze": "a grazing hit decides after that"}
+        after = {
+            "corner": "a corner decides after that",
+            "graze": "a grazing hit decides after that",
+            "meeting": "whom it meets is in doubt after that",
+        }
         end = after.get(self.reason, "chaos after that")
         return f"good to {to} up to bounce {self.bounces}; {end}"
 
@@ -130,7 +135,7 @@ def predicted_errors(
         Two arrays (n,), in the drawing's units; infinite once that is no number any more.
     """
     course = _course(scene, own, ball)
-    fresh = _roundings(scene, own, course, ball) if source == "rounding" else _drawing_errors(scene, own)
+    fresh = _roundings(scene, own, course, ball) if source == "rounding" else drawing_errors(scene, own)
     variance = np.full(len(own), np.inf)
     _kernel(carry, len(own))(*course, fresh, variance)
     variance[~(variance >= 0.0)] = np.inf  # overflown on the way: beyond any promise
@@ -176,7 +181,7 @@ def _course(scene: Scene, own: Any, ball: int) -> Course:
     for row in np.flatnonzero(slides).tolist():
         pull[row + 1] = pull_along(gravity, slowing, path[row, 1:3], path[row, 3:5])
     drag = slowing.drag or 0.0
-    return start, np.ascontiguousarray(path), _bends(scene, own, ball), table[own["wall"]], pull, drag
+    return start, np.ascontiguousarray(path), bends(scene, own, ball), table[own["wall"]], pull, drag
 
 
 def _roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
@@ -218,7 +223,7 @@ def _falling_roundings(course: Course, places: FloatArray) -> tuple[FloatArray, 
     return RMS_ROUNDING * place, RMS_ROUNDING * speed
 
 
-def _drawing_errors(scene: Scene, own: Any) -> FloatArray:
+def drawing_errors(scene: Scene, own: Any) -> FloatArray:
     """(n, 4) what walls that are off by their ``measured_error`` add at each contact."""
     walls = scene.walls
     fresh = np.zeros((len(own), 4))
@@ -233,14 +238,14 @@ def _drawing_errors(scene: Scene, own: Any) -> FloatArray:
     return fresh
 
 
-def _bends(scene: Scene, own: Any, ball: int) -> FloatArray:
+def bends(scene: Scene, own: Any, ball: int) -> FloatArray:
     """(n,) curvature at each contact of the line that the ball's centre cannot cross, positive when convex."""
     walls = scene.walls
     radius = _radius(scene, ball)
-    bends = np.zeros(len(own))
+    bent = np.zeros(len(own))
     corner = own["edge"] < 0
     if radius > 0:
-        bends[corner] = 1 / radius
+        bent[corner] = 1 / radius
     if walls.has_arcs:
         edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
         start = walls.edge_starts[edge]
@@ -250,8 +255,8 @@ def _bends(scene: Scene, own: Any, ball: int) -> FloatArray:
         facing = (own["x"] - centre[:, 0]) * own["nx"] + (own["y"] - centre[:, 1]) * own["ny"]
         with np.errstate(divide="ignore"):
             outside, inside = 1 / (curve + radius), -1 / (curve - radius)
-        bends[round_] = np.where(facing > 0, outside, inside)[round_]
-    return bends
+        bent[round_] = np.where(facing > 0, outside, inside)[round_]
+    return bent
 
 
 def _radius(scene: Scene, ball: int) -> float:
@@ -265,7 +270,7 @@ def _first_doubt(scene: Scene, own: Any, ball: int, worst: FloatArray) -> tuple[
         return 0, ""
     radius = _radius(scene, ball)
     doubts = np.zeros(len(own), dtype=np.int8)
-    grazing = _grazing_depth(scene, own, ball)
+    grazing = grazing_depths(scene, own, ball)
     doubts[grazing <= worst] = NEAR_GRAZE
     for index, clear, decides in near_misses(scene, _flights(scene, own, ball), radius, float(worst.max())):
         doubts[index[clear <= worst[index]]] = decides
@@ -290,13 +295,11 @@ def _flights(scene: Scene, own: Any, ball: int) -> FlightTable:
     )
 
 
-def _grazing_depth(scene: Scene, own: Any, ball: int) -> FloatArray:
+def grazing_depths(scene: Scene, own: Any, ball: int) -> FloatArray:
     """(n,) by how much a neighbour may be off before it misses the convex thing that was hit: rho (1 - sin)."""
-    bends = _bends(scene, own, ball)
+    bent = bends(scene, own, ball)
     speed = np.hypot(own["vx"], own["vy"])
     cosine = np.divide(own["vx"] * own["nx"] + own["vy"] * own["ny"], speed, out=np.ones(len(own)), where=speed > 0)
     lost = cosine**2 / (1 + np.sqrt(np.maximum(0.0, 1 - cosine**2)))
-    depth: FloatArray = np.divide(
-        lost, bends, out=np.full(len(own), np.inf), where=(bends > 0) & (own["kind"] <= VERTEX)
-    )
+    depth: FloatArray = np.divide(lost, bent, out=np.full(len(own), np.inf), where=(bent > 0) & (own["kind"] <= VERTEX))
     return depth

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -29,13 +30,15 @@ from wallkit.kernels.meeting.records import (
     Discs,
 )
 from wallkit.kernels.meeting.wall_contacts import states_at
-from wallkit.kernels.records import LOG_STRIDE, STATE_SIZE, Counts, in_lists
+from wallkit.kernels.records import AT_REST, LOG_STRIDE, STATE, STATE_SIZE, TIME_REACHED, Counts, in_lists
 from wallkit.scene.scene import Scene
+from wallkit.simulation.damping import damping_of
 from wallkit.simulation.meeting_cells import along_a_curve, box_of, cell_of, cells_for, near_walls
 from wallkit.simulation.meeting_rules import check_modelled
 from wallkit.simulation.modelled import Modelled
+from wallkit.simulation.shared_clock import SharedClock
 
-PER_DISC = 2.0
+PER_DISC = 3.0
 """Cells a disc, where the discs themselves do not set their size."""
 CHUNK = 1 << 16
 """Contacts in one piece of a log."""
@@ -46,6 +49,8 @@ FEW = 500
 MANY, OFTEN = 2_000, 50
 """Discs from which on they are brought into order again, so that neighbours are close in memory, and after how many
 contacts a disc."""
+HOP = 2.0**-12
+"""By this part of the radius of the smallest disc a disc under gravity hops off what it would come to lie on."""
 _compiled: set[tuple[bool, ...]] = set()
 
 
@@ -70,6 +75,9 @@ class Meeting:
         modelled: Modelled | None = None,
     ) -> None:
         check_modelled(scene)
+        self._clock = SharedClock(scene.drag) if scene.drag and damping_of(scene) is not None else None
+        if self._clock is not None:
+            scene, modelled = replace(scene, drag=None), None
         self.modelled = modelled or Modelled(scene, machine_code=mode == "compiled")
         self.mode = mode
         self.numbers = np.flatnonzero(self.modelled.radii > 0.0)
@@ -133,8 +141,9 @@ class Meeting:
             near=near,
             cells=cells,
             restitution=_restitution(scene),
-            states=states,
-            counts=np.tile(counts, (count, 1)),
+            cold=states[:, [STATE.energy, STATE.from_x, STATE.from_y, STATE.from_vx, STATE.from_vy, STATE.tolerance]],
+            counts=np.tile(counts.astype(np.int32), (count, 1)),
+            hop=_hop(scene, radii),
             tries=(np.zeros(STATE_SIZE), counts.copy(), hits, np.zeros(LOG_STRIDE)),
             start=counts,
         )
@@ -154,6 +163,9 @@ class Meeting:
             most: contacts in a piece; 0 for as many as it takes to be quick.
         """
         self.reached = 0 if self._count else 1
+        clock = self._clock
+        if clock is not None:
+            until = clock.free(until)
         while not self.reached:
             room = (most or CHUNK) if keep else max(CHUNK, OFTEN * self._count)
             budget = 2**62
@@ -175,11 +187,15 @@ class Meeting:
                 made, now, self.reached = compiled(meet)(
                     self.modelled.model, gravity, self._discs, until, limit, self.hits, log, room, budget
                 )
-            self.now = max(self.now, now)
+            self.now = max(self.now, now if clock is None else float(clock.time(np.array(now))))
             self._since += made
             if self._count >= MANY and self._since > OFTEN * self._count:
                 self._bring_into_order()
-            yield np.array(log).reshape(-1, ROW)[:made]
+            rows = np.array(log).reshape(-1, ROW)[:made]
+            if clock is not None:
+                rows[:, [3, 4, 15, 16]] *= clock.kept(rows[:, 0])[:, None]
+                rows[:, 0] = clock.time(rows[:, 0])
+            yield rows
 
     def _compile(self) -> None:
         """Go on with machine code from where the interpreted kernels are."""
@@ -193,7 +209,7 @@ class Meeting:
         order = along_a_curve(np.stack([cell & ((1 << discs.cells.shift) - 1), cell >> discs.cells.shift], axis=1))
         place = np.empty(self._count, dtype=np.uint32)
         place[order] = np.arange(self._count, dtype=np.uint32)
-        for part in (discs.ball, discs.link, discs.mass, discs.leave, discs.step, discs.states, discs.counts):
+        for part in (discs.ball, discs.link, discs.mass, discs.leave, discs.step, discs.cold, discs.counts):
             part[:] = part[order]
         leaves = discs.key[len(discs.key) // 2 :][: self._count]
         leaves[:] = leaves[order]
@@ -219,8 +235,11 @@ class Meeting:
     def states(self, time: float) -> tuple[FloatArray, IntArray]:
         """(n, STATE_SIZE) states of the discs at a time, and (n,) how they ended or are: RUNNING; by number.
 
-        At inf: after their last contact.
+        At inf: after their last contact; under drag where they have stopped.
         """
+        clock = self._clock
+        if clock is not None:
+            time = clock.free(time)
         states, endings = np.zeros((self._count, STATE_SIZE)), np.zeros(self._count, dtype=np.int64)
         if self._lists is not None:
             rows, codes = states.tolist(), endings.tolist()
@@ -229,6 +248,13 @@ class Meeting:
         else:
             model = self.modelled.model
             compiled(states_at)(model, model.gravity, self._discs, time, states, endings)
+        if clock is not None:
+            free = states[:, STATE.time] + states[:, STATE.lost]
+            states[:, STATE.vx : STATE.vy + 1] *= clock.kept(free)[:, None]
+            states[:, STATE.time], states[:, STATE.lost] = clock.time(free), 0.0
+            if time == clock.whole:
+                states[:, STATE.vx : STATE.vy + 1] = 0.0
+                endings[endings == TIME_REACHED] = AT_REST
         back = np.argsort(self.numbers)
         return states[back], endings[back]
 
@@ -249,6 +275,12 @@ def compile_each(*wanted: tuple[Any, tuple[Any, ...]]) -> None:
 def _restitution(scene: Scene) -> FloatArray | None:
     pair = (scene.ball_restitution, scene.ball_tangential_restitution)
     return None if pair == (1.0, 1.0) else np.array(pair, dtype=np.float64)
+
+
+def _hop(scene: Scene, radii: FloatArray) -> float:
+    """Speed at which the smallest disc rises by ``HOP`` of its radius: v^2 = 2 g h."""
+    pull = math.hypot(*scene.gravity) if scene.gravity is not None else 0.0
+    return math.sqrt(2.0 * pull * HOP * float(radii.min(initial=math.inf))) if len(radii) else 0.0
 
 
 def _copy_back(arrays: Any, lists: Any) -> None:

@@ -2,53 +2,27 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from wallkit.scene.scene import Scene, SceneError, check_masses
-from wallkit.scene.start_overlaps import clearances
-
-NEAR = 1.0 + 2.0**-20
-"""A disc whose gap to a wall is below this part of its radius stands on it."""
 
 
 def check_modelled(scene: Scene) -> None:
     """Refuse what is not modelled where discs meet; see docs/meeting.md.
 
-    Under gravity two falling discs see one another move in a straight line; one that a wall holds is no such disc. A
-    wall holds none that sends every ball back with its whole speed (restitution 1 and more), or swallows it.
+    Discs that fall see one another move in straight lines, and so do those that nothing pulls, and those that drag
+    slows (``shared_clock``). Under gravity all fall: what would come to lie on a wall, or on another disc, hops
+    (``wallkit.kernels.meeting.wall_contacts``).
 
     Raises:
         SceneError: it names what acts, and what to leave out.
     """
     check_masses(scene.balls.radius, scene.balls.mass)
-    for name in ("rolling_friction", "drag"):
-        if getattr(scene, name):
-            acts = name.replace("_", " ")
-            raise _not_modelled(
-                f"balls meet, and {acts} acts: between contacts their relative motion is not straight",
-                f"leave out {name}, or meeting",
-            )
-    if scene.gravity is None or not any(scene.gravity) or not len(scene.walls):
-        return
-    discs = np.flatnonzero(scene.balls.radius > 0.0)
-    for wall, material in enumerate(scene.walls.materials if len(discs) else ()):
-        swallows = material.restitution == 0.0 and material.tangential_restitution == 0.0
-        if material.restitution < 1.0 and not swallows:
-            called = f" ({scene.walls.names[wall]})" if scene.walls.names[wall] else ""
-            raise _not_modelled(
-                f"balls meet under gravity, and wall {wall}{called} has the restitution {material.restitution:g}: "
-                "discs would come to lie on it, and how others meet them there is not modelled",
-                "give walls a restitution of 1, or 0 and 0 to swallow balls; or leave out gravity or meeting",
-            )
-    position, radius = scene.balls.position[discs], scene.balls.radius[discs]
-    gap, _edge = clearances(scene.walls, position, radius * NEAR)
-    standing = np.flatnonzero(gap <= radius * NEAR)
-    if len(standing):
-        x, y = position[standing[0]].tolist()
+    if scene.rolling_friction:
         raise _not_modelled(
-            f"balls meet under gravity, and ball {discs[standing[0]]} at ({x:g}, {y:g}) starts in touch with a wall",
-            "start it off the wall, or leave out gravity or meeting",
+            "balls meet, and rolling friction acts: between contacts their relative motion is not straight",
+            "leave out rolling_friction, or take drag, or leave out meeting",
         )
+    if scene.drag and scene.gravity is not None and any(scene.gravity):
+        raise _not_modelled("balls meet under gravity, and drag acts", "leave out drag, gravity or meeting")
 
 
 def refuse_meeting(scene: Scene, what: str) -> None:

@@ -34,6 +34,12 @@ class Together:
                 code="meeting-not-modelled",
                 fix="leave out the sensors or meeting, or use simulate",
             )
+        if scene.drag:
+            raise SceneError(
+                "balls meet in a World with drag: what is moved by hand has no place on their common clock",
+                code="meeting-not-modelled",
+                fix="leave out drag or meeting, or use simulate",
+            )
         self._meeting = Meeting(scene, START, mode=mode)
         self._flights = Flights(scene, mode=mode)
         self._discs = scene.balls.radius > 0.0

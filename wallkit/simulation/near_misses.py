@@ -83,7 +83,7 @@ def _near_corners(scene: Scene, flights: FlightTable, radius: float, reach: floa
     """Flights that pass a corner by no more than ``reach``."""
     corners = _turning_corners(scene)
     found, corner = _pairs(flights, shapely.points(corners), radius + reach)
-    along, clear = _closest(flights, found, corners[corner])
+    along, clear = closest(flights, found, corners[corner])
     # A disc rolls from an edge on to its corner without a jump: only a corner passed in full flight decides.
     # For a point the hit itself counts; where it started is the last flight's end and was judged there.
     decides = (along > 0) & ((along < 1) | (radius == 0)) & (clear - radius <= reach)
@@ -114,7 +114,7 @@ def _near_arcs(scene: Scene, flights: FlightTable, radius: float, reach: float) 
     centre, curve = circles(a, b, bulge)
     around = np.stack([centre - curve[:, None], centre + curve[:, None]], axis=1).reshape(-1, 4)
     found, arc = _pairs(flights, shapely.box(*around.T), radius + reach)
-    along, distance = _closest(flights, found, centre[arc])
+    along, distance = closest(flights, found, centre[arc])
     chord = b - a
     middle = np.sign(bulge)[:, None] * np.stack([chord[:, 1], -chord[:, 0]], axis=1)
     middle /= np.maximum(np.hypot(middle[:, 0], middle[:, 1]), 1e-300)[:, None]
@@ -166,7 +166,7 @@ def _pairs(flights: FlightTable, things: NDArray[Any], distance: float) -> tuple
     return found, thing
 
 
-def _closest(flights: FlightTable, found: NDArray[np.int64], points: FloatArray) -> tuple[FloatArray, FloatArray]:
+def closest(flights: FlightTable, found: NDArray[np.int64], points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Where in its time (0 to 1) a flight is closest to a point, and how far it is from there."""
     time = np.maximum(flights.time[found], 1e-300)
     if flights.pull is None:

@@ -224,8 +224,7 @@ class Run(Pictured):
                 walls are off by their ``measured_error``.
 
         Raises:
-            WallkitError: the tolerance is not above 0, the source is none of the two, or balls meet: how the error of
-                one becomes that of another is not known here.
+            WallkitError: the tolerance is not above 0, or the source is none of the two.
         """
         from wallkit.simulation.horizon import trusted_until
 
@@ -239,11 +238,9 @@ class Run(Pictured):
         )
         arguments.word(source, "source", ("rounding", "drawing"), error=WallkitError, code="bad-source")
         if self.scene.meeting and np.count_nonzero(self.scene.balls.radius) > 1:
-            raise WallkitError(
-                "balls meet: how the error of one becomes that of another is not known here",
-                code="meeting-not-modelled",
-                fix="compare with a run whose start is off by a rounding",
-            )
+            from wallkit.simulation.meeting_horizon import trusted_together
+
+            return trusted_together(self, tolerance, source)
         ends = self.final["time"].tolist()
         return [
             trusted_until(self.scene, self.contacts_of(ball), ball, tolerance, source, end)

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.meeting.pair_impact import begins, meeting_time
-from wallkit.kernels.meeting.records import STILL, TIME, VX, VY
-from wallkit.kernels.records import STATE
+from wallkit.kernels.meeting.records import STILL, TIME, TOLERANCE, VX, VY
 
 STILL_LIMIT = 100
 """Contacts in a row that rounding does not tell apart, after which contacts with other discs lose nothing."""
@@ -31,7 +30,7 @@ def count_still(discs, ball, t):
     """Count a contact of a disc, t after its last one: how many in a row pass neither time nor space."""
     row, own = discs.ball[ball], discs.link[ball]
     time = row[TIME]
-    moves = time + t > time and t * (abs(row[VX]) + abs(row[VY])) > discs.states[ball][STATE.tolerance] * 2.0**-6
+    moves = time + t > time and t * (abs(row[VX]) + abs(row[VY])) > discs.cold[ball][TOLERANCE] * 2.0**-6
     still = 0 if moves else int(own[STILL]) + 1
     own[STILL] = still
     return still

@@ -6,8 +6,12 @@ disc again, up to the first one whose winner is another disc, and was: above it 
 
 from __future__ import annotations
 
+from wallkit.kernels.intrinsics import prefetch_far
 from wallkit.kernels.jit import kernel, rare_kernel
-from wallkit.kernels.meeting.records import DISCS, DUE, NEVER, NUMBER, PARTNER, WALL
+from wallkit.kernels.meeting.records import CELL, DISCS, DUE, NEVER, NOBODY, NUMBER, PARTNER, WALL
+
+FAR = 1 << 14
+"""Nodes of the tournament from which on the discs do not fit into the nearer caches."""
 
 
 @kernel
@@ -58,6 +62,7 @@ def requeue(discs, ball):
     winner, best = int(ball), leave if leave <= due else due
     node = (len(key) >> 1) + winner
     key[node] = best
+    far = len(key) > FAR
     while node > 1:
         rival, its = int(tree[node ^ 1]), key[node ^ 1]
         first = its < best  # who wins is not foreseen: it is chosen without a branch
@@ -69,6 +74,43 @@ def requeue(discs, ball):
         if tree[node] == winner and winner != ball:
             break  # it was the winner, and its key is as it was: nothing changes above
         tree[node], key[node] = winner, best
+        if far and node < 128:
+            ask_ahead(discs, winner, node)
+
+
+@kernel
+def ask_ahead(discs, ball, node):
+    """Prefetch what the contact of a disc will read, as it comes nearer to the first place in the tournament.
+
+    What wins among the discs below one of 2^k nodes is due after some 2^k other events: first its own rows are asked
+    for, then its partner's and the cells around it, which those name, then the discs in these.
+    """
+    link, head, shift = discs.link, discs.head, discs.cells.shift
+    if node >= 64:
+        prefetch_far(discs.ball, 8 * ball)
+        prefetch_far(link, 8 * ball)
+        prefetch_far(discs.leave, ball)
+        prefetch_far(discs.step, ball)
+        leaf = (len(discs.key) >> 1) + ball
+        for _level in range(8):
+            prefetch_far(discs.key, leaf)
+            prefetch_far(discs.tree, leaf)
+            leaf >>= 1
+    elif 16 <= node < 32:
+        partner, cell = int(link[ball][PARTNER]), int(link[ball][CELL])
+        for line in range(-1, 2):
+            prefetch_far(head, cell + (line << shift))
+        prefetch_far(discs.near, cell)
+        if partner < DISCS:
+            prefetch_far(discs.ball, 8 * partner)
+            prefetch_far(link, 8 * partner)
+    elif 4 <= node < 8:
+        cell = int(link[ball][CELL])
+        for line in range(-1, 2):
+            for c in range(cell + (line << shift) - 1, cell + (line << shift) + 2):
+                if 0 <= c < len(head) and head[c] != NOBODY:
+                    prefetch_far(discs.ball, 8 * int(head[c]))
+                    prefetch_far(discs.after, int(head[c]))
 
 
 @kernel

@@ -228,9 +228,9 @@ def take_meeting(gravity, discs, ball, other, log, noted):
     meet_at(gravity, row, its)
     part, its_part = shares(discs, one, two)
     if caught:
-        collide(None, row, its, part, its_part)
+        collide(None, gravity, discs.hop, row, its, part, its_part)
     else:
-        collide(discs.restitution, row, its, part, its_part)
+        collide(discs.restitution, gravity, discs.hop, row, its, part, its_part)
     own[BOUNCES] += 1
     link[BOUNCES] += 1
     own[MET], link[MET] = two, one

@@ -68,12 +68,12 @@ def meet_at(gravity, one, other):
 
 
 @kernel
-def collide(restitution, one, other, part_one, part_other):
+def collide(restitution, gravity, hop, one, other, part_one, part_other):
     """Turn the velocities of two discs that touch; d from other to one, w of one relative to other, n = d / |d|.
 
     With e and f the restitution along n and across, w' = f (w - (w.n) n) - e (w.n) n, so that w changes by
     -(1 + e) (w.n) n - (1 - f) (w - (w.n) n). Of this one takes its part m2 / (m1 + m2), other the rest: momentum
-    stays. Neither has spin.
+    stays. Neither has spin. Under gravity they part at no less than ``hop``, where restitution takes speed.
     """
     dx, dy = one[X] - other[X], one[Y] - other[Y]
     wx, wy = one[VX] - other[VX], one[VY] - other[VY]
@@ -84,6 +84,11 @@ def collide(restitution, one, other, part_one, part_other):
         e, f = restitution[0], restitution[1]
         whole = (1.0 + e) - (1.0 - f)
         ux, uy = -whole * normal * dx - (1.0 - f) * wx, -whole * normal * dy - (1.0 - f) * wy
+        if gravity is not None:
+            length = math.sqrt(dx * dx + dy * dy)
+            lacks = hop + e * normal * length  # they part at -e (w.n)
+            if e < 1.0 and lacks > 0.0:
+                ux, uy = ux + lacks * dx / length, uy + lacks * dy / length
     one[VX] += part_one * ux
     one[VY] += part_one * uy
     other[VX] -= part_other * ux

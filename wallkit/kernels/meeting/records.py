@@ -24,6 +24,8 @@ DISCS = 2**32 - 4
 FLYING, FRESH, FIXED, OUT = 0, 1, 2, 3
 """How a disc is: flying since a contact with a wall; flying since a contact with a disc (its cold state is to be made
 anew); ended where it stands, and met as if it had no end of mass; ended and taken out: no disc meets it."""
+ENERGY, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE = range(6)
+"""Row of what else a flight alone knows of a disc, see ``State``, since its last contact with a wall."""
 ROW = 17
 """Floats of a contact in the log: those of a contact with a wall (``LOG_STRIDE``), then ball, other (-1 for none), and
 the other's centre and velocity."""
@@ -69,10 +71,12 @@ class Discs(NamedTuple):
     cells: Cells
     restitution: Any
     """(normal, tangential) between discs; None where both are 1."""
-    states: Any
-    """(n, STATE_SIZE) cold state, as ``fly`` knows it."""
+    cold: Any
+    """(n, 6) floats: see ENERGY and the following."""
     counts: Any
-    """(n, len(Counts)) the same in whole numbers."""
+    """(n, len(Counts)) whole numbers of 32 bits, as ``fly`` knows them; bounces are counted in ``link`` alone."""
+    hop: float
+    """Speed at which a disc leaves what it would come to lie on under gravity, see ``wall_contacts``."""
     tries: Any
     """((STATE_SIZE,), (len(Counts),), (W,), (LOG_STRIDE,)): a state, counts, hits and log to try a flight with."""
     start: Any
