@@ -15,7 +15,7 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.exact_edges import ExactEdges, as_complex
 from wallkit.kernels.flight.motion import reflect
 from wallkit.scene.scene import Scene
-from wallkit.simulation.damping import carried_on, damping_of
+from wallkit.simulation.damping import carried_on, damping_of, flown_on, slowing_of
 from wallkit.simulation.run import CONTACT, Kind
 from wallkit.simulation.sensors import sensors_of, together
 
@@ -37,7 +37,7 @@ class Overlapping:
         self._scene = scene
         self._time = 0.0
         self._sensors = sensors_of(scene)
-        self._damping = damping_of(scene)
+        self._damping, self._drag = damping_of(scene), slowing_of(scene).drag
         self._gravity = np.array(scene.gravity or (0.0, 0.0), dtype=np.float64)
         self._state = np.hstack([scene.balls.position, scene.balls.velocity]).astype(np.float64)
         self._radius = np.asarray(scene.balls.radius, dtype=np.float64)
@@ -49,9 +49,8 @@ class Overlapping:
         if self._damping is not None:
             self._state = np.array([carried_on(self._damping, state, dt) for state in self._state]).reshape(-1, 4)
         else:
-            grown = dt * self._gravity
-            self._state[:, 0:2] += dt * (self._state[:, 2:4] + 0.5 * grown)
-            self._state[:, 2:4] += grown
+            pull, time = np.tile(self._gravity, (len(self._state), 1)), np.full((len(self._state), 1), dt)
+            self._state = flown_on(self._drag, self._state[:, 0:2], self._state[:, 2:4], pull, time)
         rows = [row for ball in np.flatnonzero(self._radius > 0.0).tolist() for row in self._turned(ball)]
         contacts = np.array(rows, dtype=CONTACT)
         return together(contacts, crossed) if crossed else contacts

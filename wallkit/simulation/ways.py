@@ -12,7 +12,7 @@ from wallkit.arguments import ABOVE_0, number, of_type, word
 from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.scene.start_overlaps import TOUCHING
-from wallkit.simulation.damping import damping_of
+from wallkit.simulation.damping import damping_of, slowing_of
 from wallkit.simulation.run import Ending, Kind, Run
 from wallkit.simulation.world import Way, World
 
@@ -169,7 +169,7 @@ def partings(run: Run, stepped: Stepped) -> list[Parting]:
 
 def _flies_off(run: Run) -> NDArray[np.bool_]:
     """(n,) balls that left the scene, and that nothing slows down: where they are later is known, too."""
-    free = damping_of(run.scene) is None
+    free = damping_of(run.scene) is None and slowing_of(run.scene).drag is None
     return np.array([free and ending is Ending.LEFT_SCENE for ending in run.ending], dtype=np.bool_)
 
 
