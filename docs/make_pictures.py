@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from wallkit import Balls, ImportOptions, Run, Scene, Walls, aim, simulate, step_through, survey
-from wallkit.scene.opening import Wishes, open_scene
+from wallkit.scene.opening import open_scene
+from wallkit.scene.wishes import Wishes
 from wallkit.view.aim_picture import aim_canvas
 from wallkit.view.canvas import Canvas, Label, Shape
 from wallkit.view.film import film

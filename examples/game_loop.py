@@ -9,7 +9,7 @@ world = wallkit.World(wallkit.Scene(room, ball, gravity=(0, -300), sensors=goal)
 
 for frame in range(180):
     for contact in world.step(1 / 60):
-        if contact["kind"] >= wallkit.Kind.ENTER:
+        if contact["kind"] >= wallkit.ContactKind.ENTER:
             print(f"frame {frame}: through the goal at {contact['time']:.4f} s")
     if frame == 90:
         world.place(0, velocity=(-150, 250))

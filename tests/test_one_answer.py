@@ -13,7 +13,7 @@ import pytest
 
 import wallkit
 from wallkit.cli.play import reader
-from wallkit.scene.opening import USUAL
+from wallkit.scene.wishes import USUAL
 from wallkit.view.page.answers import Answers
 from wallkit.view.page.questions import Opening
 from wallkit.walls.checking.free_space import free_space

@@ -30,17 +30,18 @@ if TYPE_CHECKING:
     from wallkit.levels.aim import aim
     from wallkit.levels.check_level import LevelCheck, check_level
     from wallkit.levels.windows import Window, Windows
-    from wallkit.scene.opening import OpenedScene, Wishes, open_scene
+    from wallkit.scene.opening import OpenedScene, open_scene
     from wallkit.scene.room_balls import RoomBalls
     from wallkit.scene.scene import Balls, Scene, SceneError
+    from wallkit.scene.wishes import Wishes
     from wallkit.simulation.count import count
     from wallkit.simulation.counts import Counts
     from wallkit.simulation.horizon import Horizon
-    from wallkit.simulation.prepared import Prepared, prepare
-    from wallkit.simulation.run import CONTACT, FINAL, Ending, Kind, Run
+    from wallkit.simulation.prepared import PreparedScene, prepare
+    from wallkit.simulation.run import CONTACT, FINAL, ContactKind, Ending, Run
     from wallkit.simulation.simulate import simulate
     from wallkit.simulation.streams import RandomBalls, survey_stream
-    from wallkit.simulation.survey import Totals, survey
+    from wallkit.simulation.survey import SurveyTotals, survey
     from wallkit.simulation.ways import Stepped, step_through
     from wallkit.simulation.world import World
     from wallkit.view.film import film
@@ -61,12 +62,13 @@ _HOMES = {
     "wallkit.levels.check_level": ("LevelCheck", "check_level"),
     "wallkit.levels.aim": ("aim",),
     "wallkit.levels.windows": ("Window", "Windows"),
-    "wallkit.scene.opening": ("OpenedScene", "Wishes", "open_scene"),
+    "wallkit.scene.opening": ("OpenedScene", "open_scene"),
+    "wallkit.scene.wishes": ("Wishes",),
     "wallkit.scene.room_balls": ("RoomBalls",),
     "wallkit.simulation.count": ("count",),
     "wallkit.simulation.counts": ("Counts",),
     "wallkit.simulation.horizon": ("Horizon",),
-    "wallkit.simulation.run": ("CONTACT", "FINAL", "Ending", "Kind", "Run"),
+    "wallkit.simulation.run": ("CONTACT", "FINAL", "Ending", "ContactKind", "Run"),
     "wallkit.simulation.streams": ("RandomBalls", "survey_stream"),
     "wallkit.view.film": ("film",),
     "wallkit.view.replay": ("replay_html",),
@@ -74,8 +76,8 @@ _HOMES = {
     "wallkit.walls.repairing.passes": ("Repairs",),
     "wallkit.scene.scene": ("Balls", "Scene", "SceneError"),
     "wallkit.simulation.simulate": ("simulate",),
-    "wallkit.simulation.prepared": ("Prepared", "prepare"),
-    "wallkit.simulation.survey": ("Totals", "survey"),
+    "wallkit.simulation.prepared": ("PreparedScene", "prepare"),
+    "wallkit.simulation.survey": ("SurveyTotals", "survey"),
     "wallkit.walls": ("Material", "Wall", "Walls"),
     "wallkit.walls.walls": ("WallsError",),
     "wallkit.walls.importing.pipeline": ("import_walls",),
@@ -89,6 +91,7 @@ __all__ = [
     "CONTACT",
     "FINAL",
     "Balls",
+    "ContactKind",
     "Counts",
     "Drawing",
     "DrawingError",
@@ -98,13 +101,12 @@ __all__ = [
     "Gap",
     "Horizon",
     "ImportOptions",
-    "Kind",
     "Layer",
     "LevelCheck",
     "LimitError",
     "Material",
     "OpenedScene",
-    "Prepared",
+    "PreparedScene",
     "Problem",
     "RandomBalls",
     "Reference",
@@ -115,7 +117,7 @@ __all__ = [
     "SceneError",
     "Stepped",
     "Subpath",
-    "Totals",
+    "SurveyTotals",
     "Wall",
     "WallkitError",
     "Walls",

@@ -307,9 +307,9 @@ RESULTS = {
     "Horizon",
     "LevelCheck",
     "OpenedScene",
-    "Prepared",
+    "PreparedScene",
     "Stepped",
-    "Totals",
+    "SurveyTotals",
     "Wall",
     "Window",
     "Windows",
@@ -317,7 +317,7 @@ RESULTS = {
 }  # made by wallkit
 DTYPES = {"CONTACT", "FINAL"}
 READ = {"Drawing", "DrawnPath", "Layer", "Problem", "Subpath"}  # plain records, filled by the readers piece by piece
-ENUMS_AND_ERRORS = {"DrawingError", "Ending", "Kind", "LimitError", "SceneError", "WallkitError", "WallsError"}
+ENUMS_AND_ERRORS = {"DrawingError", "Ending", "ContactKind", "LimitError", "SceneError", "WallkitError", "WallsError"}
 TESTED_ELSEWHERE = {"ImportOptions", "import_walls"}  # with the options that every door shares
 
 CASES = [

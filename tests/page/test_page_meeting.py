@@ -8,7 +8,7 @@ import pytest
 
 from wallkit import simulate
 from wallkit.cli.play import reader
-from wallkit.simulation.run import Kind
+from wallkit.simulation.run import ContactKind
 from wallkit.view.page.answers import Answers
 
 
@@ -28,7 +28,7 @@ def test_the_page_flies_balls_that_meet_as_the_library_does(sample, until):
         time.sleep(0.5)
         answer = answers.simulate(body, document)
     run = simulate(scene, until=until)
-    assert np.count_nonzero(run.contacts["kind"] == Kind.BALL) > 5
+    assert np.count_nonzero(run.contacts["kind"] == ContactKind.BALL) > 5
     assert set(column(answer["contacts"]["time"])) == set(run.contacts["time"].tolist())
     assert column(answer["end"]["x"]) == run.final["x"].tolist()
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from test_page_browser import FLYING
 
-from wallkit import Balls, Kind, Material, Scene, Walls, simulate
+from wallkit import Balls, ContactKind, Material, Scene, Walls, simulate
 from wallkit.scene.scene_files import scene_to_json
 from wallkit.simulation.energy import lowest
 from wallkit.simulation.gliding import guides
@@ -119,7 +119,7 @@ def expected(run, time, about):
 def test_graphs_of_parabolas_slides_glides_and_pivots_are_the_librarys_numbers(flown, until):
     page, run = flown(bowl())
     bends = guides(run.scene.walls, run.contacts)
-    assert Kind.SLIDE in run.contacts["kind"]
+    assert ContactKind.SLIDE in run.contacts["kind"]
     assert (np.abs(np.abs(bends) - 7.0) < 1e-9).any(), "no pivot about a corner"
     assert (np.abs(bends) > 8.0).any(), "no glide along an arc"
     show(page, until)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from wallkit import Balls, Kind, Material, Scene, Walls, simulate
+from wallkit import Balls, ContactKind, Material, Scene, Walls, simulate
 from wallkit.view.replay import replay_html, thinned
 
 ROOM = [(0, 0), (400, 0), (400, 300), (0, 300)]
@@ -73,7 +73,7 @@ def test_balls_are_drawn_where_the_library_says(shown, y_axis):
 @pytest.mark.parametrize("gravity", [(0.0, -60.0), (25.0, -50.0)])
 def test_falling_sliding_and_resting_balls_are_drawn_where_the_library_says(shown, gravity):
     run = simulate(scene(balls=4, gravity=gravity, restitution=0.5), until=40.0)
-    assert Kind.SLIDE in run.contacts["kind"]
+    assert ContactKind.SLIDE in run.contacts["kind"]
     page = shown(run)
     for time in [*np.linspace(0.0, 40.0, 60), *run.contacts["time"][::7]]:
         for ball, place in enumerate(run.position(time)):
@@ -101,7 +101,7 @@ def test_falling_balls_that_are_slowed_are_drawn_where_the_library_says(shown, s
     )
     balls = Balls([(30, 60), (100, 80), (230, 240)], [(3, 0), (40, 0), (10, 5)], [4.0, 0.0, 8.0])
     run = simulate(Scene(bowl, balls, gravity=(0.0, -60.0), **slows), until=12.0)
-    assert Kind.SLIDE in run.contacts["kind"]
+    assert ContactKind.SLIDE in run.contacts["kind"]
     page = shown(run)
     for time in [*np.linspace(0.0, 12.0, 30), *run.contacts["time"][::5]]:
         for ball, place in enumerate(run.position(time)):
@@ -112,7 +112,7 @@ def test_falling_balls_that_are_slowed_are_drawn_where_the_library_says(shown, s
 def test_sensors_are_drawn_and_change_no_flight(shown):
     gate = Walls.from_polylines([[(100, 0), (100, 300)]], closed=False, names=["gate"])
     run = simulate(replace(scene(), sensors=gate), until=20.0)
-    assert Kind.EXIT in run.contacts["kind"]
+    assert ContactKind.EXIT in run.contacts["kind"]
     page = shown(run)
     assert page.evaluate("Wallkit.replay.player.picture.sensors.count") == 1
     for time in np.linspace(0.0, 20.0, 21):

@@ -8,7 +8,7 @@ from PIL import Image
 
 import wallkit
 from wallkit.cli.play import reader
-from wallkit.scene.opening import USUAL
+from wallkit.scene.wishes import USUAL
 from wallkit.view.page.answers import FILM_SECONDS, SAVED, Answers, QuestionError
 from wallkit.view.page.questions import Opening
 from wallkit.view.page.worlds import CompilingError

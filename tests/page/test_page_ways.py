@@ -8,7 +8,7 @@ import pytest
 
 import wallkit
 from wallkit.cli.play import reader
-from wallkit.scene.opening import USUAL
+from wallkit.scene.wishes import USUAL
 from wallkit.view.page.answers import Answers, QuestionError
 from wallkit.view.page.questions import Opening
 from wallkit.view.page.ways import MOST_FRAMES

@@ -13,7 +13,7 @@ import pytest
 
 from importers.errors import WallkitError
 from wallkit.cli.play import reader
-from wallkit.scene.opening import USUAL
+from wallkit.scene.wishes import USUAL
 from wallkit.view.page.answers import Answers
 from wallkit.view.page.bounds import HEAVY, LIGHT, LIGHT_CONTACTS
 from wallkit.view.page.questions import Opening

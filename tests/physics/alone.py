@@ -4,13 +4,13 @@ import numpy as np
 
 from wallkit import Balls, Scene, survey
 from wallkit.simulation.modelled import Modelled
-from wallkit.simulation.prepared import Prepared
+from wallkit.simulation.prepared import PreparedScene
 
 
 def flown(scene, index="grid", **limits):
     """Totals with a fine index, as surveys make it, or with none, and what the kernels see of the scene."""
     modelled = Modelled(scene, index=index, machine_code=True, fine=True)
-    return survey(Prepared(scene, modelled, None), **limits), modelled
+    return survey(PreparedScene(scene, modelled, None), **limits), modelled
 
 
 def assert_same_bits(one, other):

@@ -104,7 +104,7 @@ def test_the_first_time_at_a_target_is_that_of_a_run():
     scene = wallkit.Scene(BOX, sensors=sensor)
     found = check(scene, draw, 60, 40, "gate")
     run = wallkit.simulate(replace(scene, balls=draw(0, 60)), bounces=40)
-    crossed = run.contacts[run.contacts["kind"] >= wallkit.Kind.ENTER]
+    crossed = run.contacts[run.contacts["kind"] >= wallkit.ContactKind.ENTER]
     first = [crossed["time"][crossed["ball"] == ball].min(initial=math.inf) for ball in range(60)]
     reached = np.array(first)[np.isfinite(first)]
     assert found.reached.count == len(reached)

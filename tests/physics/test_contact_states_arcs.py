@@ -8,7 +8,7 @@ import pytest
 
 from wallkit import Balls, Ending, Material, Scene, Walls, World, simulate
 from wallkit.kernels.flight.pendulum import carlson_rf, swing
-from wallkit.simulation.run import Kind
+from wallkit.simulation.run import ContactKind
 
 G = 9.81
 DOWN = (0.0, -G)
@@ -95,7 +95,7 @@ def test_a_bowl_without_friction_keeps_a_ball_gliding_with_its_energy():
     bowl = Walls.from_polylines([[[-3, 0], [3, 0]]], bulges=[[1, 0]], closed=False, material=Material(0.8, 1.0))
     run = simulate(Scene(bowl, Balls([-1.0, 1.0], [0.0, 0.0], 0.1), gravity=DOWN), until=1e4)
     slide = run.contacts[-1]
-    assert slide["kind"] == Kind.SLIDE
+    assert slide["kind"] == ContactKind.SLIDE
     energy = 0.5 * (slide["vx"] ** 2 + slide["vy"] ** 2) + G * slide["y"]
     for time in (100.0, 5000.0, 1e4):
         (vx, vy), (x, y) = run.velocity(time)[0], run.position(time)[0]
@@ -117,7 +117,7 @@ def loop(square, radius):
 @pytest.mark.parametrize("part", [2.1, 2.5, 3.0, 4.0, 4.9, 4.99])
 def test_a_ball_too_slow_for_a_loop_leaves_it_where_nothing_presses_it(radius, part):
     rho = 2.0 - radius
-    leave = next(contact for contact in loop(part * G * rho, radius) if contact["kind"] == Kind.LEAVE)
+    leave = next(contact for contact in loop(part * G * rho, radius) if contact["kind"] == ContactKind.LEAVE)
     assert (leave["y"] - 2.0) / rho == pytest.approx((part - 2.0) / 3.0, abs=1e-13)
     assert leave["x"] > 0.0
 
@@ -126,9 +126,11 @@ def test_a_ball_too_slow_for_a_loop_leaves_it_where_nothing_presses_it(radius, p
 def test_a_loop_holds_a_ball_from_five_g_rho_on(radius):
     rho = 2.0 - radius
     for part in (5.0 * (1 + 1e-12), 5.1, 9.0):
-        leave = next(contact for contact in loop(part * G * rho, radius) if contact["kind"] == Kind.LEAVE)
+        leave = next(contact for contact in loop(part * G * rho, radius) if contact["kind"] == ContactKind.LEAVE)
         np.testing.assert_allclose([leave["x"], leave["y"]], [-rho, 2.0], atol=1e-12)
-    leave = next(contact for contact in loop(5.0 * (1 - 1e-9) * G * rho, radius) if contact["kind"] == Kind.LEAVE)
+    leave = next(
+        contact for contact in loop(5.0 * (1 - 1e-9) * G * rho, radius) if contact["kind"] == ContactKind.LEAVE
+    )
     assert leave["x"] > 0.0
 
 
@@ -138,7 +140,7 @@ def test_a_ball_slides_off_a_dome_as_off_a_sphere(radius, speed):
     dome = Walls.from_polylines([[[3, 0], [-3, 0]]], bulges=[[1, 0]], closed=False, material=Material(0.5, 1.0))
     rho = 3.0 + radius
     run = simulate(Scene(dome, Balls([0.0, rho], [speed, 0.0], radius), gravity=DOWN), until=10.0)
-    leave = run.contacts[run.contacts["kind"] == Kind.LEAVE][0]
+    leave = run.contacts[run.contacts["kind"] == ContactKind.LEAVE][0]
     assert leave["y"] / rho == pytest.approx(2.0 / 3.0 + speed * speed / (3.0 * G * rho), abs=1e-13)
 
 
@@ -159,7 +161,7 @@ def test_a_nearly_straight_arc_is_slid_down_as_the_line_that_it_nearly_is(bulge)
             [[[0, 300], [400, 0]]], bulges=[[bend, 0]], closed=False, material=Material(0.0, 1.0)
         )
         run = simulate(Scene(slope, Balls([40.0, 276.0], [0.0, 0.0], 0.0), gravity=(0.0, -100.0)), until=5.0)
-        leaves.append(run.contacts[run.contacts["kind"] == Kind.LEAVE][0])
+        leaves.append(run.contacts[run.contacts["kind"] == ContactKind.LEAVE][0])
     for leave in leaves[1:]:
         # its sagitta is 250 bulge; energy alone decides the speed, and the place is the end
         assert leave["time"] == pytest.approx(leaves[0]["time"], rel=20 * bulge)

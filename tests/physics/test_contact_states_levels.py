@@ -9,7 +9,7 @@ import shapely
 from wallkit import Balls, Ending, Material, Scene, Walls, import_walls, simulate
 from wallkit.scene.samples import samples
 from wallkit.scene.starting_places import roomiest
-from wallkit.simulation.run import Kind
+from wallkit.simulation.run import ContactKind
 
 DRAWINGS = [sample.path for sample in samples() if sample.path.suffix in (".svg", ".ai")]
 
@@ -88,7 +88,7 @@ def test_a_point_that_corners_of_two_dead_walls_stop_rests_there_and_not_outside
     )
     assert run.ending == (Ending.AT_REST,)
     assert np.hypot(run.final["x"][0], run.final["y"][0]) < 1e-8
-    assert np.count_nonzero(run.contacts["kind"] == Kind.EDGE) < 200
+    assert np.count_nonzero(run.contacts["kind"] == ContactKind.EDGE) < 200
 
 
 @pytest.mark.parametrize("radius", [0.0, 4.0])
@@ -103,6 +103,6 @@ def test_compiled_contact_states_have_the_bits_of_interpreted_ones(radius):
     x = np.array([-80.0, -20.0, 5.0, 20.0, 90.0, 100.0])
     scene = Scene(level, Balls(np.stack([x, np.full(6, 110.0)], 1), np.zeros((6, 2)), radius), gravity=(0.0, -100.0))
     one, other = (simulate(scene, until=20.0, bounces=500, mode=mode) for mode in ("interpreted", "compiled"))
-    assert {Kind.SLIDE, Kind.LEAVE} <= set(one.contacts["kind"].tolist())
+    assert {ContactKind.SLIDE, ContactKind.LEAVE} <= set(one.contacts["kind"].tolist())
     assert one.contacts.tobytes() == other.contacts.tobytes()
     assert one.final.tobytes() == other.final.tobytes()

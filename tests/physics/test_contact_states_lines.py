@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from wallkit import Balls, Ending, Material, Scene, Walls, World, simulate
-from wallkit.simulation.run import Kind
+from wallkit.simulation.run import ContactKind
 
 G = 100.0
 DOWN = (0.0, -G)
@@ -30,7 +30,7 @@ def test_a_ramp_ends_in_the_same_state_in_however_many_pieces_it_is_drawn(pieces
     start = np.array([40.0, 270.0]) + radius * np.array([0.6, 0.8])
     scene = Scene(walls(ramp(pieces), restitution=restitution), Balls(start, [0.0, 0.0], radius), gravity=DOWN)
     run = simulate(scene, until=6.0)
-    leaves = run.contacts[run.contacts["kind"] == Kind.LEAVE]
+    leaves = run.contacts[run.contacts["kind"] == ContactKind.LEAVE]
     assert len(leaves) == 1
     speed = math.sqrt(2.0 * G * 270.0)
     # a joint of 50 is off its place by 1e-13, and what it turns the ball by is that of its length
@@ -38,7 +38,7 @@ def test_a_ramp_ends_in_the_same_state_in_however_many_pieces_it_is_drawn(pieces
     assert leaves["time"][0] == pytest.approx(speed / (0.6 * G), rel=1e-12)
     end = np.array([400.0, 0.0]) + radius * np.array([0.6, 0.8])
     np.testing.assert_allclose([leaves["x"][0], leaves["y"][0]], end, atol=1e-10)
-    assert np.count_nonzero(run.contacts["kind"] == Kind.SLIDE) == np.count_nonzero(ramp(pieces)[1:, 0] > 40.0)
+    assert np.count_nonzero(run.contacts["kind"] == ContactKind.SLIDE) == np.count_nonzero(ramp(pieces)[1:, 0] > 40.0)
 
 
 @pytest.mark.parametrize("slope", [0.5, 2.0, 8.0])
@@ -68,7 +68,7 @@ def table(speed, radius, gravity=300.0):
 def test_a_slow_disc_pivots_about_the_end_of_a_table_and_leaves_it_where_nothing_presses_it(speed):
     g, r = 300.0, 8.0
     leave = table(speed, r).contacts[-1]
-    assert (leave["kind"], leave["edge"]) == (Kind.LEAVE, -1)
+    assert (leave["kind"], leave["edge"]) == (ContactKind.LEAVE, -1)
     cosine = 2.0 / 3.0 + speed * speed / (3.0 * g * r)  # of the angle from the top: v^2 = g r cos
     assert leave["ny"] == pytest.approx(cosine, abs=1e-13)
     assert math.hypot(leave["vx"], leave["vy"]) == pytest.approx(math.sqrt(g * r * cosine), rel=1e-13)
@@ -77,7 +77,7 @@ def test_a_slow_disc_pivots_about_the_end_of_a_table_and_leaves_it_where_nothing
 @pytest.mark.parametrize("speed", [49.0, 60.0, 300.0])
 def test_a_fast_disc_leaves_the_end_of_a_table_at_once(speed):
     contacts = table(speed, 8.0).contacts  # v^2 >= g r = 2400
-    assert contacts["kind"].tolist() == [Kind.EDGE, Kind.SLIDE, Kind.LEAVE]
+    assert contacts["kind"].tolist() == [ContactKind.EDGE, ContactKind.SLIDE, ContactKind.LEAVE]
     assert contacts["x"][-1] == pytest.approx(100.0, abs=1e-12)
 
 
@@ -96,11 +96,11 @@ def test_a_valley_takes_the_normal_part_of_the_speed_by_the_restitution_of_its_o
     level = walls(line, restitution=restitution)
     start = np.array([-200.0, 150.0]) + radius * np.array([0.6, 0.8])
     run = simulate(Scene(level, Balls(start, [0.0, 0.0], radius), gravity=DOWN), until=20.0)
-    bounce = run.contacts[run.contacts["kind"] == Kind.EDGE][1]
+    bounce = run.contacts[run.contacts["kind"] == ContactKind.EDGE][1]
     speed = math.sqrt(2.0 * G * (start[1] - bounce["y"]))
     assert bounce["vx"] == pytest.approx(0.8 * speed, rel=1e-12)
     assert bounce["vy"] == pytest.approx(restitution * 0.6 * speed, abs=1e-9)
-    slides = run.contacts[run.contacts["kind"] == Kind.SLIDE]
+    slides = run.contacts[run.contacts["kind"] == ContactKind.SLIDE]
     assert slides["vx"][-1] == pytest.approx(0.8 * speed, rel=1e-12)
     assert slides["ny"][-1] == 1.0
 
@@ -122,7 +122,7 @@ def test_a_ball_with_loss_along_the_wall_rests_on_no_slope():
     level = walls([[-400, 300], [400, -300]], restitution=0.5, tangential=0.9)
     run = simulate(Scene(level, Balls([-200.0, 160.0], [0.0, 0.0], 5.0), gravity=DOWN), until=3.0)
     assert run.ending == (Ending.TIME_REACHED,)
-    begun = run.contacts[run.contacts["kind"] == Kind.SLIDE][-1]
+    begun = run.contacts[run.contacts["kind"] == ContactKind.SLIDE][-1]
     assert (begun["vx"], begun["vy"]) == (0.0, 0.0)  # the bounces have taken all, and it starts anew
     fallen = 0.5 * 0.6 * G * (3.0 - begun["time"]) ** 2
     moved = math.hypot(run.final["x"][0] - begun["x"], run.final["y"][0] - begun["y"])
@@ -145,7 +145,7 @@ def test_static_friction_holds_a_ball_that_turns_on_a_slope_and_lets_one_pass_th
     # down 3 in 4, steeper than it holds; on over the floor; up 1 in 10 to where v^2 = 2 g h, and held there
     assert run.ending == (Ending.AT_REST,)
     assert run.final["x"][0] > 400.0
-    bounce = run.contacts[run.contacts["kind"] == Kind.SLIDE][1]
+    bounce = run.contacts[run.contacts["kind"] == ContactKind.SLIDE][1]
     speed = math.hypot(bounce["vx"], bounce["vy"]) * (10.0 / math.sqrt(101.0))  # less the normal part at the next joint
     assert run.final["y"][0] == pytest.approx(speed * speed / (2.0 * G), rel=1e-9)
 

@@ -11,7 +11,7 @@ import pytest
 
 import wallkit.view.page
 from wallkit import Balls, Material, Scene, Walls, World, simulate, survey
-from wallkit.simulation.run import Kind
+from wallkit.simulation.run import ContactKind
 from wallkit.view.page.payload import run_table
 from wallkit.view.tracks import tracks
 
@@ -36,7 +36,7 @@ RING = Walls.from_polylines([[[-1.0, -2.8], [1.0, -2.8]]], bulges=[[1.0, 1.0]]) 
 
 
 def crossings(run):
-    return run.contacts[run.contacts["kind"] >= Kind.ENTER]
+    return run.contacts[run.contacts["kind"] >= ContactKind.ENTER]
 
 
 def test_a_gate_at_the_bottom_counts_every_swing():
@@ -46,24 +46,28 @@ def test_a_gate_at_the_bottom_counts_every_swing():
     np.testing.assert_allclose(np.diff(times), 2 * quarter, rtol=1e-7)  # it was let go within rounding of the wall
     assert len(times) == int((20.0 / quarter + 1) / 2)
     sides = crossings(run)["kind"].tolist()
-    assert sides == [Kind.EXIT if k % 2 == (sides[0] != Kind.EXIT) else Kind.ENTER for k in range(len(sides))]
+    assert sides == [
+        ContactKind.EXIT if k % 2 == (sides[0] != ContactKind.EXIT) else ContactKind.ENTER for k in range(len(sides))
+    ]
 
 
 def test_a_ball_that_glides_through_a_round_sensor_enters_and_leaves_it_on_its_circle():
     seen = crossings(simulate(swinging(RING), until=20.0))
     assert len(seen) > 10
-    assert seen["kind"].tolist() == [Kind.ENTER, Kind.EXIT] * (len(seen) // 2) + [Kind.ENTER] * (len(seen) % 2)
+    assert seen["kind"].tolist() == [ContactKind.ENTER, ContactKind.EXIT] * (len(seen) // 2) + [ContactKind.ENTER] * (
+        len(seen) % 2
+    )
     np.testing.assert_allclose(np.hypot(seen["x"], seen["y"] + 2.8), 1.0, atol=1e-12)
     np.testing.assert_allclose(np.hypot(seen["x"], seen["y"]), 2.9, atol=1e-12)
 
 
 def test_a_world_and_a_survey_see_the_same_crossings_of_a_gliding_ball():
     run, world = simulate(swinging(RING), until=10.0), World(swinging(RING))
-    times = [float(row["time"]) for _frame in range(100) for row in world.step(0.1) if row["kind"] >= Kind.ENTER]
+    times = [float(row["time"]) for _frame in range(100) for row in world.step(0.1) if row["kind"] >= ContactKind.ENTER]
     np.testing.assert_allclose(times, crossings(run)["time"], rtol=1e-12)
     totals = survey(swinging(RING), until=10.0)
     assert totals.crossings.tolist() == [
-        [int((crossings(run)["kind"] == kind).sum()) for kind in (Kind.ENTER, Kind.EXIT)]
+        [int((crossings(run)["kind"] == kind).sum()) for kind in (ContactKind.ENTER, ContactKind.EXIT)]
     ]
 
 
@@ -110,7 +114,7 @@ def test_the_page_draws_a_gliding_ball_where_it_is(tmp_path):
     )
     balls = Balls([[2.9 * math.sin(1), -2.9 * math.cos(1)], [0, 3.6]], [[0, 0], [0.3, 0]], 0.1)
     run = simulate(Scene(level, balls, gravity=DOWN), until=30.0)
-    assert {int(edge) for edge in run.contacts["edge"][run.contacts["kind"] == Kind.SLIDE]} >= {-1, 0, 1}
+    assert {int(edge) for edge in run.contacts["edge"][run.contacts["kind"] == ContactKind.SLIDE]} >= {-1, 0, 1}
     (tmp_path / "run.json").write_text(json.dumps(run_table(run, horizon=False)), encoding="utf-8")
     folder = Path(wallkit.view.page.__file__).parent / "static"
     script = "".join((folder / name).read_text(encoding="utf-8") for name in ("pendulum.js", "motion.js"))

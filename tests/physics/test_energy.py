@@ -9,7 +9,7 @@ from wallkit import Balls, Material, Scene, Walls, simulate
 from wallkit.cli.summary import energy_words
 from wallkit.simulation.energy import energies, farthest
 from wallkit.simulation.horizon import trusted_until
-from wallkit.simulation.run import Kind
+from wallkit.simulation.run import ContactKind
 
 
 def half_pipe(restitution=1.0):
@@ -70,8 +70,8 @@ def test_a_slide_and_a_sensor_are_no_bounces_for_the_run_the_horizon_and_the_rep
 
     run = simulate(slide_through_a_sensor(), until=8.0)
     kinds = run.contacts["kind"]
-    assert {Kind.SLIDE, Kind.EXIT} <= set(kinds.tolist())
-    bounces = int(np.count_nonzero(kinds <= Kind.VERTEX))
+    assert {ContactKind.SLIDE, ContactKind.EXIT} <= set(kinds.tolist())
+    bounces = int(np.count_nonzero(kinds <= ContactKind.VERTEX))
     assert run.bounces.tolist() == [bounces]
     (said,) = run.trusted_until()
     assert said.whole

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import wallkit
-from wallkit.simulation.run import Ending, Kind
+from wallkit.simulation.run import ContactKind, Ending
 
 FLOOR = np.array([[-100.0, 0.0], [100.0, 0.0]])
 BOX = np.array([[0.0, 0.0], [40.0, 0.0], [40.0, 30.0], [0.0, 30.0]])
@@ -54,8 +54,8 @@ def test_a_ball_slides_down_a_slope_and_flies_off_its_end():
     scene = wallkit.Scene(walls(slope, material=steel), wallkit.Balls([2.0, 8.5], [0.0, 0.0]), gravity=(0.0, -10.0))
     run = wallkit.simulate(scene, until=10.0)
     kinds = run.contacts["kind"]
-    assert Kind.SLIDE in kinds
-    assert kinds[-1] == Kind.LEAVE
+    assert ContactKind.SLIDE in kinds
+    assert kinds[-1] == ContactKind.LEAVE
     leave = run.contacts[-1]
     # no friction: tangential bounces lose nothing, normal ones lose what the drop along the normal had given
     assert (leave["x"], leave["y"]) == (pytest.approx(10.0, abs=1e-9), pytest.approx(0.0, abs=1e-9))
@@ -118,10 +118,17 @@ def test_sensors_report_and_do_not_bounce():
     balls = wallkit.Balls([5.0, 15.0], [5.0, 0.0])
     plain = wallkit.simulate(wallkit.Scene(walls(BOX, closed=True), balls), until=14.0)
     run = wallkit.simulate(wallkit.Scene(walls(BOX, closed=True), balls, sensors=line), until=14.0)
-    seen = run.contacts[run.contacts["kind"] >= Kind.ENTER]
+    seen = run.contacts[run.contacts["kind"] >= ContactKind.ENTER]
     assert seen["time"].tolist() == [1.0, 3.0, 5.0, 9.0, 11.0, 13.0]
     assert seen["wall"].tolist() == [0, 1, 1, 1, 1, 0]
-    assert [Kind(k) for k in seen["kind"]] == [Kind.EXIT, Kind.ENTER, Kind.EXIT, Kind.ENTER, Kind.EXIT, Kind.ENTER]
+    assert [ContactKind(k) for k in seen["kind"]] == [
+        ContactKind.EXIT,
+        ContactKind.ENTER,
+        ContactKind.EXIT,
+        ContactKind.ENTER,
+        ContactKind.EXIT,
+        ContactKind.ENTER,
+    ]
     assert run.bounces.tolist() == [1] == plain.bounces.tolist()
     np.testing.assert_array_equal(run.position(13.5), plain.position(13.5))
 

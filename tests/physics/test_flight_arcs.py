@@ -93,7 +93,7 @@ def test_tangential_joints_give_no_ghost_hits():
     moved = wallkit.simulate(
         scene_of(stadium(1.0, 4.0), position=[-1.0, 0.0], velocity=[1.0, 1.0], radius=0.25), bounces=500
     )
-    assert (moved.contacts["kind"] == wallkit.Kind.EDGE).all()
+    assert (moved.contacts["kind"] == wallkit.ContactKind.EDGE).all()
 
 
 def test_many_arcs_index_changes_no_bit():

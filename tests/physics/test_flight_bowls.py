@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from wallkit import Balls, Ending, Material, Scene, Walls, simulate, survey
-from wallkit.simulation.run import Kind
+from wallkit.simulation.run import ContactKind
 
 QUARTER = np.tan(np.pi / 8)  # the bulge of a quarter circle; negative in a room, which runs clockwise
 
@@ -68,7 +68,7 @@ def test_a_ball_that_slides_smoothly_into_a_hollow_swings_on_in_it_for_ever():
     walls = walls_of("stadium", 0.3, 1.0)
     run = simulate(Scene(walls, Balls([[330, 250]], [[163, 81]], 8.0), gravity=(0, 300)), bounces=3000)
     assert run.ending == (Ending.SWINGING,)
-    slides = run.contacts[run.contacts["kind"] == Kind.SLIDE]
+    slides = run.contacts[run.contacts["kind"] == ContactKind.SLIDE]
     energy = 0.5 * (slides["vx"] ** 2 + slides["vy"] ** 2) - 300 * slides["y"]
     np.testing.assert_allclose(energy, energy[0], rtol=1e-12)
     assert {(float(x), float(y)) for x, y in zip(slides["x"][1:], slides["y"][1:], strict=True)} == {

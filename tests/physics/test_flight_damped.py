@@ -13,7 +13,7 @@ from wallkit.accuracy import scenes
 from wallkit.kernels.flight.damping import free_time, last_flight, slowed
 from wallkit.kernels.jit import compiled, kernel
 from wallkit.simulation.modelled import Modelled
-from wallkit.simulation.run import Ending, Kind
+from wallkit.simulation.run import ContactKind, Ending
 from wallkit.simulation.streams import RandomBalls, survey_stream
 
 FAR = Walls.from_polylines([[(-1e6, -1e6), (1e6, -1e6), (1e6, 1e6), (-1e6, 1e6)]])
@@ -226,7 +226,7 @@ def test_sensors_see_slowed_balls_when_they_pass(acts):
     wall = Walls.from_polylines([[(40.0, -9.0), (40.0, 9.0)]], closed=False)
     plain = Scene(wall, Balls([0.0, 0.0], [16.0, 0.0], 2.0), **acts)
     run = simulate(Scene(wall, plain.balls, sensors=sensors, **acts), until=100.0)
-    seen = run.contacts[run.contacts["kind"] >= Kind.ENTER]
+    seen = run.contacts[run.contacts["kind"] >= ContactKind.ENTER]
     there = simulate(plain, until=100.0)
     assert seen["wall"].tolist()[:3] == [0, 1, 2]
     for crossing in seen:

@@ -12,7 +12,7 @@ from wallkit.kernels.flight.slowed_contact import swing_on
 from wallkit.kernels.impact.drag_motion import eased, time_of_way
 from wallkit.kernels.records import GOES_ON, LIFTS, TIME_IS_UP, TURNS
 from wallkit.simulation.modelled import Modelled
-from wallkit.simulation.run import Kind
+from wallkit.simulation.run import ContactKind
 from wallkit.simulation.simulate import Flights, flown
 
 G = 9.81
@@ -101,7 +101,7 @@ def test_a_ball_goes_up_a_slope_against_friction_and_down_with_less():
     up = Scene(slope, Balls([0.0, 0.0], [8.0, 6.0], 0.0), gravity=(0.0, -gravity), rolling_friction=2.5)
     run = simulate(up, until=4.0)
     top = 10.0 / (6.0 + 2.0)  # 0.6 g against it and 0.8 of the friction
-    assert run.contacts["kind"].tolist()[-1] == Kind.SLIDE
+    assert run.contacts["kind"].tolist()[-1] == ContactKind.SLIDE
     assert run.contacts["time"][-1] == pytest.approx(top, rel=1e-12)
     highest = 0.5 * 10.0 * top
     np.testing.assert_allclose(run.position(top), [[0.8 * highest, 0.6 * highest]], rtol=1e-12)
@@ -317,7 +317,7 @@ def test_sensors_are_crossed_where_the_run_passes_them(acts):
     gates = Walls.from_polylines([[(-15, -12), (15, -12)], [(0, -25), (0, 25)]], closed=False)
     scene = Scene(room(), many(4, 0.4, seed=8), gravity=DOWN, sensors=gates, **acts)
     run = simulate(scene, until=15.0, mode="interpreted")
-    crossed = run.contacts[run.contacts["kind"] >= Kind.ENTER]
+    crossed = run.contacts[run.contacts["kind"] >= ContactKind.ENTER]
     assert len(crossed) >= 8
     for row in crossed:
         x, y = run.position(float(row["time"]))[row["ball"]]
@@ -351,7 +351,7 @@ def test_compiled_kernels_give_the_bits_of_interpreted_ones():
     scene = Scene(room(), many(6, 0.4), gravity=DOWN, drag=0.3, rolling_friction=0.5)
     run = simulate(scene, until=6.0, mode="interpreted")
     machine = simulate(scene, until=6.0, mode="compiled")
-    assert Kind.SLIDE in run.contacts["kind"]
+    assert ContactKind.SLIDE in run.contacts["kind"]
     assert run.contacts.tobytes() == machine.contacts.tobytes()
     assert run.final.tobytes() == machine.final.tobytes()
     totals = survey(scene, until=6.0)
@@ -362,6 +362,6 @@ def test_a_survey_counts_the_crossings_that_a_run_tells():
     gate = line([-15, -12], [15, -12])
     scene = Scene(room(), many(6, 0.4), gravity=DOWN, drag=0.3, rolling_friction=0.5, sensors=gate)
     run, totals = simulate(scene, until=6.0, mode="interpreted"), survey(scene, until=6.0)
-    kinds = run.contacts["kind"] == Kind.ENTER, run.contacts["kind"] == Kind.EXIT
+    kinds = run.contacts["kind"] == ContactKind.ENTER, run.contacts["kind"] == ContactKind.EXIT
     assert totals.crossings.tolist() == [[int(kind.sum()) for kind in kinds]]
     assert kinds[0].any() or kinds[1].any()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from wallkit import Balls, Kind, Scene, Walls, simulate, survey
+from wallkit import Balls, ContactKind, Scene, Walls, simulate, survey
 
 DIAMOND = [[10, 0], [20, 10], [10, 20], [0, 10]]
 FIELD = Walls.from_polylines([[[-100, -100], [-100, 100], [100, 100], [100, -100]]])
@@ -13,9 +13,9 @@ def crossings(outlines, start, velocity, *, bulges=None, gravity=None, until=3.0
     sensors = Walls.from_polylines(outlines, bulges=bulges)
     scene = Scene(FIELD, Balls([start] * 2, [velocity] * 2, 0.5), sensors=sensors, gravity=gravity)
     run, totals = simulate(scene, until=until), survey(scene, until=until)
-    seen = run.contacts[(run.contacts["ball"] == 0) & (run.contacts["kind"] >= Kind.ENTER)]
+    seen = run.contacts[(run.contacts["ball"] == 0) & (run.contacts["kind"] >= ContactKind.ENTER)]
     counts = [
-        [int(((seen["wall"] == w) & (seen["kind"] == kind)).sum()) for kind in (Kind.ENTER, Kind.EXIT)]
+        [int(((seen["wall"] == w) & (seen["kind"] == kind)).sum()) for kind in (ContactKind.ENTER, ContactKind.EXIT)]
         for w in range(len(outlines))
     ]
     assert (totals.crossings == 2 * np.array(counts)).all()

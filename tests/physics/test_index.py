@@ -13,7 +13,7 @@ from wallkit.kernels.index.grid import clearing, home, leaf, moves_to_next
 from wallkit.kernels.records import WIDEST
 from wallkit.simulation.build_grid import AT_LEAST, CROWDED, GROWTH
 from wallkit.simulation.modelled import Modelled
-from wallkit.simulation.prepared import Prepared
+from wallkit.simulation.prepared import PreparedScene
 
 ROOM = np.array([[0.0, 0.0], [400.0, 0.0], [400.0, 300.0], [0.0, 300.0]])
 
@@ -171,7 +171,7 @@ def starts(walls, count, radius, seed):
 
 
 def totals(scene, index):
-    return survey(Prepared(scene, Modelled(scene, index=index, machine_code=True), None), until=20.0, threads=1)
+    return survey(PreparedScene(scene, Modelled(scene, index=index, machine_code=True), None), until=20.0, threads=1)
 
 
 @settings(max_examples=15)

@@ -10,7 +10,7 @@ import jsonschema
 import numpy as np
 import pytest
 
-from wallkit import Balls, Ending, Kind, Scene, SceneError, Walls, open_scene, simulate, step_through
+from wallkit import Balls, ContactKind, Ending, Scene, SceneError, Walls, open_scene, simulate, step_through
 from wallkit.scene.lesson import FRAME_WAYS
 from wallkit.scene.look_over import given_of, look_over
 from wallkit.scene.samples import lessons, samples, shown
@@ -26,7 +26,7 @@ def flown(name, **limits):
 
 
 def bounces_of(run, ball):
-    return run.contacts[(run.contacts["ball"] == ball) & (run.contacts["kind"] <= Kind.VERTEX)]
+    return run.contacts[(run.contacts["ball"] == ball) & (run.contacts["kind"] <= ContactKind.VERTEX)]
 
 
 def mirror_law():
@@ -154,7 +154,7 @@ def first_apart(run):
 
 def counting_pi():
     run = flown("counting-pi")
-    between = int(np.count_nonzero(run.contacts["kind"] == Kind.BALL))
+    between = int(np.count_nonzero(run.contacts["kind"] == ContactKind.BALL))
     scene = run.scene
     counts = {}
     for mass in (1, 100, 10_000, 1_000_000):

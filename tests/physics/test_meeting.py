@@ -47,7 +47,7 @@ def test_two_discs_that_meet_off_centre_exchange_their_speeds_along_the_line_of_
     (contact,) = run.contacts
     assert contact["time"] == pytest.approx(2.4, rel=1e-15)
     assert (contact["ball"], contact["other"], contact["wall"], contact["edge"]) == (0, 1, -1, -1)
-    assert contact["kind"] == wallkit.Kind.BALL
+    assert contact["kind"] == wallkit.ContactKind.BALL
     assert (contact["nx"], contact["ny"]) == pytest.approx((-0.8, -0.6), rel=1e-14)
     assert (contact["px"], contact["py"]) == pytest.approx((5.2, 4.6), rel=1e-15)
     assert (contact["vx"], contact["vy"]) == pytest.approx((0.36, -0.48), rel=1e-14)  # what is across the line stays
@@ -73,7 +73,7 @@ def test_three_discs_in_a_row_meet_when_and_where_the_line_says() -> None:
     """Masses 1, 2, 1 at 2, 5, 8 (gaps 2) and speeds 3, 0, -1: 0 meets 1 at 2/3, then 1 (at speed 2) meets 2."""
     balls = wallkit.Balls([(2, 5), (5, 5), (8, 5)], [(3, 0), (0, 0), (-1, 0)], 0.5, mass=[1.0, 2.0, 1.0])
     run = wallkit.simulate(wallkit.Scene(room(), balls, meeting=True), until=1.3)
-    met = run.contacts[run.contacts["kind"] == wallkit.Kind.BALL]
+    met = run.contacts[run.contacts["kind"] == wallkit.ContactKind.BALL]
     assert met[["ball", "other"]].tolist() == [(0, 1), (1, 2)]
     assert met["time"] == pytest.approx([2 / 3, 2 / 3 + (2 - 2 / 3) / 3], rel=1e-14)
     assert run.final["vx"] == pytest.approx([-1.0, 0.0, 3.0], abs=1e-14)
@@ -122,7 +122,7 @@ def test_momentum_and_energy_stay_to_rounding() -> None:
     mass = scene.balls.mass
     energy = [float(mass @ (run.velocity(t) ** 2).sum(axis=1)) for t in (0.0, 10.0, 30.0)]
     assert energy[1:] == pytest.approx([energy[0]] * 2, rel=1e-14)  # some 20 contacts a ball, a few 2^-53 each
-    met = run.contacts[run.contacts["kind"] == wallkit.Kind.BALL]
+    met = run.contacts[run.contacts["kind"] == wallkit.ContactKind.BALL]
     assert len(met) > 100
     for contact in met:
         one, two = (run.contacts_of(int(ball)) for ball in (contact["ball"], contact["other"]))
@@ -280,7 +280,7 @@ def test_interpreted_and_compiled_kernels_give_the_same_bits_and_survey_the_same
         assert np.array_equal(one.bounces, run.bounces)
         assert np.array_equal(one.position[:, 0], run.final["x"])
         assert np.array_equal(one.velocity[:, 1], run.final["vy"])
-        assert one.hits.sum() == np.count_nonzero(run.contacts["kind"] <= wallkit.Kind.VERTEX)
+        assert one.hits.sum() == np.count_nonzero(run.contacts["kind"] <= wallkit.ContactKind.VERTEX)
 
 
 def test_speeds_become_those_of_maxwell() -> None:
@@ -373,7 +373,7 @@ def test_under_gravity_energy_stays_among_discs_that_bounce_and_meet() -> None:
     scene = gas(4, gravity=(0.3, -1.0))
     scene.balls = wallkit.Balls(scene.balls.position, scene.balls.velocity, 0.45, scene.balls.mass)
     run = wallkit.simulate(scene, until=10.0)
-    assert np.count_nonzero(run.contacts["kind"] == wallkit.Kind.BALL) > 50
+    assert np.count_nonzero(run.contacts["kind"] == wallkit.ContactKind.BALL) > 50
     mass, pull = scene.balls.mass, np.array([0.3, -1.0])
     energies = [
         float(mass @ ((run.velocity(t) ** 2).sum(axis=1) / 2 - run.position(t) @ pull)) for t in (0.0, 5.0, 10.0)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import wallkit
 from wallkit.scene.start_overlaps import clearances
 from wallkit.simulation.prepared import prepare_again
-from wallkit.simulation.run import Kind
+from wallkit.simulation.run import ContactKind
 from wallkit.simulation.streams import RandomBalls, survey_stream
 
 ROOM = wallkit.Walls.from_polylines(
@@ -126,7 +126,10 @@ def test_a_survey_counts_the_crossings_of_a_run(acts, radius, bulge):
     scene = wallkit.Scene(walls, balls, sensors=sensors, **acts)
     contacts = wallkit.simulate(scene, until=20.0, mode="compiled").contacts
     expected = [
-        [np.count_nonzero((contacts["kind"] == kind) & (contacts["wall"] == wall)) for kind in (Kind.ENTER, Kind.EXIT)]
+        [
+            np.count_nonzero((contacts["kind"] == kind) & (contacts["wall"] == wall))
+            for kind in (ContactKind.ENTER, ContactKind.EXIT)
+        ]
         for wall in (0, 1)
     ]
     totals = wallkit.survey(scene, until=20.0, threads=2)

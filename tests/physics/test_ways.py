@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wallkit import Balls, Kind, Material, Scene, SceneError, Walls, World, simulate
+from wallkit import Balls, ContactKind, Material, Scene, SceneError, Walls, World, simulate
 from wallkit.accuracy import scenes
 from wallkit.simulation.ways import MOST_FRAMES, flown_through, last_moment, partings, step_through
 
@@ -71,7 +71,7 @@ def test_round_walls_turn_a_ball_along_their_radius(sides):
     ring = Walls.from_polylines([[(-3.0, 0.0), (3.0, 0.0)]], bulges=[[1.0, 1.0]], sides=sides)
     world = World(Scene(ring, Balls([(6.0, 8.0)], [(-3.0, -4.0)], 1.0)), "overlap")
     (contact,) = world.step(1.25)  # at 3.75 from the middle, 0.75 from the ring, along (3, 4)
-    assert (contact["kind"], contact["wall"]) == (Kind.EDGE, 0)
+    assert (contact["kind"], contact["wall"]) == (ContactKind.EDGE, 0)
     assert (contact["nx"], contact["ny"]) == pytest.approx((0.6, 0.8))
     assert world.velocity[0].tolist() == pytest.approx([3.0, 4.0])
 
@@ -103,7 +103,7 @@ def test_sensors_are_told_in_frames_of_the_overlap_test_too():
     line = Walls.from_polylines([[(7.0, -50.0), (7.0, 50.0)]], closed=False)
     world = World(along_x(4.0, sensors=line), "overlap")
     (crossing,) = world.step(0.75)
-    assert (crossing["time"], crossing["x"], crossing["kind"]) == (0.5, 7.0, Kind.EXIT)
+    assert (crossing["time"], crossing["x"], crossing["kind"]) == (0.5, 7.0, ContactKind.EXIT)
 
 
 def test_a_kicked_ball_goes_on_from_there():

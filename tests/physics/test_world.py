@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wallkit import Balls, Kind, Material, Scene, SceneError, Walls, World, simulate
+from wallkit import Balls, ContactKind, Material, Scene, SceneError, Walls, World, simulate
 from wallkit.accuracy import scenes
 
 FORWARD = (50 * math.cos(0.5), 50 * math.sin(0.5))
@@ -170,7 +170,7 @@ def test_gravity_rest_and_sliding_are_those_of_simulate():
     world = World(scene)
     found = np.concatenate([world.step(0.1) for _ in range(300)])
     run = simulate(scene, until=world.time)
-    assert {kind.label for kind in map(Kind, found["kind"])} >= {"edge", "slide"}
+    assert {kind.label for kind in map(ContactKind, found["kind"])} >= {"edge", "slide"}
     for name in found.dtype.names:
         assert np.array_equal(found[name], run.contacts[name]), name
     assert np.array_equal(world.position, run.position(world.time))
@@ -203,8 +203,8 @@ def test_frames_report_what_crosses_a_sensor_as_a_run_does(acts, dt):
     world = World(scene)
     found = np.concatenate([world.step(dt) for _ in range(round(15.0 / dt))])
     run = simulate(scene, until=world.time)
-    assert {Kind.EDGE, Kind.ENTER, Kind.EXIT} <= set(found["kind"])
-    assert set(found["wall"][found["kind"] >= Kind.ENTER]) == {0, 1}
+    assert {ContactKind.EDGE, ContactKind.ENTER, ContactKind.EXIT} <= set(found["kind"])
+    assert set(found["wall"][found["kind"] >= ContactKind.ENTER]) == {0, 1}
     for name in found.dtype.names:
         assert np.array_equal(found[name], run.contacts[name]), name
 
@@ -217,4 +217,4 @@ def test_a_kicked_ball_crosses_sensors_on_its_new_way():
     assert len(world.step(1.0)) == 0
     world.place(0, velocity=(2.0, 0.0))
     (crossing,) = world.step(1.0)
-    assert (crossing["time"], crossing["x"], crossing["kind"]) == (1.75, 7.0, Kind.EXIT)
+    assert (crossing["time"], crossing["x"], crossing["kind"]) == (1.75, 7.0, ContactKind.EXIT)

@@ -215,7 +215,7 @@ def test_walls_become_sensors_by_their_names_and_then_bounce_nothing(schema):
     assert (len(scene.walls), scene.sensors.names) == (1, ("goal-left",))
     run = wallkit.simulate(scene, until=6.0)
     assert run.contacts["time"].tolist() == [2.0, 5.0]
-    assert [wallkit.Kind(kind).label for kind in run.contacts["kind"]] in (["enter", "edge"], ["exit", "edge"])
+    assert [wallkit.ContactKind(kind).label for kind in run.contacts["kind"]] in (["enter", "edge"], ["exit", "edge"])
     with pytest.raises(SceneError, match="no wall has a name or layer like 'gaol'"):
         read_scene(text.replace("goal*", "gaol").encode())
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import wallkit
-from wallkit import Kind
+from wallkit import ContactKind
 from wallkit.view.tracks import tracks
 
 
@@ -61,7 +61,7 @@ def test_under_gravity_a_track_falls_slides_and_rests_as_the_run_says():
     )
     balls = wallkit.Balls([[10, 20], [30, 30]], [[3.0, 1], [-4, 0]], [1, 0])
     run = wallkit.simulate(wallkit.Scene(walls, balls, gravity=(0, -9.81)), until=60.0)
-    assert Kind.SLIDE in run.contacts["kind"]
+    assert ContactKind.SLIDE in run.contacts["kind"]
     flight = tracks(run)
     for t in np.linspace(0, 30, 97):
         for ball, place in enumerate(run.position(t)):
@@ -115,5 +115,5 @@ def test_a_sensor_parts_no_stretch():
     balls = wallkit.Balls([[5, 5]], [[0.3, -2.0]], 0.25)
     plain = tracks(wallkit.simulate(wallkit.Scene(walls, balls), until=20.0))
     sensed = wallkit.simulate(wallkit.Scene(walls, balls, sensors=goal), until=20.0)
-    assert Kind.ENTER in sensed.contacts["kind"]
+    assert ContactKind.ENTER in sensed.contacts["kind"]
     assert np.array_equal(tracks(sensed).time, plain.time)

@@ -215,8 +215,8 @@ def test_the_order_of_convergence_is_three(degree):
     rng = np.random.default_rng(5)
     steps = np.cumsum(rng.uniform([10, -15], [30, 15], (40, degree, 2)), axis=1)
     word = "Q" if degree == 2 else "C"
-    strokes = gather(Subpath([("M", 0.0, 0.0), (word, *row.ravel().tolist())], False) for row in steps)
-    counts = [len(fit_arcs(strokes, tol).ends) for tol in (1e-7, 1e-8, 1e-9, 1e-10)]
+    segments = gather(Subpath([("M", 0.0, 0.0), (word, *row.ravel().tolist())], False) for row in steps)
+    counts = [len(fit_arcs(segments, tol).ends) for tol in (1e-7, 1e-8, 1e-9, 1e-10)]
     orders = np.log(10) / np.log(np.divide(counts[1:], counts[:-1]))
     assert orders == pytest.approx([3, 3, 3], abs=0.25)
 

@@ -37,11 +37,11 @@ point = st.tuples(coordinate, coordinate)
 @given(st.tuples(point, point, point, point), st.sampled_from([1.0, 0.1, 0.01]))
 @example(((17.5, 12.0), (19.0, 69.0), (18.0, 53.0), (18.5, 18.312)), 1.0)  # a hook that peaks beyond the chord's end
 def test_every_point_of_the_curve_is_within_tolerance(points, tolerance):
-    strokes = cubic(points)
-    pieces = flatten(strokes, tolerance)
-    vertices = np.concatenate([strokes.starts, pieces.ends])
+    segments = cubic(points)
+    pieces = flatten(segments, tolerance)
+    vertices = np.concatenate([segments.starts, pieces.ends])
     t = np.linspace(0, 1, 1001)
-    curve = evaluate(np.repeat(strokes.cubics, len(t), axis=0), t)
+    curve = evaluate(np.repeat(segments.cubics, len(t), axis=0), t)
     # rounding of evaluation: a few ulp of 100
     assert distance_to_polyline(curve, vertices).max() <= tolerance * (1 + 1e-9) + 1e-12
     assert pieces.error <= tolerance * (1 + 1e-9) + 1e-12
@@ -69,19 +69,19 @@ def halves(c, tolerance):
 @pytest.mark.parametrize("tolerance", [1, 0.1, 0.01, 0.001])
 def test_no_more_edges_than_the_better_known_method(tolerance):
     cubics = np.random.default_rng(20).uniform(0, 100, (40, 4, 2))
-    strokes = gather([Subpath([("M", *c[0].tolist()), ("C", *c[1:].ravel().tolist())], False) for c in cubics])
+    segments = gather([Subpath([("M", *c[0].tolist()), ("C", *c[1:].ravel().tolist())], False) for c in cubics])
     wang, halving = known_counts(cubics, tolerance)
-    counts = flatten(strokes, tolerance).counts
+    counts = flatten(segments, tolerance).counts
     assert (counts <= np.minimum(wang, halving)).all()
 
 
 def test_near_cusps_and_loops_stay_within_tolerance():
     for shift in (0, 1e-9, 1e-6, 1e-3):
-        strokes = cubic([(0, 0), (100, 100 + shift), (0, 100), (100, 0)])
-        pieces = flatten(strokes, 0.01)
+        segments = cubic([(0, 0), (100, 100 + shift), (0, 100), (100, 0)])
+        pieces = flatten(segments, 0.01)
         t = np.linspace(0, 1, 20001)
-        curve = evaluate(np.repeat(strokes.cubics, len(t), axis=0), t)
-        vertices = np.concatenate([strokes.starts, pieces.ends])
+        curve = evaluate(np.repeat(segments.cubics, len(t), axis=0), t)
+        vertices = np.concatenate([segments.starts, pieces.ends])
         assert distance_to_polyline(curve, vertices).max() <= 0.01
 
 
@@ -93,8 +93,8 @@ def test_a_straight_cubic_is_one_edge_and_one_that_turns_back_keeps_its_reach():
 
 @pytest.mark.parametrize("r", [1e-3, 1.0, 250.0, 1e6])
 def test_circle_has_the_fewest_equal_edges(r):
-    strokes = gather([Subpath([("M", r, 0), ("A", r, r, 0, 0, 1, -r, 0), ("A", r, r, 0, 0, 1, r, 0)], True)])
-    pieces = flatten(strokes, r * 1e-3)
+    segments = gather([Subpath([("M", r, 0), ("A", r, r, 0, 0, 1, -r, 0), ("A", r, r, 0, 0, 1, r, 0)], True)])
+    pieces = flatten(segments, r * 1e-3)
     # a half turn needs ceil(pi / (2 acos(1 - tol/r))) = 36
     assert pieces.counts.tolist() == [36, 36] == [math.ceil(math.pi / (2 * math.acos(1 - 1e-3)))] * 2
     assert pieces.error == pytest.approx(r * (1 - math.cos(math.pi / 72)), rel=1e-9)
@@ -112,19 +112,19 @@ def test_elliptic_arcs_lie_on_their_ellipse_and_within_tolerance(a, b, rx, ry, r
     reach = math.hypot(half.real / rx, half.imag / ry)
     if reach > 1:  # as SVG says: grow until it reaches
         rx, ry = rx * reach * (1 + 1e-12), ry * reach * (1 + 1e-12)
-    strokes = gather([Subpath([("M", *a), ("A", rx, ry, rotation, int(large), int(sweep), *b)], False)])
-    arcs = strokes.arcs
+    segments = gather([Subpath([("M", *a), ("A", rx, ry, rotation, int(large), int(sweep), *b)], False)])
+    arcs = segments.arcs
     assert arcs.points(arcs.start)[0] == pytest.approx(a, abs=1e-6)
     assert arcs.points(arcs.start + arcs.turn)[0] == pytest.approx(b, abs=1e-6)
     assert (arcs.turn[0] > 0) == sweep
     if abs(abs(arcs.turn[0]) - math.pi) > 1e-5:
         assert (abs(arcs.turn[0]) > math.pi) == large
-    pieces = flatten(strokes, 0.05)
+    pieces = flatten(segments, 0.05)
     assert pieces.error <= 0.05 * (1 + 1e-9)
 
 
 def test_a_circle_of_four_cubics_is_off_by_what_is_known():
-    strokes = gather([Subpath(*four_cubics(0, 0, 1))])
-    pieces = flatten(strokes, 1e-6)
+    segments = gather([Subpath(*four_cubics(0, 0, 1))])
+    pieces = flatten(segments, 1e-6)
     radii = np.hypot(*pieces.ends.T)
     assert radii.max() - 1 == pytest.approx(2.7253e-4, rel=1e-3)  # the published figure

@@ -16,7 +16,7 @@ from drawn import codes, drawing, line, path, square
 
 import wallkit
 from importers.drawing import Level
-from wallkit.simulation.run import Ending, Kind
+from wallkit.simulation.run import ContactKind, Ending
 from wallkit.walls import Material, Walls
 from wallkit.walls.importing.pipeline import import_walls
 from wallkit.walls.roles import said_of
@@ -273,7 +273,7 @@ def test_many_balls_start_at_the_spawns_in_turn_and_smaller_ones_anywhere_in_the
 def test_a_ball_that_flies_through_a_gate_and_a_target_is_reported_and_not_bounced():
     run = wallkit.simulate(wallkit.open_scene(room(THINGS), wallkit.Wishes(speed=100, angle=0)).scene, until=3)
     # the centre flies from x = 50 along y = 150, which the block at y < 120 does not reach, to the wall at 395
-    told = [(Kind(c["kind"]).name, c["x"], c["wall"]) for c in run.contacts]
+    told = [(ContactKind(c["kind"]).name, c["x"], c["wall"]) for c in run.contacts]
     assert told == [
         ("ENTER", pytest.approx(100), 0),
         ("EXIT", pytest.approx(104), 0),

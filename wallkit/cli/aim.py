@@ -67,7 +67,7 @@ def aim_at(
     from wallkit.cli.scene_input import gravity_or_none, opened, pair
     from wallkit.levels.aim import aim
     from wallkit.levels.targets import given_target
-    from wallkit.scene.opening import Wishes
+    from wallkit.scene.wishes import Wishes
     from wallkit.view.write import check_picture_ending
 
     if out:

@@ -10,20 +10,36 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from wallkit.cli import import_options as options
-from wallkit.cli.check_balls import Wanted, fly_balls, lines, write_page
+from wallkit.cli.check_balls import Flown, Wanted, fly_balls, lines, write_page
 from wallkit.cli.simulate import Gravity, Speed, Until
 from wallkit.cli.survey import Checkpoint, From, Where, Workers
 from wallkit.cli.watching import watchable
 
 if TYPE_CHECKING:
-    from importers.problems import Problem
-    from wallkit.scene.look_over import Given
-    from wallkit.walls import Walls
+    from wallkit.scene.look_over import Given, Look
     from wallkit.walls.checking.audit import Audit
-    from wallkit.walls.checking.free_space import FreeSpace
-    from wallkit.walls.checking.leaks import Reach
 
 FORMAT, VERSION = "wallkit-check", 1
+
+Points = Annotated[
+    int,
+    typer.Option(
+        metavar="N",
+        min=0,
+        max=1_000_000,
+        help="Hold N points of the walls against the curves as svgpathtools has them.",
+    ),
+]
+Many = Annotated[
+    str | None, typer.Option("--balls", metavar="N", help="Fly N balls, and tell what they find out; 1e6 is a number.")
+]
+To = Annotated[
+    str | None,
+    typer.Option("--to", metavar="NAME|X,Y,R", help="What is to be reached: sensor, target, wall, WALL:EDGE, circle."),
+]
+Bounces = Annotated[
+    int | None, typer.Option(metavar="N", help="End after N bounces a ball (default, without --until: 2000).", min=0)
+]
 
 
 def register(app: typer.Typer) -> None:
@@ -41,31 +57,12 @@ def check(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Write the findings as JSON to standard output.")] = False,
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls, findings and leaks (.svg).")] = "",
-    audit: Annotated[
-        int,
-        typer.Option(
-            metavar="N",
-            min=0,
-            max=1_000_000,
-            help="Hold N points of the walls against the curves as svgpathtools has them.",
-        ),
-    ] = 0,
-    balls: Annotated[
-        str | None,
-        typer.Option("--balls", metavar="N", help="Fly N balls, and tell what they find out; 1e6 is a number."),
-    ] = None,
+    audit: Points = 0,
+    balls: Many = None,
     start: From = None,
-    target: Annotated[
-        str | None,
-        typer.Option(
-            "--to", metavar="NAME|X,Y,R", help="What is to be reached: sensor, target, wall, WALL:EDGE, circle."
-        ),
-    ] = None,
+    target: To = None,
     until: Until = None,
-    bounces: Annotated[
-        int | None,
-        typer.Option(metavar="N", help="End after N bounces a ball (default, without --until: 2000).", min=0),
-    ] = None,
+    bounces: Bounces = None,
     speed: Speed = None,
     gravity: Gravity = None,
     seed: Annotated[int, typer.Option(metavar="K", help="Seed of --balls.", min=0)] = 0,
@@ -91,24 +88,18 @@ def check(
     flown = None if wanted.balls is None else fly_balls(found, radius, wanted)
     given.problems += [] if flown is None else flown.check.problems()
     look = look_over(given, radius)
-    walls, problems, space, reach = look.walls, look.problems, look.space, look.reach
-    findings = [problem for problem in problems if problem.severity != "info"]
     if preview:
-        _draw(walls, problems, [gap.path for gap in reach.leaks], preview)
+        _draw(look, preview)
     if flown is not None and out is not None:
         write_page(out, flown, file)
     if as_json:
-        report = _report(walls, problems, space, reach, len(findings))
-        report |= {} if audited is None else {"audit": audited.to_json()}
-        report |= {} if flown is None else {"balls": flown.check.to_json()}
-        print(json.dumps(report, ensure_ascii=False))
+        print(json.dumps(_report(look, audited, flown), ensure_ascii=False))
     else:
-        _tell(walls, problems, space, reach, given.assumed)
-        if audited is not None:
-            print(audited.sentence())
-        for line in () if flown is None else lines(flown, out):
+        _tell(look, given.assumed)
+        told = [] if audited is None else [audited.sentence()]
+        for line in told if flown is None else [*told, *lines(flown, out)]:
             print(line)
-    raise typer.Exit(1 if findings else 0)
+    raise typer.Exit(1 if look.findings else 0)
 
 
 def _check_radius(radius: float | None) -> None:
@@ -120,7 +111,7 @@ def _check_radius(radius: float | None) -> None:
 
 def _audited(given: Given, count: int, file: str) -> Audit:
     """Ask svgpathtools whether the walls are where the curves are."""
-    from wallkit.scene.opening import UsageError
+    from wallkit.scene.wishes import UsageError
     from wallkit.walls.checking.audit import audit
     from wallkit.walls.importing.placing import placed
 
@@ -132,10 +123,11 @@ def _audited(given: Given, count: int, file: str) -> Audit:
     return audit(given.walls, placed(given.drawing, given.importing), count, given.importing)
 
 
-def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, findings: int) -> dict[str, Any]:
+def _report(look: Look, audited: Audit | None, flown: Flown | None) -> dict[str, Any]:
     from wallkit.walls.checking.leaks import gap_json
 
-    return {
+    walls, reach = look.walls, look.reach
+    report = {
         "format": FORMAT,
         "version": VERSION,
         "source": {"file": walls.source_file, "sha256": walls.source_sha256},
@@ -143,22 +135,25 @@ def _report(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reac
         "walls": len(walls),
         "edges": len(walls.edge_starts),
         "radius": reach.radius,
-        "findings": findings,
+        "findings": look.findings,
         "leaks": [gap_json(gap) for gap in reach.leaks],
         "unreachable": [gap_json(gap) for gap in reach.shut],
         "holding": [gap_json(gap) for gap in reach.holding],
-        "gaps": [gap_json(gap) for gap in space.gaps],
-        "rooms": space.closed_rooms.tolist(),
-        "problems": [problem.to_json() for problem in problems],
+        "gaps": [gap_json(gap) for gap in look.space.gaps],
+        "rooms": look.space.closed_rooms.tolist(),
+        "problems": [problem.to_json() for problem in look.problems],
     }
+    report |= {} if audited is None else {"audit": audited.to_json()}
+    return report if flown is None else report | {"balls": flown.check.to_json()}
 
 
-def _tell(walls: Walls, problems: list[Problem], space: FreeSpace, reach: Reach, assumed: list[str]) -> None:
+def _tell(look: Look, assumed: list[str]) -> None:
     from wallkit.cli.import_ import summarise
     from wallkit.cli.messages import show_problems
     from wallkit.walls.checking.leaks import middle
 
-    show_problems(problems, walls.source_file, sys.stdout)
+    walls, space, reach = look.walls, look.space, look.reach
+    show_problems(look.problems, walls.source_file, sys.stdout)
     for sentence in assumed:
         print(f"assumed: {sentence}")
     summarise(walls, sys.stdout)
@@ -185,9 +180,10 @@ def _at(place: tuple[float, float]) -> str:
     return f"{place[0]:.6g}, {place[1]:.6g}"
 
 
-def _draw(walls: Walls, problems: list[Problem], ways: list[Any], picture: str) -> None:
+def _draw(look: Look, picture: str) -> None:
     """Write the picture with the ways through the leaks."""
     from wallkit.view.picture import walls_canvas
     from wallkit.view.write import write_picture
 
-    write_picture(picture, walls_canvas(walls, problems, ways=ways))
+    ways = [gap.path for gap in look.reach.leaks]
+    write_picture(picture, walls_canvas(look.walls, look.problems, ways=ways))

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from wallkit.levels.check_level import LevelCheck
     from wallkit.levels.starts import Starts
-    from wallkit.scene.opening import OpenedScene, Wishes
+    from wallkit.scene.opening import OpenedScene
+    from wallkit.scene.wishes import Wishes
     from wallkit.walls.import_options import ImportOptions
 
 BOUNCES = 2000
@@ -46,7 +47,7 @@ class Wanted:
         Raises:
             UsageError: --balls is missing, or the page's name ends otherwise.
         """
-        from wallkit.scene.opening import UsageError
+        from wallkit.scene.wishes import UsageError
 
         asked = {"--from": self.start, "--to": self.target, "--until": self.until, "--bounces": self.bounces,
                  "--speed": self.speed, "-o": self.out, "--checkpoint": self.checkpoint}  # fmt: skip
@@ -61,7 +62,7 @@ class Wanted:
     def wishes(self, importing: ImportOptions) -> Wishes:
         """What is asked of the scene."""
         from wallkit.cli.scene_input import gravity_or_none
-        from wallkit.scene.opening import Wishes
+        from wallkit.scene.wishes import Wishes
 
         gravity = gravity_or_none(self.gravity)
         return Wishes(importing=importing, may_be_empty=True, gravity=gravity, until=self.until, bounces=self.bounces)

@@ -71,8 +71,8 @@ def export_level(
     from wallkit.cli.messages import show_problems
     from wallkit.cli.scene_input import opened, read_input
     from wallkit.export.formats import find_format
-    from wallkit.scene.opening import Wishes
     from wallkit.scene.scene_files import kind_of
+    from wallkit.scene.wishes import Wishes
     from wallkit.walls.importing.placing import placed
 
     chosen = find_format(out, format)

@@ -48,7 +48,7 @@ def play(
         _export(Path(export_page), files or [], options.options_of(importing or {}))
         return
     if len(files or []) > 1:
-        from wallkit.scene.opening import UsageError
+        from wallkit.scene.wishes import UsageError
 
         fix = "give one, or a folder for the pages of all: --export-page DIR"
         raise UsageError("the page opens one FILE", code="usage", fix=fix)
@@ -85,7 +85,7 @@ def _export(folder: Path, files: list[str], importing: ImportOptions) -> None:
 
 def _exhibit(file: str, importing: ImportOptions) -> Exhibit:
     from wallkit.cli.scene_input import opened
-    from wallkit.scene.opening import Wishes
+    from wallkit.scene.wishes import Wishes
     from wallkit.simulation.simulate import simulate
     from wallkit.view.export_pages import Exhibit
 

@@ -77,7 +77,7 @@ def report(
 
 
 def _check(file: str | None, out: list[str], hard: bool, scene: list[str] | None) -> None:
-    from wallkit.scene.opening import UsageError
+    from wallkit.scene.wishes import UsageError
 
     for target in out:
         if Path(target).suffix.lower() not in ENDINGS:
@@ -105,7 +105,7 @@ def _effort(quick: bool, precision: int | None) -> Effort:
 def _built_in(names: list[str] | None, quick: bool) -> list[Subject]:
     from wallkit.accuracy.contest import Subject
     from wallkit.accuracy.scenes import built_in
-    from wallkit.scene.opening import UsageError
+    from wallkit.scene.wishes import UsageError
 
     scenes = {scene.name: scene for scene in built_in()}
     unknown = [name for name in names or [] if name not in scenes]
@@ -121,7 +121,7 @@ def _of_file(file: str, importing: ImportOptions) -> Subject:
     from wallkit.accuracy.contest import Subject
     from wallkit.accuracy.own import first_ball, of_scene
     from wallkit.cli.scene_input import opened
-    from wallkit.scene.opening import UsageError, Wishes
+    from wallkit.scene.wishes import UsageError, Wishes
 
     name = "standard input" if file == "-" else Path(file).name
     try:

@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wallkit.scene.opening import OpenedScene, UsageError, Wishes, open_scene, read_file
+from wallkit.scene.opening import OpenedScene, open_scene, read_file
+from wallkit.scene.wishes import UsageError, Wishes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

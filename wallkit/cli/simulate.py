@@ -150,7 +150,7 @@ def simulate_file(
 ) -> None:
     """Shoot balls at walls: every contact, exact, and how each ball ended."""
     from wallkit.cli.scene_input import gravity_or_none, opened, pair_or_none, pairs
-    from wallkit.scene.opening import Wishes
+    from wallkit.scene.wishes import Wishes
 
     wishes = Wishes(
         pairs(ball, "--ball"), pair_or_none(velocity, "--velocity"), speed, angle, radius,
@@ -175,7 +175,7 @@ def simulate_file(
 
 def _targets(out: list[str], form: Format | None) -> list[tuple[str, Format]]:
     """Pair each OUT with its format; a format alone goes to standard output."""
-    from wallkit.scene.opening import UsageError
+    from wallkit.scene.wishes import UsageError
 
     targets: list[tuple[str, Format]] = []
     for name in out or (["-"] if form else []):
@@ -202,7 +202,7 @@ def _flown(scene: OpenedScene, settle: bool) -> Run:
 
 def _check_way(way: str | None, look: dict[str, Any], targets: list[tuple[str, Format]]) -> None:
     """Refuse what would be left out in silence: files and colours that tell of exact runs alone."""
-    from wallkit.scene.opening import UsageError
+    from wallkit.scene.wishes import UsageError
 
     if way is None:
         return

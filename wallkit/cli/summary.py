@@ -45,11 +45,11 @@ def _range(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> str:
 
 def bounce_words(run: Run) -> str:
     """Say how many bounces there were, in what time, and how many of them at corners."""
-    from wallkit.simulation.run import Kind
+    from wallkit.simulation.run import ContactKind
 
     kinds = run.contacts["kind"]
-    corners, met = int(np.count_nonzero(kinds == Kind.VERTEX)), int(np.count_nonzero(kinds == Kind.BALL))
-    crossings = int(np.count_nonzero((kinds == Kind.ENTER) | (kinds == Kind.EXIT)))
+    corners, met = int(np.count_nonzero(kinds == ContactKind.VERTEX)), int(np.count_nonzero(kinds == ContactKind.BALL))
+    crossings = int(np.count_nonzero((kinds == ContactKind.ENTER) | (kinds == ContactKind.EXIT)))
     last = float(run.final["time"].max(initial=0.0))
     words = f"{int(run.bounces.sum()):,} in {last:.6g} s" + (f", {corners:,} of them at corners" if corners else "")
     words += f"; balls met {counted(met, 'time')}" if run.scene.meeting else ""

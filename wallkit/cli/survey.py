@@ -75,7 +75,7 @@ def survey_file(
     from wallkit.cli.progress import progress_bar
     from wallkit.cli.scene_input import gravity_or_none, opened
     from wallkit.levels.starts import starts_of
-    from wallkit.scene.opening import Wishes
+    from wallkit.scene.wishes import Wishes
     from wallkit.simulation.count import count
 
     wishes = Wishes(
@@ -107,7 +107,7 @@ def how_many(text: str) -> int:
         UsageError: it is no whole number above 0.
     """
     from wallkit.arguments import whole_number
-    from wallkit.scene.opening import UsageError
+    from wallkit.scene.wishes import UsageError
 
     try:
         value: object = int(text) if text.isdecimal() else float(text)
@@ -136,7 +136,7 @@ def _is_number(text: str) -> bool:
 
 
 def _check_ending(out: str | None) -> None:
-    from wallkit.scene.opening import UsageError
+    from wallkit.scene.wishes import UsageError
 
     if out is not None and out != "-" and not out.lower().endswith(".npz"):
         raise UsageError(

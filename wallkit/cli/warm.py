@@ -21,8 +21,8 @@ def warm(
     """Compile what simulations of such levels need and keep it on disk: for images, CI and the first lesson."""
     from wallkit.cli.scene_input import opened
     from wallkit.kernels.jit import cache_folder
-    from wallkit.scene.opening import Wishes
     from wallkit.scene.samples import samples
+    from wallkit.scene.wishes import Wishes
     from wallkit.simulation.warming import warm as warm_scene
 
     for file in files or [str(sample.path) for sample in samples()]:

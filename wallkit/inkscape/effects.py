@@ -63,7 +63,8 @@ def check(document: Document, options: argparse.Namespace) -> None:
     """Put what `wallkit check` finds on a layer: numbered marks, the ways through leaks, the words below."""
     from wallkit.cli.messages import count_by_severity
     from wallkit.scene.look_over import given_of, look_over
-    from wallkit.scene.opening import Wishes, open_scene
+    from wallkit.scene.opening import open_scene
+    from wallkit.scene.wishes import Wishes
     from wallkit.view.picture import walls_marks
 
     found = open_scene(document.data, Wishes(importing=_importing(options), may_be_empty=True))
@@ -75,7 +76,8 @@ def check(document: Document, options: argparse.Namespace) -> None:
 
 def shoot(document: Document, options: argparse.Namespace) -> None:
     """Put the path of each ball and its ghosts on a layer: the balls drawn, or one where there is most room."""
-    from wallkit.scene.opening import Wishes, open_scene
+    from wallkit.scene.opening import open_scene
+    from wallkit.scene.wishes import Wishes
     from wallkit.simulation.simulate import simulate
     from wallkit.view.run_picture import run_marks
 
@@ -98,7 +100,8 @@ def export(document: Document, options: argparse.Namespace) -> None:
     from wallkit.cli.export import page_of
     from wallkit.export import export as write
     from wallkit.export.formats import find_format
-    from wallkit.scene.opening import UsageError, Wishes, open_scene
+    from wallkit.scene.opening import open_scene
+    from wallkit.scene.wishes import UsageError, Wishes
 
     if not options.out:
         raise UsageError("no file is named", code="usage", fix="say where to write the level")

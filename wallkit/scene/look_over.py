@@ -53,6 +53,11 @@ class Look:
     space: FreeSpace
     reach: Reach
 
+    @property
+    def findings(self) -> int:
+        """How many problems are more than a note."""
+        return sum(problem.severity != "info" for problem in self.problems)
+
 
 def look_over(given: Given, radius: float | None) -> Look:
     """Look for leaks of a ball of a radius (None: the smallest given, else any), and whatever else is doubtful."""

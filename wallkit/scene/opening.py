@@ -6,157 +6,28 @@ FILE is a drawing, walls or a scene, told by its content. Whatever nobody said i
 from __future__ import annotations
 
 import io
-import math
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from importers.drawing import Drawing
-from importers.errors import WallkitError
 from importers.problems import Problem
 from wallkit import arguments
+from wallkit.scene.asked_balls import walls_and_balls
 from wallkit.scene.ball_findings import ball_findings
-from wallkit.scene.drawn_scene import ANGLE, SPEED, Drawn, apart, drawn_scene
+from wallkit.scene.drawn_scene import Drawn, apart, drawn_scene
 from wallkit.scene.lesson import Lesson
-from wallkit.scene.scene import Balls, Scene, downwards
+from wallkit.scene.scene import Scene, downwards
+from wallkit.scene.wishes import USUAL, UsageError, Wishes
 from wallkit.walls import Walls
 from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
-from wallkit.walls.origins import Marker
 
 if TYPE_CHECKING:
     from wallkit.scene.scene_files import SceneFile
 
 BOUNCES = 100
-USUAL = ImportOptions(curves="arcs")
-"""How a drawing is imported to be simulated, unless somebody says otherwise."""
-
-
-class UsageError(WallkitError):
-    """Wishes that do not go together, or a value that is none."""
-
-
-@dataclass(frozen=True, slots=True)
-class Wishes:
-    """What is asked of a scene; None is what is not asked.
-
-    Attributes:
-        ball: places (x, y) of balls, instead of those in the file.
-        velocity: (vx, vy) of every ball.
-        speed: units per second, of every ball.
-        angle: degrees from the x axis towards the y axis of the drawing.
-        radius: of every ball.
-        balls: so many balls at random places.
-        seed: of that randomness.
-        gravity: (gx, gy), or one number: it pulls down on the screen.
-        restitution: of every wall.
-        tangential_restitution: the same along the wall.
-        friction: deceleration of a rolling ball, units per second squared.
-        drag: rate k of dv/dt = -k v, per second.
-        meeting: discs meet one another.
-        ball_restitution: part of the speed along the line of centres that a contact of two discs leaves.
-        until: end in seconds.
-        bounces: end in bounces a ball.
-        importing: how a drawing becomes walls; over what a scene file says of its drawing.
-        may_be_empty: a scene without a ball is fine, where there is no room for one.
-    """
-
-    ball: tuple[tuple[float, float], ...] = ()
-    velocity: tuple[float, float] | None = None
-    speed: float | None = None
-    angle: float | None = None
-    radius: float | None = None
-    balls: int | None = None
-    seed: int = 0
-    gravity: tuple[float, float] | float | None = None
-    restitution: float | None = None
-    tangential_restitution: float | None = None
-    friction: float | None = None
-    drag: float | None = None
-    meeting: bool | None = None
-    ball_restitution: float | None = None
-    until: float | None = None
-    bounces: int | None = None
-    importing: ImportOptions = USUAL
-    may_be_empty: bool = False
-
-    def __post_init__(self) -> None:
-        for name, check in _WISHES.items():
-            if (value := getattr(self, name)) is not None:
-                object.__setattr__(self, name, check(value, as_option(name)))
-        if self.ball and self.balls is not None:
-            raise UsageError("--ball and --balls do not go together", code="usage", fix="give places or a number")
-        if self.velocity is not None and (self.speed is not None or self.angle is not None):
-            raise UsageError("--velocity and --speed or --angle do not go together", code="usage", fix="give one way")
-
-    @property
-    def moves(self) -> bool:
-        """A velocity is asked for, or a part of one."""
-        return not (self.velocity is None and self.speed is None and self.angle is None)
-
-
-def _number(least: float = -math.inf, most: float = math.inf) -> Callable[[Any, str], float]:
-    above = "" if least == -math.inf else f" from {least:g}"
-    may_be = f"a finite number{above}" + ("" if most == math.inf else f" to {most:g}")
-    return lambda value, name: arguments.number(
-        value, name, may_be, error=UsageError, code="usage", least=least, most=most
-    )
-
-
-def _whole(least: int) -> Callable[[Any, str], int]:
-    may_be = f"a whole number, {least} or more"
-    return lambda value, name: arguments.whole_number(value, name, may_be, error=UsageError, code="usage", least=least)
-
-
-def _pair(value: Any, name: str) -> tuple[float, float]:
-    may_be = "two finite numbers"
-    pair = arguments.floats(value, name, may_be, error=UsageError, code="usage")
-    if pair.shape != (2,) or not np.isfinite(pair).all():
-        raise arguments.refused(name, value, may_be, UsageError, "usage")
-    return float(pair[0]), float(pair[1])
-
-
-def _gravity(value: Any, name: str) -> tuple[float, float] | float:
-    return _number()(value, name) if isinstance(value, int | float) else _pair(value, name)
-
-
-def _gravity_of(gravity: tuple[float, float] | float, walls: Walls) -> tuple[float, float]:
-    return downwards(gravity, walls) if isinstance(gravity, float) else gravity
-
-
-def _places(value: Any, name: str) -> tuple[tuple[float, float], ...]:
-    arguments.of_type(value, name, (tuple, list, np.ndarray), "a list of (x, y)", error=UsageError, code="usage")
-    return tuple(_pair(place, name) for place in value)
-
-
-def _importing(value: Any, name: str) -> ImportOptions:
-    arguments.of_type(value, name, ImportOptions, "ImportOptions", error=UsageError, code="usage")
-    options: ImportOptions = value
-    return options
-
-
-_WISHES: dict[str, Callable[[Any, str], Any]] = {
-    "ball": _places,
-    "velocity": _pair,
-    "speed": _number(),
-    "angle": _number(),
-    "radius": _number(least=0.0),
-    "balls": _whole(1),
-    "seed": _whole(0),
-    "gravity": _gravity,
-    "restitution": _number(0.0, 1.0),
-    "tangential_restitution": _number(0.0, 1.0),
-    "friction": _number(least=0.0),
-    "drag": _number(least=0.0),
-    "meeting": lambda value, name: arguments.flag(value, name, error=UsageError, code="usage"),
-    "ball_restitution": _number(0.0, 1.0),
-    "until": _number(least=0.0),
-    "bounces": _whole(0),
-    "importing": _importing,
-    "may_be_empty": lambda value, name: arguments.flag(value, name, error=UsageError, code="usage"),
-}
 
 
 @dataclass(slots=True)
@@ -305,7 +176,7 @@ def _repaired(walls: Walls, options: ImportOptions, what: str) -> Walls:
 def _completed(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> OpenedScene:
     """Give the scene its balls, materials and what acts, and say what was assumed and what is doubtful."""
     scene = opened.scene
-    walls, balls = _walls_and_balls(opened, drawn, wishes)
+    walls, balls = walls_and_balls(opened, drawn, wishes)
     if walls.solid is not None and walls.solid.how != "asked" and (walls.solid.room or walls.solid.how == "balls"):
         opened.assumed.insert(0, walls.solid.sentence())  # that filled shapes are solid needs no words
     if wishes.until is not None or wishes.bounces is not None:
@@ -346,121 +217,5 @@ def _with_material(walls: Walls, wishes: Wishes) -> Walls:
     return replace(walls, materials=tuple(replace(material, **changes) for material in walls.materials))
 
 
-def _walls_and_balls(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> tuple[Walls, Balls]:
-    """Give the balls asked for, those in the file, or one where there is most room; the walls turned if it says so."""
-    walls, balls, assumed = opened.scene.walls, opened.scene.balls, opened.assumed
-    if wishes.ball:
-        if wishes.radius is None:
-            assumed.append("radius 0: a point (--radius)")
-        velocity = _velocity(wishes, assumed)
-        return walls, Balls(np.array(wishes.ball), np.tile(velocity, (len(wishes.ball), 1)), wishes.radius or 0.0)
-    if wishes.balls is None and len(balls):
-        return walls, _changed(balls, drawn, wishes, assumed)
-    spawns = [marker for marker in walls.markers if marker.kind == "spawn"]
-    if spawns and wishes.balls is None:
-        return walls, _at_the_spawn(spawns[0], wishes, assumed)
-    if spawns and wishes.balls is not None:
-        return walls, _at_spawns(spawns, wishes.balls, wishes, assumed)
-    return _at_the_roomiest_spot(opened, wishes)
-
-
-def _changed(balls: Balls, drawn: Drawn | None, wishes: Wishes, assumed: list[str]) -> Balls:
-    """Let wishes say otherwise than the file, and say what the file left open."""
-    if wishes.moves:
-        velocity = np.tile(_velocity(wishes, assumed), (len(balls), 1))
-        balls = replace(balls, velocity=velocity)
-    elif drawn is not None and drawn.still:
-        assumed += [f"{SPEED:g} units/s (--speed)", f"direction {ANGLE:g} degrees (--angle)"]
-    if drawn is not None and drawn.used:
-        assumed.append(f"{len(balls)} {'ball' if len(balls) == 1 else 'balls'} drawn on the layer 'balls'")
-    return Balls(balls.position, balls.velocity, wishes.radius) if wishes.radius is not None else balls
-
-
-def _at_the_spawn(spawn: Marker, wishes: Wishes, assumed: list[str]) -> Balls:
-    """Give one ball where the drawing says that balls start, as large as the circle that says so."""
-    radius = spawn.radius if wishes.radius is None else wishes.radius
-    called = f"the spawn {spawn.name!r}" if spawn.name else "the spawn"
-    assumed.append(f"one ball of radius {radius:g} at {called}, ({spawn.x:.6g}, {spawn.y:.6g}) (--ball, --radius)")
-    return Balls([[spawn.x, spawn.y]], [_velocity(wishes, assumed)], radius)
-
-
-def _at_spawns(spawns: list[Marker], count: int, wishes: Wishes, assumed: list[str]) -> Balls:
-    """Give balls in random directions, at the spawns in turn.
-
-    A ball is as large as the circle of its spawn; one that is asked to be smaller starts anywhere in that circle:
-    evenly over the disc of radius R = (circle - ball), at R sqrt(u) for an even u.
-    """
-    random = np.random.default_rng(wishes.seed)
-    turn = np.arange(count) % len(spawns)
-    circle = np.array([spawn.radius for spawn in spawns])[turn]
-    radius = circle if wishes.radius is None else np.full(count, wishes.radius)
-    reach = np.maximum(circle - radius, 0.0) * np.sqrt(random.uniform(size=count))
-    around = random.uniform(0.0, math.tau, count)
-    middle = np.array([(spawn.x, spawn.y) for spawn in spawns])[turn]
-    places = middle + reach[:, None] * np.stack([np.cos(around), np.sin(around)], axis=1)
-    where = "the spawn" if len(spawns) == 1 else f"{len(spawns)} spawns in turn"
-    assumed.append(f"{count} balls at {where} (seed {wishes.seed})")
-    return Balls(places, _random_velocities(count, wishes, random, assumed), radius)
-
-
-def _random_velocities(count: int, wishes: Wishes, random: np.random.Generator, assumed: list[str]) -> np.ndarray:
-    """Give (count, 2) velocities in random directions, or all the one that is asked for."""
-    if wishes.velocity is not None or wishes.angle is not None:
-        return np.tile(_velocity(wishes, assumed), (count, 1))
-    angle = random.uniform(0.0, math.tau, count)
-    speed = SPEED if wishes.speed is None else wishes.speed
-    return speed * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-
-
-def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, Balls]:
-    from wallkit.scene.starting_places import roomiest, scattered
-    from wallkit.walls.orient import inside_out
-    from wallkit.walls.solid import Solid
-
-    walls, assumed = opened.scene.walls, opened.assumed
-    opened.found_place = True
-    spot = roomiest(walls)
-    decided = walls.solid is not None and walls.solid.how in ("balls", "asked")
-    if spot is None and not decided and (walls.solid is not None or "outward" not in walls.sides):
-        spot = roomiest(walls, anywhere=True)  # all that is bounded is solid: then it is meant as rooms
-        if spot is not None and walls.solid is not None:
-            why = "there is no other place for a ball"
-            walls = replace(inside_out(walls), solid=Solid(not walls.solid.room, "start", why))
-    if spot is None:
-        if wishes.may_be_empty:
-            return walls, Balls(np.empty((0, 2)), np.empty((0, 2)))
-        raise UsageError("no room for a ball was found inside these walls", code="no-room", fix="give --ball X,Y")
-    count = wishes.balls
-    radius = wishes.radius
-    meeting = opened.scene.meeting if wishes.meeting is None else wishes.meeting
-    if radius is None:
-        radius = _sensible_radius(spot.room) / (1 if count is None else 2)
-        if meeting and count is not None:  # discs that meet take a tenth of the room at most
-            radius = min(radius, float(f"{math.sqrt(0.1 * spot.face.area / (math.pi * count)):.0e}"))
-    if count is None:
-        assumed.append(
-            f"one ball of radius {radius:g} at the roomiest spot, ({spot.x:.6g}, {spot.y:.6g}) (--ball, --radius)"
-        )
-        return walls, Balls([[spot.x, spot.y]], [_velocity(wishes, assumed)], radius)
-    random = np.random.default_rng(wishes.seed)
-    places = scattered(walls, spot, count, radius, random, apart=meeting and radius > 0.0)
-    assumed.append(f"{count} balls of radius {radius:g} at random places (seed {wishes.seed}) around the roomiest spot")
-    return walls, Balls(places, _random_velocities(count, wishes, random, assumed), radius)
-
-
-def _sensible_radius(room: float) -> float:
-    """Give a twelfth of the room, rounded to one digit, so that the ball is seen and fits through most gaps."""
-    return float(f"{room / 12:.0e}")
-
-
-def _velocity(wishes: Wishes, assumed: list[str]) -> tuple[float, float]:
-    if wishes.velocity is not None:
-        return wishes.velocity
-    speed, angle = wishes.speed, wishes.angle
-    if speed is None:
-        speed = SPEED
-        assumed.append(f"{SPEED:g} units/s (--speed)")
-    if angle is None:
-        angle = ANGLE
-        assumed.append(f"direction {ANGLE:g} degrees (--angle)")
-    return speed * math.cos(math.radians(angle)), speed * math.sin(math.radians(angle))
+def _gravity_of(gravity: tuple[float, float] | float, walls: Walls) -> tuple[float, float]:
+    return downwards(gravity, walls) if isinstance(gravity, float) else gravity

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from importers.errors import WallkitError
 from wallkit.simulation.run import Ending
-from wallkit.simulation.survey import Totals
+from wallkit.simulation.survey import SurveyTotals
 
 TICKS_PER_SECOND = 2**20
 """Times are counted in these, each rounded once, so that a sum does not depend on its order."""
@@ -47,7 +47,7 @@ class Counts:
     crossings: NDArray[np.int64]
 
     @staticmethod
-    def of(totals: Totals) -> Counts:
+    def of(totals: SurveyTotals) -> Counts:
         """Count what a survey ``by_edge`` left of its balls."""
         if totals.edge_hits is None or totals.vertex_hits is None:
             raise WallkitError("the survey did not count by edge", code="bad-argument", fix="give by_edge=True")

@@ -18,7 +18,7 @@ from wallkit.simulation.damping import Slowing
 from wallkit.walls import Walls
 
 SLIDE = 2
-"""The kind of the contact from which on a ball keeps to the wall: ``wallkit.simulation.run.Kind.SLIDE``."""
+"""The kind of the contact from which on a ball keeps to the wall: ``wallkit.simulation.run.ContactKind.SLIDE``."""
 
 
 def guides(walls: Walls, contacts: NDArray[Any]) -> FloatArray:

@@ -46,7 +46,7 @@ RMS_ROUNDING = 0.6 * 2.0**-53
 VERTEX, ENTER = (
     1,
     4,
-)  # kinds of contacts, see wallkit.simulation.run.Kind: bounces up to the one, sensors from the other
+)  # kinds of contacts, see wallkit.simulation.run.ContactKind: bounces up to the one, sensors from the other
 COMPILED_FROM = 50_000  # contacts
 SURE = 3.0  # promised is this many times the root mean square
 

@@ -44,7 +44,7 @@ from wallkit.simulation.horizon import (
 )
 from wallkit.simulation.meeting_flights import Flights, in_turns, joined, least_gap, passing
 from wallkit.simulation.near_misses import NEAR_CORNER, FlightTable, near_misses
-from wallkit.simulation.run import Ending, Kind, Run
+from wallkit.simulation.run import ContactKind, Ending, Run
 from wallkit.simulation.shared_clock import SharedClock
 
 SAMPLES = 64
@@ -126,7 +126,9 @@ class _Trust:
         number = np.full(len(self.run.final), -1, dtype=np.int64)
         number[self.discs] = np.arange(count)
         # Sensors change no flight, and points meet no disc.
-        self.rows: Any = rows[(rows["kind"] != Kind.ENTER) & (rows["kind"] != Kind.EXIT) & (number[rows["ball"]] >= 0)]
+        self.rows: Any = rows[
+            (rows["kind"] != ContactKind.ENTER) & (rows["kind"] != ContactKind.EXIT) & (number[rows["ball"]] >= 0)
+        ]
         self.one = number[self.rows["ball"]]
         self.two = np.where(self.rows["other"] >= 0, number[self.rows["other"]], -1)
         self.radius, self.mass = scene.balls.radius[self.discs], scene.balls.mass[self.discs]
@@ -183,7 +185,7 @@ class _Trust:
         own = np.flatnonzero((self.one == k) | (self.two == k))
         good = own[own < self.bad[k]]
         kinds = self.rows["kind"][good]
-        bounces = int(np.count_nonzero((kinds <= VERTEX) | (kinds == Kind.BALL)))
+        bounces = int(np.count_nonzero((kinds <= VERTEX) | (kinds == ContactKind.BALL)))
         whole = bool(self.bad[k] > len(self.rows))
         last = float(self.rows["time"][good[-1]]) if len(good) else 0.0
         time = float(self.run.final["time"][self.discs[k]]) if whole else last
@@ -263,7 +265,7 @@ class _Trust:
         disc, seen = self.one[rows], self.rows[rows]
         flights, before, off, drift = self._arrive(disc, rows)
         place, after, n = (np.stack([seen[u], seen[v]], axis=1) for u, v in (("x", "y"), ("vx", "vy"), ("nx", "ny")))
-        slides, leaves = seen["kind"] == Kind.SLIDE, seen["kind"] == Kind.LEAVE
+        slides, leaves = seen["kind"] == ContactKind.SLIDE, seen["kind"] == ContactKind.LEAVE
         along = np.stack([-n[:, 1], n[:, 0]], axis=1)
         pull = np.where(slides[:, None], along * _dot(along, self.gravity[None])[:, None], self.gravity)
         across = _dot(before, n)

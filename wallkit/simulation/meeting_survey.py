@@ -12,8 +12,8 @@ import numpy as np
 from wallkit.kernels.batches.lockstep import Outcome
 from wallkit.simulation.meeting import Meeting
 from wallkit.simulation.meeting_run import ends, fly_points, simulate_meeting
-from wallkit.simulation.prepared import Prepared
-from wallkit.simulation.run import Kind
+from wallkit.simulation.prepared import PreparedScene
+from wallkit.simulation.run import ContactKind
 from wallkit.simulation.sensors import with_crossings
 from wallkit.simulation.simulate import START
 from wallkit.simulation.threads import in_threads
@@ -21,20 +21,20 @@ from wallkit.simulation.threads import in_threads
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from wallkit.simulation.survey import Totals
+    from wallkit.simulation.survey import SurveyTotals
 
 
-def fly_together(ready: Prepared, until: float, limit: int, outcome: Outcome) -> NDArray[np.int64]:
+def fly_together(ready: PreparedScene, until: float, limit: int, outcome: Outcome) -> NDArray[np.int64]:
     """Fly the balls of a scene in which they meet: (W + 2 S,) bounces by wall, and crossings of the sensors."""
     scene = ready.scene
     crossings = np.zeros((0, 2), dtype=np.int64)
     if ready.sensors is not None and scene.sensors is not None:
         run = with_crossings(simulate_meeting(scene, until, limit, mode="compiled"))
         final, endings, bounces = run.final, np.array(run.ending, dtype=np.int64), run.bounces
-        walls = run.contacts["wall"][run.contacts["kind"] <= Kind.VERTEX]
+        walls = run.contacts["wall"][run.contacts["kind"] <= ContactKind.VERTEX]
         hits = np.bincount(walls, minlength=len(scene.walls)).astype(np.int64)
         crossings = np.zeros((len(scene.sensors), 2), dtype=np.int64)
-        for column, kind in enumerate((Kind.ENTER, Kind.EXIT)):
+        for column, kind in enumerate((ContactKind.ENTER, ContactKind.EXIT)):
             crossed = run.contacts["wall"][run.contacts["kind"] == kind]
             crossings[:, column] = np.bincount(crossed, minlength=len(scene.sensors))
     else:
@@ -53,10 +53,13 @@ def fly_together(ready: Prepared, until: float, limit: int, outcome: Outcome) ->
 
 
 def survey_each(
-    scenes: Sequence[Prepared], one: Callable[[Prepared], Totals], threads: int, executor: Executor | None
-) -> list[Totals]:
+    scenes: Sequence[PreparedScene],
+    one: Callable[[PreparedScene], SurveyTotals],
+    threads: int,
+    executor: Executor | None,
+) -> list[SurveyTotals]:
     """Survey scenes that know nothing of one another, each as one piece of work, on threads that share them out."""
-    found: dict[int, Totals] = {}
+    found: dict[int, SurveyTotals] = {}
     waiting = deque(enumerate(scenes))
 
     def work() -> None:

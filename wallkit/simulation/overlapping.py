@@ -16,7 +16,7 @@ from wallkit.geometry.exact_edges import ExactEdges, as_complex
 from wallkit.kernels.flight.motion import reflect
 from wallkit.scene.scene import Scene
 from wallkit.simulation.damping import carried_on, damping_of, flown_on, slowing_of
-from wallkit.simulation.run import CONTACT, Kind
+from wallkit.simulation.run import CONTACT, ContactKind
 from wallkit.simulation.sensors import sensors_of, together
 
 
@@ -88,7 +88,11 @@ class Overlapping:
             keep = [material.restitution, material.tangential_restitution]
             vx, vy, _square = reflect(keep, 0, n.real, n.imag, 2.0, vx, vy, vx * vx + vy * vy)
             corner = point in (edges.a[index], edges.b[index])
-            which = (-1, Kind.VERTEX) if corner else (edge - int(self._scene.walls.edge_offsets[wall]), Kind.EDGE)
+            which = (
+                (-1, ContactKind.VERTEX)
+                if corner
+                else (edge - int(self._scene.walls.edge_offsets[wall]), ContactKind.EDGE)
+            )
             rows.append((self._time, ball, x, y, vx, vy, point.real, point.imag, n.real, n.imag, wall, *which))
         self._state[ball, 2:4] = vx, vy
         return rows

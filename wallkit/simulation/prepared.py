@@ -29,7 +29,7 @@ WORTH_A_QUICK_LOOK = 100
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Prepared:
+class PreparedScene:
     """A scene made ready by :func:`prepare`: checked, in local coordinates, indexed.
 
     Attributes:
@@ -48,10 +48,10 @@ class Prepared:
         index = (
             "no index" if self.modelled.model.grid is None else f"an index of {len(self.modelled.model.cells):,} cells"
         )
-        return f"<Prepared: {self.scene!r}, {index}>"
+        return f"<PreparedScene: {self.scene!r}, {index}>"
 
 
-def prepare(scene: Scene, *, check: bool = True) -> Prepared:
+def prepare(scene: Scene, *, check: bool = True) -> PreparedScene:
     """Do once what every ``survey`` of a scene would do first: check it, and index its walls.
 
     Args:
@@ -65,7 +65,7 @@ def prepare(scene: Scene, *, check: bool = True) -> Prepared:
     return _prepared(scene, Modelled(scene, machine_code=True, fine=True), check=check)
 
 
-def prepare_once(scene: Scene, until: float, bounces: int, *, check: bool = True) -> Prepared:
+def prepare_once(scene: Scene, until: float, bounces: int, *, check: bool = True) -> PreparedScene:
     """Prepare a scene for one survey: with small cells only where so many flights are to come that they pay.
 
     Args:
@@ -99,14 +99,14 @@ def expected_flights(scene: Scene, until: float, bounces: int) -> float:
         return float(np.fmin(speed * until / path, bounces).sum())
 
 
-def prepare_again(ready: Prepared, balls: Balls, *, check: bool = True) -> Prepared:
+def prepare_again(ready: PreparedScene, balls: Balls, *, check: bool = True) -> PreparedScene:
     """Prepare a scene with other balls: what was made of its walls is kept where it serves these, too."""
     scene = replace(ready.scene, balls=balls)
     modelled = ready.modelled.with_balls(balls) or Modelled(scene, machine_code=True, fine=True)
     return _prepared(scene, modelled, check=check)
 
 
-def _prepared(scene: Scene, modelled: Modelled, *, check: bool) -> Prepared:
+def _prepared(scene: Scene, modelled: Modelled, *, check: bool) -> PreparedScene:
     if flag(check, "check", error=SceneError, code="bad-argument") and not _surely_clear(scene, modelled):
         check_starts(scene)
     if scene.meeting:
@@ -117,7 +117,7 @@ def _prepared(scene: Scene, modelled: Modelled, *, check: bool) -> Prepared:
     sensors = None
     if scene.sensors is not None and len(scene.sensors):
         sensors = modelled_sensors(scene, scene.sensors, modelled.origin).model
-    return Prepared(scene, modelled, order, sensors)
+    return PreparedScene(scene, modelled, order, sensors)
 
 
 def _is_wide(model: Model) -> bool:

@@ -41,7 +41,7 @@ CONTACT = np.dtype(
     ]
 )
 """One contact: time; ball; centre x, y; velocity vx, vy after; contact point px, py; unit normal nx, ny (towards
-the ball); wall; edge within that wall, -1 for a corner; kind, see :class:`Kind`. 88 bytes or fewer."""
+the ball); wall; edge within that wall, -1 for a corner; kind, see :class:`ContactKind`. 88 bytes or fewer."""
 
 MEETING_CONTACT = np.dtype(
     [
@@ -63,7 +63,7 @@ FINAL = np.dtype(
 """Where a ball's run ended: time, centre, velocity."""
 
 
-class Kind(enum.IntEnum):
+class ContactKind(enum.IntEnum):
     """What was touched."""
 
     EDGE = 0
@@ -289,7 +289,7 @@ class Run(Pictured):
         x, v, t = state[:, 0:2], state[:, 2:4], span[:, None]
         flown: NDArray[np.float64] = np.where(t > 0.0, flown_on(self._slowing.drag, x, v, pull, t), state)
         for row, contact in enumerate(begun):
-            if contact is not None and contact["kind"] == Kind.SLIDE:
+            if contact is not None and contact["kind"] == ContactKind.SLIDE:
                 normal, bend = np.array([contact["nx"], contact["ny"]]), self._bends[ball][passed[row] - 1]
                 for k in np.flatnonzero((which == row) & (span > 0.0) & (times < end)).tolist():
                     flown[k] = glide(self._gravity, self._slowing, state[k], normal, bend, float(span[k]))
@@ -347,13 +347,13 @@ def in_order(contacts: NDArray[Any]) -> NDArray[Any]:
 
 def bounces_in(contacts: NDArray[Any]) -> NDArray[np.bool_]:
     """Tell which contacts are bounces: with edges, corners or balls."""
-    found: NDArray[np.bool_] = (contacts["kind"] <= Kind.VERTEX) | (contacts["kind"] == Kind.BALL)
+    found: NDArray[np.bool_] = (contacts["kind"] <= ContactKind.VERTEX) | (contacts["kind"] == ContactKind.BALL)
     return found
 
 
 def turns_in(contacts: NDArray[Any]) -> NDArray[np.bool_]:
     """Tell which contacts change a flight: all but crossings of sensors."""
-    found: NDArray[np.bool_] = (contacts["kind"] != Kind.ENTER) & (contacts["kind"] != Kind.EXIT)
+    found: NDArray[np.bool_] = (contacts["kind"] != ContactKind.ENTER) & (contacts["kind"] != ContactKind.EXIT)
     return found
 
 
@@ -377,7 +377,7 @@ def pull_of(scene: Scene, contact: Any) -> NDArray[np.float64]:
     That is gravity, or its part along a straight wall that holds the ball, less rolling friction there.
     """
     pull = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
-    if contact is None or contact["kind"] != Kind.SLIDE:
+    if contact is None or contact["kind"] != ContactKind.SLIDE:
         return pull
     velocity, normal = np.array([contact["vx"], contact["vy"]]), np.array([contact["nx"], contact["ny"]])
     return pull_along(pull, slowing_of(scene), velocity, normal)

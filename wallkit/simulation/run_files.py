@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from importers.errors import WallkitError
 from wallkit.scene.scene import Scene
 from wallkit.scene.scene_files import read_scene, scene_to_json
-from wallkit.simulation.run import CONTACT, FINAL, MEETING_CONTACT, Ending, Kind, Run, one_a_ball
+from wallkit.simulation.run import CONTACT, FINAL, MEETING_CONTACT, ContactKind, Ending, Run, one_a_ball
 from wallkit.write_file import write_whole
 
 COLUMNS: tuple[str, ...] = CONTACT.names or ()
@@ -27,7 +27,7 @@ def columns_of(contacts: NDArray[Any]) -> tuple[str, ...]:
 
 def columns(run: Run) -> dict[str, list[Any]]:
     """Give the contacts as columns of plain numbers, the kind as its word."""
-    words = {int(kind): kind.label for kind in Kind}
+    words = {int(kind): kind.label for kind in ContactKind}
     table = {name: run.contacts[name].tolist() for name in columns_of(run.contacts)}
     table["kind"] = [words[kind] for kind in table["kind"]]
     return table
@@ -99,7 +99,7 @@ def load(source: str | Path | IO[bytes] | IO[str]) -> Run:
 
 def _run_of(value: dict[str, Any], scene: Scene) -> Run:
     """Make a run of the parsed file and of its scene, which was checked on its own."""
-    kinds = {kind.label: int(kind) for kind in Kind}
+    kinds = {kind.label: int(kind) for kind in ContactKind}
     table, balls = value["contacts"], len(scene.balls)
     contacts = np.zeros(len(table["time"]), dtype=MEETING_CONTACT if "other" in table else CONTACT)
     if any(len(table[column]) != len(contacts) for column in columns_of(contacts)):

@@ -17,7 +17,7 @@ from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation.damping import falls, slowing_of
 from wallkit.simulation.gliding import guides
 from wallkit.simulation.modelled import Modelled
-from wallkit.simulation.run import CONTACT, Kind, Run, in_order, pull_of
+from wallkit.simulation.run import CONTACT, ContactKind, Run, in_order, pull_of
 from wallkit.walls import Walls
 
 
@@ -116,7 +116,7 @@ class Sensors:
 
     def _row(self, ball: int, time: float, x: float, y: float, vx: float, vy: float, edge: int) -> tuple[Any, ...]:
         nx, ny = outward(self._modelled.lists, edge, x, y)
-        kind = Kind.ENTER if vx * nx + vy * ny < 0.0 else Kind.EXIT
+        kind = ContactKind.ENTER if vx * nx + vy * ny < 0.0 else ContactKind.EXIT
         place = (x + self._modelled.origin[0], y + self._modelled.origin[1])
         return time, ball, *place, vx, vy, *place, nx, ny, self._wall[edge], self._edge[edge], kind
 

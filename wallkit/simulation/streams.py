@@ -13,7 +13,7 @@ from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.prepared import prepare, prepare_again
 from wallkit.simulation.simulate import limits
-from wallkit.simulation.survey import Totals, check_threads, survey
+from wallkit.simulation.survey import SurveyTotals, check_threads, survey
 from wallkit.simulation.work import check_draw
 
 
@@ -68,7 +68,7 @@ def survey_stream(
     *,
     threads: int | None = None,
     chunk: int = 100_000,
-) -> Iterator[Totals]:
+) -> Iterator[SurveyTotals]:
     """Survey ``count`` balls in chunks, and give the totals of each: memory does not grow with the number of balls.
 
     Args:
@@ -103,7 +103,7 @@ def _surveyed(
     bounces: int | None,
     threads: int | None,
     chunk: int,
-) -> Iterator[Totals]:
+) -> Iterator[SurveyTotals]:
     ready = None
     for first in range(0, count, chunk):
         balls = draw(first, min(chunk, count - first))

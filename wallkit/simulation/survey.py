@@ -17,7 +17,7 @@ from wallkit.kernels.batches.lockstep import Outcome
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.meeting_survey import fly_together, survey_each
-from wallkit.simulation.prepared import Prepared, prepare_once
+from wallkit.simulation.prepared import PreparedScene, prepare_once
 from wallkit.simulation.run import Ending
 from wallkit.simulation.simulate import limits
 from wallkit.simulation.survey_backends import LEAST, way_to_fly
@@ -26,7 +26,7 @@ from wallkit.walls import Walls
 
 
 @dataclass(eq=False, repr=False)
-class Totals:
+class SurveyTotals:
     """What is left of a survey.
 
     Attributes:
@@ -59,12 +59,12 @@ class Totals:
             f"{int(self.bounces.sum()):,} bounces in {float(self.time.max(initial=0.0)):.6g} s",
             *(f"{Ending(code).label} {counts[code]:,}" for code in np.argsort(-counts, kind="stable") if counts[code]),
         ]
-        return f"<Totals: {', '.join(parts)}>"
+        return f"<SurveyTotals: {', '.join(parts)}>"
 
 
 @overload
 def survey(
-    scene: Scene | Prepared,
+    scene: Scene | PreparedScene,
     until: float | None = None,
     bounces: int | None = None,
     *,
@@ -72,12 +72,12 @@ def survey(
     executor: Executor | None = None,
     check: bool = True,
     by_edge: bool = False,
-) -> Totals: ...
+) -> SurveyTotals: ...
 
 
 @overload
 def survey(
-    scene: Sequence[Scene | Prepared],
+    scene: Sequence[Scene | PreparedScene],
     until: float | None = None,
     bounces: int | None = None,
     *,
@@ -85,11 +85,11 @@ def survey(
     executor: Executor | None = None,
     check: bool = True,
     by_edge: bool = False,
-) -> list[Totals]: ...
+) -> list[SurveyTotals]: ...
 
 
 def survey(
-    scene: Scene | Prepared | Sequence[Scene | Prepared],
+    scene: Scene | PreparedScene | Sequence[Scene | PreparedScene],
     until: float | None = None,
     bounces: int | None = None,
     *,
@@ -97,7 +97,7 @@ def survey(
     executor: Executor | None = None,
     check: bool = True,
     by_edge: bool = False,
-) -> Totals | list[Totals]:
+) -> SurveyTotals | list[SurveyTotals]:
     """Fly every ball until a time, a number of bounces, or an ending of its own, and keep only totals.
 
     Balls that do not meet are flown each alone. Those that meet (``Scene(meeting=True)``) are flown together, on one
@@ -128,20 +128,20 @@ def survey(
     many: list[Any] = list(scene) if isinstance(scene, list | tuple) else [scene]
     for one in many:
         may_be = "a Scene, or what prepare() made of one, or a list of such"
-        of_type(one, "scene", (Scene, Prepared), may_be, error=SceneError, code="bad-scene")
-    ready = [one if isinstance(one, Prepared) else prepare_once(one, *end, check=check) for one in many]
+        of_type(one, "scene", (Scene, PreparedScene), may_be, error=SceneError, code="bad-scene")
+    ready = [one if isinstance(one, PreparedScene) else prepare_once(one, *end, check=check) for one in many]
     if not isinstance(scene, list | tuple):
         return _survey_of(ready[0], end, threads, executor, by_edge)
 
-    def alone(one: Prepared) -> Totals:
+    def alone(one: PreparedScene) -> SurveyTotals:
         return _survey_of(one, end, 1, None, by_edge)
 
     return survey_each(ready, alone, cores() if threads is None else threads, executor)
 
 
 def _survey_of(
-    ready: Prepared, end: tuple[float, int], threads: int | None, executor: Executor | None, by_edge: bool
-) -> Totals:
+    ready: PreparedScene, end: tuple[float, int], threads: int | None, executor: Executor | None, by_edge: bool
+) -> SurveyTotals:
     """Give the totals of one scene; ``end`` is a time and a number of bounces."""
     limit_time, limit_bounces = end
     if by_edge:
@@ -161,10 +161,12 @@ def _survey_of(
     return _totals(ready, outcome, found, by_edge)
 
 
-def _totals(ready: Prepared, outcome: Outcome, found: NDArray[np.int64], by_edge: bool) -> Totals:
+def _totals(ready: PreparedScene, outcome: Outcome, found: NDArray[np.int64], by_edge: bool) -> SurveyTotals:
     walls, tallies = ready.scene.walls, ready.modelled.tallies
     hits, crossings = found[:tallies], found[tallies:].reshape(-1, 2)
-    totals = Totals(outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings)
+    totals = SurveyTotals(
+        outcome.bounces, outcome.position, outcome.velocity, outcome.time, hits, outcome.ending, crossings
+    )
     if by_edge:
         totals.edge_hits, totals.vertex_hits = hits[: len(walls.edge_starts)], hits[len(walls.edge_starts) :]
         totals.hits = hits_by_wall(walls, totals.edge_hits, totals.vertex_hits)

@@ -21,7 +21,7 @@ from wallkit.kernels.flight.sensors import fly_sensed
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.records import LOG_STRIDE, STATE_SIZE, Model
 from wallkit.simulation.aligned_arrays import on_cache_lines
-from wallkit.simulation.prepared import Prepared
+from wallkit.simulation.prepared import PreparedScene
 from wallkit.simulation.simulate import START, initial_states
 
 WORTH_A_WAVE = 2 * WAVE
@@ -36,17 +36,17 @@ AT_ONCE = 65_536
 """Balls flown in step or as a wave before threads look whether the survey was interrupted."""
 Work = Callable[[], NDArray[np.int64]]
 Batch = Callable[[int], Any]
-Flying = Callable[[Prepared, float, int, Outcome, int], AbstractContextManager[Work]]
+Flying = Callable[[PreparedScene, float, int, Outcome, int], AbstractContextManager[Work]]
 
 
-def nothing_found(ready: Prepared) -> NDArray[np.int64]:
+def nothing_found(ready: PreparedScene) -> NDArray[np.int64]:
     """(W + 2 S,) of 0: bounces by wall, or edge and vertex; then for each sensor how often it was entered, and left."""
     sensors = ready.scene.sensors if ready.sensors is not None else None
     return np.zeros(ready.modelled.tallies + 2 * len(sensors or ()), dtype=np.int64)
 
 
 @contextmanager
-def _fly_in_step(ready: Prepared, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
+def _fly_in_step(ready: PreparedScene, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
     """Give what a thread does to fly balls in lockstep, until none is left: counts of bounces."""
     model, start, radius = ready.modelled.model, _start(ready), _radius(ready)
 
@@ -61,7 +61,7 @@ def _fly_in_step(ready: Prepared, until: float, limit: int, outcome: Outcome, _t
 
 
 @contextmanager
-def _fly_as_waves(ready: Prepared, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
+def _fly_as_waves(ready: PreparedScene, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
     """Give what a thread does to fly balls as a wave through the grid, until none is left: counts of bounces."""
     model, start, radius = ready.modelled.model, _start(ready), _radius(ready)
     order = np.arange(len(ready.modelled.radii)) if ready.order is None else ready.order
@@ -84,7 +84,7 @@ def _fly_as_waves(ready: Prepared, until: float, limit: int, outcome: Outcome, _
 
 
 @contextmanager
-def _from_one_counter(ready: Prepared, batches: Callable[[Queue, NDArray[np.int64]], Batch]) -> Iterator[Work]:
+def _from_one_counter(ready: PreparedScene, batches: Callable[[Queue, NDArray[np.int64]], Batch]) -> Iterator[Work]:
     """Give what a thread does that takes its balls from a counter shared by all, batch by batch: counts of bounces."""
     count, counter = len(ready.modelled.radii), np.zeros(1, dtype=np.int64)
 
@@ -101,12 +101,12 @@ def _from_one_counter(ready: Prepared, batches: Callable[[Queue, NDArray[np.int6
         counter[0] = count  # if this thread was interrupted, the others stop soon
 
 
-def _radius(ready: Prepared) -> float | None:
+def _radius(ready: PreparedScene) -> float | None:
     """The one radius of all balls; None for points."""
     return float(ready.modelled.radii[0]) or None
 
 
-def _start(ready: Prepared) -> Start:
+def _start(ready: PreparedScene) -> Start:
     balls, modelled = ready.scene.balls, ready.modelled
     return Start(
         position=np.asarray(balls.position),
@@ -128,7 +128,7 @@ def _scratch(rows: int) -> Scratch:
 
 
 @contextmanager
-def _fly_one_by_one(ready: Prepared, until: float, limit: int, outcome: Outcome, threads: int) -> Iterator[Work]:
+def _fly_one_by_one(ready: PreparedScene, until: float, limit: int, outcome: Outcome, threads: int) -> Iterator[Work]:
     """Give what a thread does to fly balls one after the other, part by part: counts of bounces, then of crossings."""
     modelled = ready.modelled
     order = np.arange(len(modelled.radii)) if ready.order is None else ready.order
@@ -152,7 +152,7 @@ def _fly_one_by_one(ready: Prepared, until: float, limit: int, outcome: Outcome,
 
 
 def _fly(
-    ready: Prepared, radii: FloatArray, states: FloatArray, counts: NDArray[np.int64], until: float, limit: int,
+    ready: PreparedScene, radii: FloatArray, states: FloatArray, counts: NDArray[np.int64], until: float, limit: int,
     found: NDArray[np.int64],
 ) -> None:  # fmt: skip
     model, tallies = ready.modelled.model, ready.modelled.tallies
@@ -175,7 +175,7 @@ def _parts(count: int, threads: int) -> list[slice]:
     return parts
 
 
-def way_to_fly(ready: Prepared) -> Flying:
+def way_to_fly(ready: PreparedScene) -> Flying:
     """Choose the fastest way that does all that acts in a scene; all give the same bits."""
     model, radii = ready.modelled.model, ready.modelled.radii
     if ready.sensors is not None:
@@ -203,7 +203,7 @@ def suits_lockstep(model: Model, radii: FloatArray) -> bool:
     return all(feature is None for feature in features) and bool((radii == radii[0]).all())
 
 
-def _begin(ready: Prepared, balls: NDArray[np.int64]) -> tuple[FloatArray, NDArray[np.int64]]:
+def _begin(ready: PreparedScene, balls: NDArray[np.int64]) -> tuple[FloatArray, NDArray[np.int64]]:
     position, velocity = np.asarray(ready.scene.balls.position), np.asarray(ready.scene.balls.velocity)
     modelled = ready.modelled
     if modelled.model.gravity is not None:

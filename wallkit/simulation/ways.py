@@ -13,7 +13,7 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.scene.start_overlaps import TOUCHING
 from wallkit.simulation.damping import damping_of, slowing_of
-from wallkit.simulation.run import Ending, Kind, Run
+from wallkit.simulation.run import ContactKind, Ending, Run
 from wallkit.simulation.world import Way, World
 
 if TYPE_CHECKING:
@@ -255,7 +255,7 @@ def _chords(stepped: Stepped, asked: Sensors, ball: int) -> Iterator[tuple[Any, 
 
 def _stops(walls: Walls, row: tuple[Any, ...]) -> bool:
     """Tell whether a wall is solid for a ball that crosses it so."""
-    return bool(row[12] == Kind.ENTER or walls.sides[row[10]] == "both")
+    return bool(row[12] == ContactKind.ENTER or walls.sides[row[10]] == "both")
 
 
 def sentence(stepped: Stepped, parted: list[Parting], through: list[FlownThrough]) -> str:

@@ -16,7 +16,7 @@ from importers.errors import WallkitError
 from wallkit.arguments import refused
 from wallkit.scene.scene import Balls, Scene, SceneError, no_balls
 from wallkit.simulation.counts import Counts
-from wallkit.simulation.prepared import Prepared, prepare, prepare_again
+from wallkit.simulation.prepared import PreparedScene, prepare, prepare_again
 from wallkit.simulation.survey import survey
 from wallkit.version import __version__
 from wallkit.walls import Walls
@@ -74,7 +74,7 @@ class Work(Generic[Result]):
     draw: Draw
     until: float | None
     bounces: int | None
-    _ready: Prepared | None = field(default=None, init=False, repr=False)
+    _ready: PreparedScene | None = field(default=None, init=False, repr=False)
 
     def fly(self, first: int, count: int) -> Result:
         """Fly balls ``first`` to ``first + count`` on this thread."""
@@ -88,7 +88,7 @@ class Work(Generic[Result]):
         """All that decides the result beside scene and balls, with one ``repr`` a value."""
         return (type(self).__name__, self.until, self.bounces)
 
-    def prepared(self, first: int, count: int) -> Prepared:
+    def prepared(self, first: int, count: int) -> PreparedScene:
         """Give the scene with these balls, its walls prepared once in this process."""
         balls = self.draw(first, count)
         with _preparing:

@@ -16,7 +16,7 @@ from wallkit.kernels.records import LOG, NO_HIT
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation.damping import carried_on, damping_of, flown_on, slowing_of
 from wallkit.simulation.gliding import glide, guides, pull_along
-from wallkit.simulation.run import CONTACT, Kind
+from wallkit.simulation.run import CONTACT, ContactKind
 from wallkit.simulation.sensors import sensors_of, together
 from wallkit.simulation.simulate import Flights
 
@@ -214,7 +214,7 @@ class World:
         self._end[ball] = math.inf if end is None else end
         if self._sensors is not None:
             until = self._end[ball] if row is None else row[LOG.time]
-            kind, (nx, ny) = Kind.SLIDE if self._keeps[ball] else Kind.LEAVE, self._normal[ball].tolist()
+            kind, (nx, ny) = ContactKind.SLIDE if self._keeps[ball] else ContactKind.LEAVE, self._normal[ball].tolist()
             (vx, vy), bend = self._base[ball, 2:4].tolist(), float(self._bend[ball])
             contact = {"kind": kind, "nx": nx, "ny": ny, "vx": vx, "vy": vy}
             flight = float(self._since[ball]), self._base[ball].copy(), float(until), contact, bend
@@ -242,7 +242,7 @@ class World:
         self._base[ball, 2:4] = row[[LOG.vx, LOG.vy]]
         self._since[ball], self._pull[ball] = row[LOG.time], self._pull_after(row)
         self._normal[ball], self._touched[ball] = row[[LOG.nx, LOG.ny]], row[LOG.feature]
-        self._keeps[ball] = row[LOG.kind] == Kind.SLIDE
+        self._keeps[ball] = row[LOG.kind] == ContactKind.SLIDE
         self._bend[ball] = 0.0
         if self._keeps[ball]:
             contact = self._flights.contacts([row[None]], [np.array([ball], dtype=np.int32)])
@@ -251,7 +251,7 @@ class World:
 
     def _pull_after(self, row: FloatArray) -> FloatArray:
         """Gravity, or the part of it along the wall on which the ball slides from here on, less friction."""
-        if row[LOG.kind] != Kind.SLIDE:
+        if row[LOG.kind] != ContactKind.SLIDE:
             return self._gravity
         return pull_along(self._gravity, self._slowing, row[[LOG.vx, LOG.vy]], row[[LOG.nx, LOG.ny]])
 

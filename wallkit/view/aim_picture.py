@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray
 from wallkit.levels.windows import Windows
 from wallkit.scene.scene import Balls, Scene
-from wallkit.simulation.run import Ending, Kind, Run
+from wallkit.simulation.run import ContactKind, Ending, Run
 from wallkit.simulation.simulate import simulate
 from wallkit.view.canvas import Canvas, Command, Disc, Label, Shape
 from wallkit.view.frame import Frame, united
@@ -94,7 +94,7 @@ def _draw_path(canvas: Canvas, frame: Frame, scene: Scene, windows: Windows, ind
     shot = replace(scene, balls=Balls([windows.start], velocity, windows.radius), sensors=None)
     run = simulate(shot, bounces=window.bounces + 1)
     met = run.contacts_of(0)
-    met = met["time"][(met["kind"] == Kind.EDGE) | (met["kind"] == Kind.VERTEX)]
+    met = met["time"][(met["kind"] == ContactKind.EDGE) | (met["kind"] == ContactKind.VERTEX)]
     since = float(met[window.bounces - 1]) if window.bounces else 0.0
     until = float(met[window.bounces]) if len(met) > window.bounces else since + _FALL * (since or 1.0)
     times = np.linspace(since, until, _LOOKS)
@@ -138,7 +138,7 @@ def _paths(scene: Scene, windows: Windows, angles: list[float], bounces: int, sp
 
 def _places(run: Run, ball: int, windows: Windows, bounces: int) -> FloatArray:
     own = run.contacts_of(ball)
-    own = own[(own["kind"] == Kind.EDGE) | (own["kind"] == Kind.VERTEX)]
+    own = own[(own["kind"] == ContactKind.EDGE) | (own["kind"] == ContactKind.VERTEX)]
     met: NDArray[np.float64] = np.column_stack([own["x"], own["y"]])[: bounces + 1]
     places = np.concatenate([[windows.start], met])
     if len(places) < bounces + 2:  # it leaves the scene, or comes to rest

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.simulation.damping import falls, flown_on, slowing_of
 from wallkit.simulation.gliding import glide, guides, pull_along
-from wallkit.simulation.run import Ending, Kind, one_a_ball, turns_in
+from wallkit.simulation.run import ContactKind, Ending, one_a_ball, turns_in
 
 if TYPE_CHECKING:
     from wallkit.scene.scene import Balls
@@ -185,7 +185,7 @@ def _pulls(run: Run, contacts: NDArray[Any], contact: IntArray, velocity: FloatA
     pull = np.tile(gravity, (len(contact), 1))
     if run.scene.gravity is not None and len(contacts):
         begun = contacts[contact]
-        for row in np.flatnonzero((contact >= 0) & (begun["kind"] == Kind.SLIDE)).tolist():
+        for row in np.flatnonzero((contact >= 0) & (begun["kind"] == ContactKind.SLIDE)).tolist():
             normal = np.array([begun["nx"][row], begun["ny"][row]])
             pull[row] = pull_along(gravity, slowing, velocity[row], normal)
     return pull

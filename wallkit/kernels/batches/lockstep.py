@@ -65,7 +65,7 @@ class Start(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """Where each ball ended, in the scene's coordinates: see ``wallkit.simulation.survey.Totals``."""
+    """Where each ball ended, in the scene's coordinates: see ``wallkit.simulation.survey.SurveyTotals``."""
 
     position: Any
     velocity: Any

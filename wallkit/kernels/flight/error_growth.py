@@ -109,6 +109,22 @@ def _eased(drag: float, t: float) -> Any:
 
 
 @kernel
+def _flown(xx, xv, vv, t, left, drag):
+    """Carry the covariances of place, of place with velocity, and of velocity through a free flight.
+
+    It takes dx to dx + t dv: Var x + t (C + C^T) + t^2 Var v, and C + t Var v. With drag t is the free time, and dv has
+    lost as much as v has.
+    """
+    both = _plus(xv, (xv[0], xv[2], xv[1], xv[3]))
+    more = (t * (both[0] + t * vv[0]), t * (both[1] + t * vv[1]), t * (both[2] + t * vv[2]), t * (both[3] + t * vv[3]))
+    xx = _plus(xx, more)
+    xv = _plus(xv, (t * vv[0], t * vv[1], t * vv[2], t * vv[3]))
+    if drag > 0.0:
+        xv, vv = _scaled(xv, left), _scaled(vv, left * left)
+    return xx, xv, vv
+
+
+@kernel
 def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, fresh: Any, variance: Any) -> None:
     """Fill ``variance`` with that of the place of each contact.
 
@@ -131,21 +147,7 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, f
         t = path[i, 0] - now
         now = path[i, 0]
         left, t = _eased(drag, t)
-        # Free flight for t takes dx to dx + t dv: Var x + t (C + C^T) + t^2 Var v, and C + t Var v. With drag t is the
-        # free time, and dv has lost as much as v has.
-        both = _plus(xv, (xv[0], xv[2], xv[1], xv[3]))
-        xx = _plus(
-            xx,
-            (
-                t * (both[0] + t * vv[0]),
-                t * (both[1] + t * vv[1]),
-                t * (both[2] + t * vv[2]),
-                t * (both[3] + t * vv[3]),
-            ),
-        )
-        xv = _plus(xv, (t * vv[0], t * vv[1], t * vv[2], t * vv[3]))
-        if drag > 0.0:
-            xv, vv = _scaled(xv, left), _scaled(vv, left * left)
+        xx, xv, vv = _flown(xx, xv, vv, t, left, drag)
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ux, uy, nx, ny = path[i, 1], path[i, 2], path[i, 3], path[i, 4]
         across = vx * nx + vy * ny

@@ -55,6 +55,18 @@ def falls(gravity):
 
 
 @kernel
+def _way(log, rows, filled, count):
+    """Length of the way over the last ``count`` contacts, from the place of the one before, and how long it took."""
+    o = LOG_STRIDE * ((filled - count - 1) % rows)
+    length, p = 0.0, o
+    for k in range(filled - count, filled):
+        q = LOG_STRIDE * (k % rows)
+        length += math.sqrt((log[q + LOG.x] - log[p + LOG.x]) ** 2 + (log[q + LOG.y] - log[p + LOG.y]) ** 2)
+        p = q
+    return length, log[p + LOG.time] - log[o + LOG.time]
+
+
+@kernel
 def tangent_norm(model, gravity, radius, log, rows, filled, count):
     """Norm of the tangent map over the last contacts of a ball, and how many of them were on curves.
 
@@ -75,16 +87,12 @@ def tangent_norm(model, gravity, radius, log, rows, filled, count):
     Returns:
         (norm, contacts on curves); the norm is inf where the ball slid, or where it is no number.
     """
-    o = LOG_STRIDE * ((filled - count - 1) % rows)
-    length, begin, p, curved = 0.0, log[o + LOG.time], o, 0
-    for k in range(filled - count, filled):
-        q = LOG_STRIDE * (k % rows)
-        length += math.sqrt((log[q + LOG.x] - log[p + LOG.x]) ** 2 + (log[q + LOG.y] - log[p + LOG.y]) ** 2)
-        p = q
+    o, curved = LOG_STRIDE * ((filled - count - 1) % rows), 0
+    length, lasted = _way(log, rows, filled, count)
     start = math.sqrt(log[o + LOG.vx] * log[o + LOG.vx] + log[o + LOG.vy] * log[o + LOG.vy])
-    if not (length > 0.0 and log[p + LOG.time] > begin and start > 0.0):
+    if not (length > 0.0 and lasted > 0.0 and start > 0.0):
         return CHAOTIC, 0
-    length, speed = length / count, length / (log[p + LOG.time] - begin)
+    length, speed = length / count, length / lasted
     ex, ey = -log[o + LOG.vy] / start, log[o + LOG.vx] / start  # across the way
     x, y, u, w = length * ex, length * ey, 0.0, 0.0
     x2, y2, u2, w2 = 0.0, 0.0, speed * ex, speed * ey

@@ -125,22 +125,9 @@ def fly_to_target(model, gravity, watch, radius, state, counts, ball, number, un
             o = LOG_STRIDE * row
             if asks:
                 crossed = crosses_at(
-                    model,
-                    gravity,
-                    watch.sensors,
-                    watch.pull,
-                    radius,
-                    feature,
-                    kind,
-                    nx,
-                    ny,
-                    x,
-                    y,
-                    vx,
-                    vy,
-                    since,
+                    model, gravity, watch.sensors, watch.pull, radius, feature, kind, nx, ny, x, y, vx, vy, since,
                     ring[o + LOG.time],
-                )
+                )  # fmt: skip
                 if covers:
                     cover(
                         watch, watch.pull, model.drag, number, x, y, vx, vy, ring[o + LOG.time] - since,
@@ -156,13 +143,8 @@ def fly_to_target(model, gravity, watch, radius, state, counts, ball, number, un
                 return filled + row
             bounces += 1 if kind <= VERTEX else 0
             if asks:
-                since, x, y, vx, vy = (
-                    ring[o + LOG.time],
-                    ring[o + LOG.x],
-                    ring[o + LOG.y],
-                    ring[o + LOG.vx],
-                    ring[o + LOG.vy],
-                )
+                since, x, y = ring[o + LOG.time], ring[o + LOG.x], ring[o + LOG.y]
+                vx, vy = ring[o + LOG.vx], ring[o + LOG.vy]
                 nx, ny = ring[o + LOG.nx], ring[o + LOG.ny]
                 set_pull(model, gravity, watch.pull, kind, feature, vx, vy)
             row += 1

@@ -14,9 +14,10 @@ import numpy as np
 from importers.errors import WallkitError
 from importers.limits import MAX_COORDINATE
 from importers.problems import Problem
-from wallkit.scene.opening import USUAL, OpenedScene, Wishes, open_scene
+from wallkit.scene.opening import OpenedScene, open_scene
 from wallkit.scene.samples import shown
 from wallkit.scene.scene import Balls, Scene, area_of
+from wallkit.scene.wishes import USUAL, Wishes
 from wallkit.simulation.run import Ending, Run
 from wallkit.simulation.ways import Stepped
 from wallkit.simulation.world import Way

@@ -16,8 +16,8 @@ from typing import Any
 from urllib.parse import parse_qs, quote, urlsplit
 
 from importers.errors import WallkitError
-from wallkit.scene.opening import USUAL
 from wallkit.scene.samples import Sample, lessons, samples, shown
+from wallkit.scene.wishes import USUAL
 from wallkit.view.page import look
 from wallkit.view.page.answers import MOST_CONTACTS
 from wallkit.view.page.payload import Table, inlined

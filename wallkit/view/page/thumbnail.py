@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from importers.errors import WallkitError
-from wallkit.scene.opening import Wishes, open_scene
+from wallkit.scene.opening import open_scene
+from wallkit.scene.wishes import Wishes
 from wallkit.view.picture import draw_walls, started
 from wallkit.view.run_picture import draw_starts, scene_box
 

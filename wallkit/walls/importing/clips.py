@@ -136,9 +136,9 @@ class _Cutter:
 def _flat(subpaths: Sequence[Subpath], tolerance: float) -> tuple[list[FloatArray], list[bool], float]:
     """Give each subpath as points, a closed one's with the first again at the end, and how far they are off at most."""
     drawn = [sub for sub in subpaths if len(sub.segments) > 1]
-    strokes = gather(drawn)
-    pieces = flatten(strokes, tolerance)
-    outlines = assemble(strokes, pieces, [DrawnPath(drawn)])
+    segments = gather(drawn)
+    pieces = flatten(segments, tolerance)
+    outlines = assemble(segments, pieces, [DrawnPath(drawn)])
     lines = []
     for index, ring in enumerate(outlines.closed.tolist()):
         line = outlines.vertices[outlines.offsets[index] : outlines.offsets[index + 1]]

@@ -49,27 +49,27 @@ class Pieces:
     normal_error: float | None = None
 
 
-def flatten(strokes: Segments, tolerance: float) -> Pieces:
+def flatten(segments: Segments, tolerance: float) -> Pieces:
     """Turn every segment into lines within ``tolerance`` (> 0); end points of segments stay bit for bit.
 
     Raises:
         LimitError: the result would have more than 2,000,000 vertices.
     """
-    cubic_id, cubic_t = _cubic_cuts(strokes.cubics, tolerance)
-    arc_id, arc_t = _arc_cuts(strokes.arcs, tolerance)
-    counts = np.ones(len(strokes.kinds), dtype=np.int64)
-    cubic_at, arc_at = np.flatnonzero(strokes.kinds == KIND_CUBIC), np.flatnonzero(strokes.kinds == KIND_ARC)
+    cubic_id, cubic_t = _cubic_cuts(segments.cubics, tolerance)
+    arc_id, arc_t = _arc_cuts(segments.arcs, tolerance)
+    counts = np.ones(len(segments.kinds), dtype=np.int64)
+    cubic_at, arc_at = np.flatnonzero(segments.kinds == KIND_CUBIC), np.flatnonzero(segments.kinds == KIND_ARC)
     counts[cubic_at] += np.bincount(cubic_id, minlength=len(cubic_at))
     counts[arc_at] += np.bincount(arc_id, minlength=len(arc_at))
-    within_limit(int(counts.sum()) + len(strokes.starts))
-    arcs = strokes.arcs.take(arc_id)
+    within_limit(int(counts.sum()) + len(segments.starts))
+    arcs = segments.arcs.take(arc_id)
     ends = place(
         counts,
-        strokes.ends,
-        (cubic_at, cubic_id, evaluate(strokes.cubics[cubic_id], cubic_t)),
+        segments.ends,
+        (cubic_at, cubic_id, evaluate(segments.cubics[cubic_id], cubic_t)),
         (arc_at, arc_id, arcs.points(arcs.start + arcs.turn * arc_t)),
     )
-    error = max(_cubic_error(strokes.cubics, cubic_id, cubic_t), _arc_error(strokes.arcs, arc_id, arc_t))
+    error = max(_cubic_error(segments.cubics, cubic_id, cubic_t), _arc_error(segments.arcs, arc_id, arc_t))
     return Pieces(counts, ends, np.zeros(len(ends)), error)
 
 

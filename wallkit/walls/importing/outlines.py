@@ -149,20 +149,20 @@ def on_grid(outlines: Outlines, grid: float) -> tuple[Outlines, float]:
     return replace(outlines, vertices=vertices + 0.0), moved * (math.sqrt(2.0) if outlines.bulges.any() else 1.0)
 
 
-def assemble(strokes: Segments, pieces: Pieces, paths: list[DrawnPath]) -> Outlines:
+def assemble(segments: Segments, pieces: Pieces, paths: list[DrawnPath]) -> Outlines:
     """String the edges of all subpaths together: start points, edge ends, and what closes.
 
     An outline is closed when the file closes it or when it is drawn back to its very start (the same bits).
     """
     subpaths = [sub for path in paths for sub in path.subpaths]
     owner = np.repeat(np.arange(len(paths)), [len(path.subpaths) for path in paths])
-    edges = _sums(pieces.counts, strokes.offsets)
+    edges = _sums(pieces.counts, segments.offsets)
     counts = edges + 1
     offsets = np.concatenate([[0], np.cumsum(counts)])
     vertices, bulges = np.empty((offsets[-1], 2)), np.zeros(offsets[-1])
     first = np.zeros(offsets[-1], dtype=np.bool_)
     first[offsets[:-1]] = True
-    vertices[first], vertices[~first] = strokes.starts, pieces.ends
+    vertices[first], vertices[~first] = segments.starts, pieces.ends
     last = np.zeros(offsets[-1], dtype=np.bool_)
     last[offsets[1:] - 1] = True
     bulges[~last] = pieces.bulges

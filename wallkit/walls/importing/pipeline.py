@@ -77,13 +77,13 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
     if options.outline_strokes:
         chosen, outlined = _outlined(chosen, options.tolerance)
         pointless += outlined
-    strokes = gather((sub for path in chosen for sub in path.subpaths), scale, flip_y)
-    within = default_tolerance(strokes) if options.tolerance is None else options.tolerance * scale
-    pieces = _pieces(strokes, within, options)
+    segments = gather((sub for path in chosen for sub in path.subpaths), scale, flip_y)
+    within = default_tolerance(segments) if options.tolerance is None else options.tolerance * scale
+    pieces = _pieces(segments, within, options)
     markers = drawn_places(choice.places, scale, flip_y)
     if not len(balls):
         balls = np.array([(marker.x, marker.y) for marker in markers if marker.kind == "spawn"]).reshape(-1, 2)
-    outlines, moved = _outlines(strokes, pieces, chosen, options)
+    outlines, moved = _outlines(segments, pieces, chosen, options)
     cut = scale * max((path.error for path in chosen), default=0.0)
     walls = nested(keep_sides(outlines) if flip_y else outlines, options, within, balls)
     sensors, doubtful = _sensors(choice.sensors, options, within)
@@ -103,15 +103,15 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
     return walls if sensors is None else replace(walls, sensors=sensors_like(walls, sensors))
 
 
-def _pieces(strokes: Segments, within: float, options: ImportOptions) -> Pieces:
-    return fit_arcs(strokes, within) if options.curves == "arcs" else flatten(strokes, within)
+def _pieces(segments: Segments, within: float, options: ImportOptions) -> Pieces:
+    return fit_arcs(segments, within) if options.curves == "arcs" else flatten(segments, within)
 
 
 def _outlines(
-    strokes: Segments, pieces: Pieces, paths: list[DrawnPath], options: ImportOptions
+    segments: Segments, pieces: Pieces, paths: list[DrawnPath], options: ImportOptions
 ) -> tuple[Outlines, float]:
     """Make clean polylines, on the grid that is asked for: them, and how far that moved anything at most."""
-    outlines = assemble(strokes, pieces, paths)
+    outlines = assemble(segments, pieces, paths)
     if not options.grid:
         return clean(outlines), 0.0
     outlines, moved = on_grid(outlines, options.grid)
@@ -123,8 +123,8 @@ def _sensors(paths: list[DrawnPath], options: ImportOptions, within: float) -> t
     paths, pointless = _with_segments(paths)
     if not paths:
         return None, pointless
-    strokes = gather((sub for path in paths for sub in path.subpaths), options.scale, options.flip_y)
-    outlines, _ = _outlines(strokes, _pieces(strokes, within, options), paths, options)
+    segments = gather((sub for path in paths for sub in path.subpaths), options.scale, options.flip_y)
+    outlines, _ = _outlines(segments, _pieces(segments, within, options), paths, options)
     sensors, problems = drawn_sensors(outlines)
     return sensors, [_moved(problem, options.scale, options.flip_y) for problem in pointless] + problems
 

@@ -110,9 +110,9 @@ def _scaled(arcs: Arcs, factor: FloatArray) -> Arcs:
     return Arcs(arcs.centre * factor, u, -v, -arcs.start, -arcs.turn)  # v a quarter turn left of u again
 
 
-def default_tolerance(strokes: Segments, most: float = 0.1) -> float:
+def default_tolerance(segments: Segments, most: float = 0.1) -> float:
     """0.1 % of the diagonal of the box of all end and control points, at most ``most``."""
-    points = np.concatenate([strokes.starts, strokes.ends, strokes.cubics.reshape(-1, 2)])
+    points = np.concatenate([segments.starts, segments.ends, segments.cubics.reshape(-1, 2)])
     if not len(points):
         return most
     diagonal = float(np.hypot(*(points.max(axis=0) - points.min(axis=0))))

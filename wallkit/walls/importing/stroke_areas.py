@@ -47,9 +47,9 @@ def outline_strokes(paths: list[DrawnPath], tolerance: float) -> tuple[list[Draw
 
 
 def _painted(path: DrawnPath, tolerance: float) -> shapely.Geometry:
-    strokes = gather(path.subpaths)
-    pieces = flatten(strokes, tolerance / 2)
-    outlines = assemble(strokes, pieces, [path])
+    segments = gather(path.subpaths)
+    pieces = flatten(segments, tolerance / 2)
+    outlines = assemble(segments, pieces, [path])
     lines = [_line(outlines, index) for index in range(len(outlines))]
     half = (path.stroke_width or 0.0) / 2
     area = shapely.union_all(

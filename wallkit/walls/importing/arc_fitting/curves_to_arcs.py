@@ -59,7 +59,7 @@ class _Edges:
     turn: float = 0.0
 
 
-def fit_arcs(strokes: Segments, tolerance: float) -> Pieces:
+def fit_arcs(segments: Segments, tolerance: float) -> Pieces:
     """Turn every segment into lines and arcs within ``tolerance`` (> 0).
 
     Arcs are at most half circles (|bulge| <= 1) and join with equal directions inside of segments, and where
@@ -75,21 +75,21 @@ def fit_arcs(strokes: Segments, tolerance: float) -> Pieces:
     Raises:
         LimitError: the result would have more than 2,000,000 vertices.
     """
-    cubic_at, arc_at = np.flatnonzero(strokes.kinds == KIND_CUBIC), np.flatnonzero(strokes.kinds == KIND_ARC)
-    round_ = _is_circle(strokes.arcs)
-    lines = np.flatnonzero(strokes.kinds == KIND_LINE)
+    cubic_at, arc_at = np.flatnonzero(segments.kinds == KIND_CUBIC), np.flatnonzero(segments.kinds == KIND_ARC)
+    round_ = _is_circle(segments.arcs)
+    lines = np.flatnonzero(segments.kinds == KIND_LINE)
     parts = [
-        _Edges(lines, strokes.ends[lines], np.zeros(len(lines))),
-        _fit(Cubics.of(strokes.cubics), strokes, cubic_at, tolerance),
-        _circles(strokes.arcs.take(round_), arc_at[round_]),
-        _fit(Ellipses(strokes.arcs.take(~round_)), strokes, arc_at[~round_], tolerance),
+        _Edges(lines, segments.ends[lines], np.zeros(len(lines))),
+        _fit(Cubics.of(segments.cubics), segments, cubic_at, tolerance),
+        _circles(segments.arcs.take(round_), arc_at[round_]),
+        _fit(Ellipses(segments.arcs.take(~round_)), segments, arc_at[~round_], tolerance),
     ]
-    segments = np.concatenate([part.segments for part in parts])
-    order = np.argsort(segments, kind="stable")
-    counts = np.bincount(segments, minlength=len(strokes.kinds)).astype(np.int64)
+    owner = np.concatenate([part.segments for part in parts])
+    order = np.argsort(owner, kind="stable")
+    counts = np.bincount(owner, minlength=len(segments.kinds)).astype(np.int64)
     ends = np.concatenate([part.ends for part in parts])[order]
     drawn = counts > 0
-    ends[np.cumsum(counts)[drawn] - 1] = strokes.ends[drawn]
+    ends[np.cumsum(counts)[drawn] - 1] = segments.ends[drawn]
     bulges = np.concatenate([part.bulges for part in parts])[order]
     return Pieces(counts, ends, bulges, max(p.distance for p in parts), max(p.turn for p in parts))
 
@@ -113,18 +113,18 @@ def _circles(arcs: Arcs, at: IntArray) -> _Edges:
     return _Edges(at[which], ends, bulges)
 
 
-def _fit(curves: Curves, strokes: Segments, at: IntArray, tolerance: float) -> _Edges:
+def _fit(curves: Curves, segments: Segments, at: IntArray, tolerance: float) -> _Edges:
     """Fit curves of one kind, whose segments are ``at``, block by block; a chain lies in one block."""
     if not len(curves):
         return _Edges(at, np.empty((0, 2)), np.empty(0))
-    smooth = runs_on(curves, strokes, at)
+    smooth = runs_on(curves, segments, at)
     starts = np.flatnonzero(~smooth)
     blocks = [*starts[np.flatnonzero(np.diff(starts // _BLOCK, prepend=-1))].tolist(), len(curves)]
     parts: list[_Edges] = []
     total = 0
     for first, last in pairwise(blocks):
         rows = np.arange(first, last)
-        parts.append(_fit_block(curves.take(rows), strokes, at[rows], smooth[rows], tolerance))
+        parts.append(_fit_block(curves.take(rows), segments, at[rows], smooth[rows], tolerance))
         total += len(parts[-1].bulges)
         within_limit(total)
     return _Edges(
@@ -136,17 +136,17 @@ def _fit(curves: Curves, strokes: Segments, at: IntArray, tolerance: float) -> _
     )
 
 
-def _fit_block(curves: Curves, strokes: Segments, at: IntArray, smooth: BoolArray, tolerance: float) -> _Edges:
+def _fit_block(curves: Curves, segments: Segments, at: IntArray, smooth: BoolArray, tolerance: float) -> _Edges:
     """Fit curves; the edges of a chain count as its last segment's.
 
     Args:
         curves: of one kind, the first of them the start of a chain.
-        strokes: all subpaths.
+        segments: all subpaths.
         at: (n,) the segment of each curve.
         smooth: (n,) the curve goes on smoothly from the one before.
         tolerance: how far arcs may be off.
     """
-    origins = as_complex(strokes.begins[at])
+    origins = as_complex(segments.begins[at])
     chains = Chains.of(curves, origins, np.zeros(len(curves), dtype=np.bool_))
     whole = between_cusps(chains)
     spans, fit = halve(chains, whole, tolerance)
@@ -168,9 +168,9 @@ def _fit_block(curves: Curves, strokes: Segments, at: IntArray, smooth: BoolArra
     two = ~arcs.single
     z[last[two] - 1], bulges[last[two] - 1] = arcs.joint[two], arcs.bulge0[two]
     ids = np.repeat(spans.ids, edge_counts)
-    ends = strokes.begins[at[chains.offsets[ids]]] + np.stack([z.real, z.imag], axis=1)
-    segments = at[chains.offsets[ids + 1] - 1]
-    return _Edges(segments, ends, bulges, float(fit.distance.max()), float(fit.turn.max()))
+    ends = segments.begins[at[chains.offsets[ids]]] + np.stack([z.real, z.imag], axis=1)
+    owner = at[chains.offsets[ids + 1] - 1]
+    return _Edges(owner, ends, bulges, float(fit.distance.max()), float(fit.turn.max()))
 
 
 def _arcs_by_themselves(chains: Chains, spans: Spans) -> BoolArray:

@@ -158,24 +158,24 @@ class Chains:
         return low
 
 
-def runs_on(curves: Curves, strokes: Segments, at: IntArray) -> NDArray[np.bool_]:
+def runs_on(curves: Curves, segments: Segments, at: IntArray) -> NDArray[np.bool_]:
     """Tell which curves go on smoothly from the one before, in the same subpath, with nothing else at the joint.
 
     Args:
         curves: the curves.
-        strokes: all subpaths.
+        segments: all subpaths.
         at: (n,) the segment of each curve, rising.
     """
     first, last = curves.end_tangents()
     along = first[1:] * last[:-1].conj()
-    subpath = np.searchsorted(strokes.offsets, at, side="right")
+    subpath = np.searchsorted(segments.offsets, at, side="right")
     joined = np.zeros(len(at), dtype=np.bool_)
     joined[1:] = (np.diff(at) == 1) & (np.diff(subpath) == 0)
     joined[1:] &= (along.real > 0) & (np.abs(along.imag) <= _SMOOTH)
     rows = np.flatnonzero(joined)
     if len(rows):
-        joints = as_complex(strokes.begins[at[rows]])
-        points = np.sort(as_complex(np.concatenate([strokes.starts, strokes.ends])))
+        joints = as_complex(segments.begins[at[rows]])
+        points = np.sort(as_complex(np.concatenate([segments.starts, segments.ends])))
         count = np.searchsorted(points, joints, side="right") - np.searchsorted(points, joints)
         joined[rows] = count == 1
     return joined
