@@ -117,7 +117,7 @@ def test_the_page_draws_a_gliding_ball_where_it_is(tmp_path):
     assert {int(edge) for edge in run.contacts["edge"][run.contacts["kind"] == ContactKind.SLIDE]} >= {-1, 0, 1}
     (tmp_path / "run.json").write_text(json.dumps(run_table(run, horizon=False)), encoding="utf-8")
     folder = Path(wallkit.view.page.__file__).parent / "static"
-    script = "".join((folder / name).read_text(encoding="utf-8") for name in ("pendulum.js", "motion.js"))
+    script = "".join((folder / name).read_text(encoding="utf-8") for name in ("pendulum.js", "slowed.js", "motion.js"))
     script += """
     const run = JSON.parse(require("fs").readFileSync(process.argv[1], "utf8"));
     const motion = new Wallkit.Motion(run);

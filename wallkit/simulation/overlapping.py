@@ -15,7 +15,7 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.exact_edges import ExactEdges, as_complex
 from wallkit.kernels.flight.motion import reflect
 from wallkit.scene.scene import Scene
-from wallkit.simulation.damping import carried_on, damping_of, flown_on, slowing_of
+from wallkit.simulation.motion import Motion
 from wallkit.simulation.run import CONTACT, ContactKind
 from wallkit.simulation.sensors import sensors_of, together
 
@@ -37,39 +37,33 @@ class Overlapping:
         self._scene = scene
         self._time = 0.0
         self._sensors = sensors_of(scene)
-        self._damping, self._drag = damping_of(scene), slowing_of(scene).drag
-        self._gravity = np.array(scene.gravity or (0.0, 0.0), dtype=np.float64)
-        self._state = np.hstack([scene.balls.position, scene.balls.velocity]).astype(np.float64)
+        self._motion = Motion.of(scene, np.hstack([scene.balls.position, scene.balls.velocity]).astype(np.float64))
         self._radius = np.asarray(scene.balls.radius, dtype=np.float64)
 
     def go(self, until: float) -> NDArray[Any]:
         """Move on by one frame that ends at a time: crossings of sensors, and what turned a ball at the end."""
-        crossed = [row for ball in range(len(self._state)) for row in self._crossings(ball, until)]
+        balls = np.arange(len(self._radius))
+        crossed = [row for ball in balls.tolist() for row in self._crossings(ball, until)]
         dt, self._time = until - self._time, until
-        if self._damping is not None:
-            self._state = np.array([carried_on(self._damping, state, dt) for state in self._state]).reshape(-1, 4)
-        else:
-            pull, time = np.tile(self._gravity, (len(self._state), 1)), np.full((len(self._state), 1), dt)
-            self._state = flown_on(self._drag, self._state[:, 0:2], self._state[:, 2:4], pull, time)
+        self._motion.state = self._motion.at(balls, np.full(len(balls), dt))
         rows = [row for ball in np.flatnonzero(self._radius > 0.0).tolist() for row in self._turned(ball)]
         contacts = np.array(rows, dtype=CONTACT)
         return together(contacts, crossed) if crossed else contacts
 
     def state(self, time: float) -> FloatArray:
         """(n, 4) places and velocities at the time up to which it has gone."""
-        return self._state.copy()
+        return self._motion.state.copy()
 
     def place(self, ball: int, position: FloatArray, velocity: FloatArray, time: float) -> None:
         """Let a ball go on from elsewhere."""
-        self._state[ball] = *position, *velocity
+        self._motion.begin(ball, position, velocity)
 
     def _crossings(self, ball: int, until: float) -> Iterator[tuple[Any, ...]]:
         if self._sensors is not None:
-            flight = self._time, self._state[ball].copy(), until, None, 0.0
-            yield from self._sensors.crossings_on(self._scene, ball, *flight)
+            yield from self._sensors.crossings_on(ball, self._motion, ball, self._time, until)
 
     def _turned(self, ball: int) -> list[tuple[Any, ...]]:
-        x, y, vx, vy = self._state[ball].tolist()
+        x, y, vx, vy = self._motion.state[ball].tolist()
         radius = float(self._radius[ball])
         near = self._tree.query(shapely.box(x - radius, y - radius, x + radius, y + radius))
         edges = self._edges.take(near)
@@ -88,24 +82,21 @@ class Overlapping:
             keep = [material.restitution, material.tangential_restitution]
             vx, vy, _square = reflect(keep, 0, n.real, n.imag, 2.0, vx, vy, vx * vx + vy * vy)
             corner = point in (edges.a[index], edges.b[index])
-            which = (
-                (-1, ContactKind.VERTEX)
-                if corner
-                else (edge - int(self._scene.walls.edge_offsets[wall]), ContactKind.EDGE)
-            )
+            kind = ContactKind.VERTEX if corner else ContactKind.EDGE
+            which = -1 if corner else edge - int(self._scene.walls.edge_offsets[wall]), kind
             rows.append((self._time, ball, x, y, vx, vy, point.real, point.imag, n.real, n.imag, wall, *which))
-        self._state[ball, 2:4] = vx, vy
+        self._motion.state[ball, 2:4] = vx, vy
         return rows
 
     def _normal(self, edge: int, wall: int, point: complex, away: complex, vx: float, vy: float) -> complex:
         """Unit normal of an overlapping wall; of a two-sided one whose line the centre is on, against the velocity."""
         both = self._scene.walls.sides[wall] == "both"
         if both and away != 0:
-            return away / abs(away)
+            return _unit(away)
         outward: complex = self._outward[edge]
         if (turn := float(self._edges.angle[edge])) != 0.0:  # right of an arc that turns to the left is off its centre
             off = complex(point - self._edges.centre[edge])
-            outward = math.copysign(1.0, turn) * off / abs(off)
+            outward = math.copysign(1.0, turn) * _unit(off)
         if both:
             return outward if vx * outward.real + vy * outward.imag < 0.0 else -outward
         return outward if away == 0 or (away * outward.conjugate()).real > 0.0 else 0j
@@ -137,3 +128,9 @@ class Overlapping:
         bow = (np.hypot(*(b - a).T) / 2 * bulge)[:, None]
         low, high = np.minimum(a, b) - bow, np.maximum(a, b) + bow
         return shapely.STRtree(shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1]))
+
+
+def _unit(z: complex) -> complex:
+    """Part by part: what looks along an axis stays exact, which a division of complex numbers does not see to."""
+    size = abs(z)
+    return complex(z.real / size, z.imag / size)

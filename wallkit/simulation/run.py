@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from importers.errors import WallkitError
 from importers.pictured import Pictured
 from wallkit import arguments
-from wallkit.simulation.damping import Slowing, carried_on, damping_of, flown_on, slowing_of
-from wallkit.simulation.gliding import glide, guides, pull_along
+from wallkit.simulation.gliding import guides
+from wallkit.simulation.motion import Motion
 
 if TYPE_CHECKING:
     from wallkit.scene.scene import Scene
@@ -275,31 +275,17 @@ class Run(Pictured):
         """(k, 4) states of one ball: of each time the flight that it falls into, carried on."""
         own, end = self._turns[ball], float(self.final[ball]["time"])
         passed, which = np.unique(np.searchsorted(own["time"], times, side="right"), return_inverse=True)
-        begun = [own[count - 1] if count else None for count in passed.tolist()]
-        first = np.asarray(self.start[ball], dtype=np.float64)
-        base = np.array([first if c is None else (c["x"], c["y"], c["vx"], c["vy"]) for c in begun]).reshape(-1, 4)
-        since = np.array([0.0 if contact is None else contact["time"] for contact in begun])[which]
-        state = base[which]
-        span = np.maximum(np.minimum(times, end) - since, 0.0)
-        if self._damping is not None:
-            rests = (times >= end) & (self.ending[ball] == Ending.AT_REST)
-            spans = np.where(rests, math.inf, span).tolist()
-            return np.array([carried_on(self._damping, *one) for one in zip(state, spans, strict=True)]).reshape(-1, 4)
-        pull = np.array([self.pull_after(contact) for contact in begun]).reshape(-1, 2)[which]
-        x, v, t = state[:, 0:2], state[:, 2:4], span[:, None]
-        flown: NDArray[np.float64] = np.where(t > 0.0, flown_on(self._slowing.drag, x, v, pull, t), state)
-        for row, contact in enumerate(begun):
-            if contact is not None and contact["kind"] == ContactKind.SLIDE:
-                normal, bend = np.array([contact["nx"], contact["ny"]]), self._bends[ball][passed[row] - 1]
-                for k in np.flatnonzero((which == row) & (span > 0.0) & (times < end)).tolist():
-                    flown[k] = glide(self._gravity, self._slowing, state[k], normal, bend, float(span[k]))
-                last = self.final[ball]
-                flown[(which == row) & (times >= end)] = last["x"], last["y"], last["vx"], last["vy"]
+        begun = passed[passed > 0] - 1
+        rows = np.searchsorted(begun, passed - 1, side="right")[which]  # 0 is the start
+        motion = Motion.after(self.scene, self.start[ball], own[begun], self._bends[ball][begun])
+        since = np.concatenate([[0.0], own["time"][begun]])[rows]
+        span, ended = np.maximum(np.minimum(times, end) - since, 0.0), times >= end
+        if motion.damping is not None:
+            span = np.where(ended & (self.ending[ball] == Ending.AT_REST), math.inf, span)
+        last = ended & motion.held[rows]  # a ball that walls hold to its end is where its run says
+        flown = motion.at(rows, np.where(last, 0.0, span))
+        flown[last] = [self.final[ball][name] for name in ("x", "y", "vx", "vy")]
         return flown
-
-    @cached_property
-    def _gravity(self) -> NDArray[np.float64]:
-        return np.asarray(self.scene.gravity if self.scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
 
     @cached_property
     def _bends(self) -> list[NDArray[np.float64]]:
@@ -307,21 +293,9 @@ class Run(Pictured):
         return [guides(self.scene.walls, own) for own in self._turns]
 
     @cached_property
-    def _damping(self) -> NDArray[np.float64] | None:
-        return damping_of(self.scene)
-
-    @cached_property
-    def _slowing(self) -> Slowing:
-        return slowing_of(self.scene)
-
-    @cached_property
     def _turns(self) -> list[NDArray[Any]]:
         """By ball the contacts that change its flight; sensors do not."""
         return [own[turns_in(own)] for own in map(self.contacts_of, range(len(self.final)))]
-
-    def pull_after(self, contact: Any) -> NDArray[np.float64]:
-        """Acceleration after a contact (None: at the start), drag aside: see :func:`pull_of`."""
-        return pull_of(self.scene, contact)
 
 
 def one_a_ball(contacts: NDArray[Any]) -> NDArray[Any]:
@@ -369,15 +343,3 @@ def _of_balls(contacts: NDArray[Any], number: NDArray[np.int32]) -> NDArray[Any]
         kept["other"] = other
     kept["ball"] = number[kept["ball"]]
     return in_order(kept)
-
-
-def pull_of(scene: Scene, contact: Any) -> NDArray[np.float64]:
-    """Acceleration after a contact (None: at the start), drag aside.
-
-    That is gravity, or its part along a straight wall that holds the ball, less rolling friction there.
-    """
-    pull = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
-    if contact is None or contact["kind"] != ContactKind.SLIDE:
-        return pull
-    velocity, normal = np.array([contact["vx"], contact["vy"]]), np.array([contact["nx"], contact["ny"]])
-    return pull_along(pull, slowing_of(scene), velocity, normal)

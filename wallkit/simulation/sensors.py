@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
@@ -17,7 +18,8 @@ from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation.damping import falls, slowing_of
 from wallkit.simulation.gliding import guides
 from wallkit.simulation.modelled import Modelled
-from wallkit.simulation.run import CONTACT, ContactKind, Run, in_order, pull_of
+from wallkit.simulation.motion import Motion
+from wallkit.simulation.run import CONTACT, ContactKind, Run, in_order
 from wallkit.walls import Walls
 
 
@@ -35,7 +37,7 @@ def with_crossings(run: Run) -> Run:
         row
         for ball in range(len(run.final))
         for flight in _flights(run, ball)
-        for row in sensors.crossings_on(run.scene, ball, *flight)
+        for row in sensors.crossings_on(ball, *flight)
     ]
     return Run(run.scene, together(run.contacts, rows), run.final, run.ending, run.start) if rows else run
 
@@ -50,15 +52,13 @@ def together(contacts: NDArray[Any], rows: list[tuple[Any, ...]]) -> NDArray[Any
     return in_order(np.concatenate([contacts, crossed]))
 
 
-def _flights(run: Run, ball: int) -> Iterator[tuple[float, NDArray[np.float64], float, Any, float]]:
-    """Give the flights of a ball: (from, state, to, the contact before, signed radius of its circle or 0)."""
-    since, state, contact, bent = 0.0, run.start[ball], None, 0.0
+def _flights(run: Run, ball: int) -> Iterator[tuple[Motion, int, float, float]]:
+    """Give the flights of a ball: what it does, the row of that, from when and until when."""
     own = run.contacts_of(ball)
-    for following, bend in zip(own, guides(run.scene.walls, own).tolist(), strict=True):
-        yield since, state, float(following["time"]), contact, bent
-        since, contact, bent = float(following["time"]), following, bend
-        state = np.array([following[name] for name in ("x", "y", "vx", "vy")])
-    yield since, state, float(run.final[ball]["time"]), contact, bent
+    motion = Motion.after(run.scene, run.start[ball], own, guides(run.scene.walls, own))
+    times = [0.0, *own["time"].tolist(), float(run.final[ball]["time"])]
+    for row, (since, until) in enumerate(itertools.pairwise(times)):
+        yield motion, row, since, until
 
 
 def sensors_of(scene: Scene) -> Sensors | None:
@@ -85,26 +85,25 @@ class Sensors:
         self._wall, self._edge = self._modelled.index_of_edge(Scene(walls))
 
     def crossings_on(
-        self, scene: Scene, ball: int, since: float, state: NDArray[np.float64], until: float, contact: Any, bent: float
+        self, ball: int, motion: Motion, row: int, since: float, until: float
     ) -> Iterator[tuple[Any, ...]]:
         """Give what a ball crosses from one contact to the next, in order: rows of ``CONTACT``.
 
         Args:
-            scene: whose gravity acts.
             ball: its number.
+            motion: what it does,
+            row: and which row of that.
             since: when the flight begins.
-            state: (4,) x, y, vx, vy then.
             until: when it ends, or inf.
-            contact: with which it begins (its nx, ny and kind), or None.
-            bent: signed radius of the circle on which it goes, see ``wallkit.simulation.gliding.guides``.
         """
+        state, bent = motion.state[row].copy(), float(motion.bend[row])
         if bent == 0.0:
-            yield from self.crossings(ball, since, state, until, pull_of(scene, contact))
+            yield from self.crossings(ball, since, state, until, motion.pull[row].copy())
             return
         model, (ox, oy) = self._modelled.lists, self._modelled.origin.tolist()
-        (gx, gy), (x, y, vx, vy) = scene.gravity or (0.0, 0.0), state.tolist()
+        (gx, gy), (x, y, vx, vy) = motion.gravity.tolist(), state.tolist()
         out = 1.0 if bent > 0.0 else -1.0
-        ex, ey = out * float(contact["nx"]), out * float(contact["ny"])
+        ex, ey = (out * motion.normal[row]).tolist()
         x, y, v, time, edge = x - ox, y - oy, vy * ex - vx * ey, since, NO_HIT
         while True:
             x, y, ex, ey, v, time, edge = next_crossing_round(

@@ -13,6 +13,7 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.scene.start_overlaps import TOUCHING
 from wallkit.simulation.damping import damping_of, slowing_of
+from wallkit.simulation.motion import Motion
 from wallkit.simulation.run import ContactKind, Ending, Run
 from wallkit.simulation.world import Way, World
 
@@ -228,8 +229,8 @@ def flown_through(stepped: Stepped) -> list[FlownThrough]:
 
 def _flight(stepped: Stepped, asked: Sensors, ball: int) -> Iterator[tuple[Any, ...]]:
     """All walls that a point crosses under the overlap test: it flies as if there were none."""
-    flight = 0.0, stepped.state[0, ball], float(stepped.time[-1]), None, 0.0
-    for row in asked.crossings_on(stepped.scene, ball, *flight):
+    motion = Motion.of(stepped.scene, stepped.state[0])
+    for row in asked.crossings_on(ball, motion, ball, 0.0, float(stepped.time[-1])):
         if _stops(stepped.scene.walls, row):
             yield row
 

@@ -14,8 +14,8 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.records import LOG, NO_HIT
 from wallkit.scene.scene import Scene, SceneError
-from wallkit.simulation.damping import carried_on, damping_of, flown_on, slowing_of
-from wallkit.simulation.gliding import glide, guides, pull_along
+from wallkit.simulation.gliding import guides
+from wallkit.simulation.motion import Motion
 from wallkit.simulation.run import CONTACT, ContactKind
 from wallkit.simulation.sensors import sensors_of, together
 from wallkit.simulation.simulate import Flights
@@ -77,32 +77,23 @@ class World:
         self._stepper: Together | Overlapping | None = None  # what moves the balls where no contact is foreseen here
         if scene.meeting or way == "overlap":
             self._stepper = _stepper_of(scene, way, compile)
-            self._base = np.hstack([scene.balls.position, scene.balls.velocity])
             return
         self._flights = Flights(scene, mode="compiled" if compile else "interpreted")
-        self._damping, self._slowing = damping_of(scene), slowing_of(scene)
-        self._base = self._flights.start.copy()  # where each ball was, and its velocity, ...
-        self._since = np.zeros(len(self._base))  # ... when: after its last contact or change
-        self._gravity = np.zeros(2) if scene.gravity is None else np.array(scene.gravity, dtype=np.float64)
-        self._pull = np.tile(self._gravity, (len(self._base), 1))  # what accelerates each ball since
-        self._keeps = np.zeros(len(self._base), dtype=np.bool_)  # whether a wall holds it since then, ...
-        self._bend = np.zeros(len(self._base))  # ... and on what circle: see guides
-        self._end = np.full(len(self._base), math.inf)  # when it rests for good, or is caught
-        self._normal = np.zeros((len(self._base), 2))  # of that contact, and what was touched
-        self._touched = np.full(len(self._base), NO_HIT, dtype=np.int64)
-        self._next_time = np.full(len(self._base), math.inf)
-        self._next: list[FloatArray | None] = [None] * len(self._base)
+        self._motion = Motion.of(scene, self._flights.start.copy())  # after each ball's last contact or change, ...
+        self._since = np.zeros(len(self))  # ... when that was, and what was touched
+        self._touched = np.full(len(self), NO_HIT, dtype=np.int64)
+        self._end = np.full(len(self), math.inf)  # when it rests for good, or is caught
+        self._next_time = np.full(len(self), math.inf)
+        self._next: list[FloatArray | None] = [None] * len(self)
         self._sensors = sensors_of(scene)
-        self._coming: list[tuple[Any, ...] | None] = [None] * len(
-            self._base
-        )  # next crossing of a sensor before that, ...
-        self._later: list[Iterator[tuple[Any, ...]]] = [iter(())] * len(self._base)  # ... and those after it
+        self._coming: list[tuple[Any, ...] | None] = [None] * len(self)  # next crossing of a sensor before that, ...
+        self._later: list[Iterator[tuple[Any, ...]]] = [iter(())] * len(self)  # ... and those after it
         for ball in range(len(self)):
             self._look_ahead(ball)
         self._soonest = float(self._next_time.min(initial=math.inf))
 
     def __len__(self) -> int:
-        return len(self._base)
+        return len(self.scene.balls)
 
     def __repr__(self) -> str:
         return f"<World: {self.way!r} at {self.time:.6g} s, {self.scene!r}>"
@@ -120,16 +111,7 @@ class World:
     def _state(self) -> FloatArray:
         if self._stepper is not None:
             return self._stepper.state(self.time)
-        span = np.minimum(self.time, self._end) - self._since
-        if self._damping is not None:
-            return np.array([carried_on(self._damping, *now) for now in zip(self._base, span.tolist(), strict=True)])
-        position, velocity = self._base[:, 0:2], self._base[:, 2:4]
-        state = flown_on(self._slowing.drag, position, velocity, self._pull, span[:, None])
-        for ball in np.flatnonzero(self._bend).tolist():
-            state[ball] = glide(
-                self._gravity, self._slowing, self._base[ball], self._normal[ball], self._bend[ball], float(span[ball])
-            )
-        return state
+        return self._motion.at(np.arange(len(self)), np.minimum(self.time, self._end) - self._since)
 
     def step(self, dt: float) -> NDArray[Any]:
         """Move everything on by ``dt`` seconds.
@@ -189,7 +171,7 @@ class World:
             self._restart(ball, here, speed, self.time, NO_HIT)
         else:
             away = float(speed @ normal)
-            along = abs(away) <= LEVEL_SPEED * float(np.abs(speed).sum()) and float(self._gravity @ normal) < 0.0
+            along = abs(away) <= LEVEL_SPEED * float(np.abs(speed).sum()) and float(self._motion.gravity @ normal) < 0.0
             if away < 0.0 and not along:
                 speed = speed - 2.0 * away * normal
             self._restart(ball, here, speed, self.time, touched, normal if along else None)
@@ -197,13 +179,12 @@ class World:
 
     def _contact(self, ball: int, here: FloatArray) -> tuple[int, FloatArray | None]:
         """What a ball touches now, and the unit normal towards it: what holds it, or what it has just hit."""
-        touched, normal = int(self._touched[ball]), self._normal[ball]
-        if touched == NO_HIT or not (
-            self._keeps[ball] or self._since[ball] == self.time or self.time >= self._end[ball]
-        ):
+        touched, normal = int(self._touched[ball]), self._motion.normal[ball]
+        held = self._motion.held[ball] or self._since[ball] == self.time or self.time >= self._end[ball]
+        if touched == NO_HIT or not held:
             return NO_HIT, None
-        if (bend := float(self._bend[ball])) != 0.0:  # the normal turns as the ball goes round
-            turned: FloatArray = normal + (here - self._base[ball, 0:2]) / bend
+        if (bend := float(self._motion.bend[ball])) != 0.0:  # the normal turns as the ball goes round
+            turned: FloatArray = normal + (here - self._motion.state[ball, 0:2]) / bend
             normal = turned / np.hypot(*turned)
         return touched, normal
 
@@ -214,11 +195,8 @@ class World:
         self._end[ball] = math.inf if end is None else end
         if self._sensors is not None:
             until = self._end[ball] if row is None else row[LOG.time]
-            kind, (nx, ny) = ContactKind.SLIDE if self._keeps[ball] else ContactKind.LEAVE, self._normal[ball].tolist()
-            (vx, vy), bend = self._base[ball, 2:4].tolist(), float(self._bend[ball])
-            contact = {"kind": kind, "nx": nx, "ny": ny, "vx": vx, "vy": vy}
-            flight = float(self._since[ball]), self._base[ball].copy(), float(until), contact, bend
-            self._later[ball] = self._sensors.crossings_on(self.scene, ball, *flight)
+            flight = self._motion, ball, float(self._since[ball]), float(until)
+            self._later[ball] = self._sensors.crossings_on(ball, *flight)
             self._coming[ball] = next(self._later[ball], None)
         self._set_next_time(ball)
 
@@ -238,28 +216,19 @@ class World:
 
     def _accept(self, ball: int, row: FloatArray) -> None:
         """The frame has reached the contact: from there the ball goes on."""
-        self._base[ball, 0:2] = row[[LOG.x, LOG.y]] + self._flights.modelled.origin
-        self._base[ball, 2:4] = row[[LOG.vx, LOG.vy]]
-        self._since[ball], self._pull[ball] = row[LOG.time], self._pull_after(row)
-        self._normal[ball], self._touched[ball] = row[[LOG.nx, LOG.ny]], row[LOG.feature]
-        self._keeps[ball] = row[LOG.kind] == ContactKind.SLIDE
-        self._bend[ball] = 0.0
-        if self._keeps[ball]:
+        place, normal = row[[LOG.x, LOG.y]] + self._flights.modelled.origin, row[[LOG.nx, LOG.ny]]
+        self._motion.begin(ball, place, row[[LOG.vx, LOG.vy]])
+        self._since[ball], self._touched[ball], self._motion.normal[ball] = row[LOG.time], row[LOG.feature], normal
+        if row[LOG.kind] == ContactKind.SLIDE:
             contact = self._flights.contacts([row[None]], [np.array([ball], dtype=np.int32)])
-            self._bend[ball] = guides(self.scene.walls, contact)[0]
+            self._motion.hold(np.array([ball]), normal[None], guides(self.scene.walls, contact))
         self._look_ahead(ball)
-
-    def _pull_after(self, row: FloatArray) -> FloatArray:
-        """Gravity, or the part of it along the wall on which the ball slides from here on, less friction."""
-        if row[LOG.kind] != ContactKind.SLIDE:
-            return self._gravity
-        return pull_along(self._gravity, self._slowing, row[[LOG.vx, LOG.vy]], row[[LOG.nx, LOG.ny]])
 
     def _accept_late(self, ball: int, row: FloatArray, end: float, dt: float) -> None:
         """Treat the contact as frame-stepping programs do; whatever else was in the frame is not looked at."""
         contact, after = row[[LOG.x, LOG.y]] + self._flights.modelled.origin, row[[LOG.vx, LOG.vy]]
         if self.way == "stop":
-            self._normal[ball] = row[[LOG.nx, LOG.ny]]
+            self._motion.normal[ball] = row[[LOG.nx, LOG.ny]]
             self._restart(ball, contact, after, end, int(row[LOG.feature]))
         elif self.way == "full-step":
             self._restart(ball, contact + dt * after, after, end, NO_HIT)
@@ -276,9 +245,8 @@ class World:
         normal: FloatArray | None = None,
     ) -> None:
         self._flights.place(ball, position, velocity, time, last, normal)
-        self._base[ball] = *position, *velocity
-        self._since[ball], self._touched[ball], self._pull[ball] = time, last, self._gravity
-        self._keeps[ball], self._bend[ball] = False, 0.0
+        self._motion.begin(ball, position, velocity)
+        self._since[ball], self._touched[ball] = time, last
         self._look_ahead(ball)
 
 

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.simulation.damping import falls, flown_on, slowing_of
-from wallkit.simulation.gliding import glide, guides, pull_along
+from wallkit.simulation.damping import falls
+from wallkit.simulation.gliding import guides
+from wallkit.simulation.motion import Motion
 from wallkit.simulation.run import ContactKind, Ending, one_a_ball, turns_in
 
 if TYPE_CHECKING:
@@ -104,37 +105,36 @@ def tracks(run: Run, limit: int | None = None) -> Tracks:
         found = np.stack([contacts[name][index] for name in names], axis=1)
         return np.where((index >= 0)[:, None], found, otherwise)
 
+    position, velocity = column(("x", "y"), contact, start[ball]), column(("vx", "vy"), contact, velocity[ball])
+    motion = _motion(run, contacts[contact] if len(contacts) else None, contact, np.hstack([position, velocity]))
     flights = Tracks(
         offsets=offsets,
         time=column(("time",), contact, np.zeros((len(ball), 1)))[:, 0],
         until=column(("time",), following, final_time[ball][:, None])[:, 0],
-        position=column(("x", "y"), contact, start[ball]),
+        position=position,
         target=column(("x", "y"), following, final[ball]),
-        velocity=column(("vx", "vy"), contact, velocity[ball]),
-        pull=_pulls(run, contacts, contact, column(("vx", "vy"), contact, velocity[ball])),
+        velocity=velocity,
+        pull=_pulls(run, motion),
         drag=0.0 if falls(run.scene) else run.scene.drag or 0.0,
         contact=contact.astype(np.int64),
         contacts=contacts,
         radius=radius,
         whole=whole,
     )
-    bends = guides(run.scene.walls, contacts)
-    bent = np.where(contact >= 0, bends[contact], 0.0) if bends.any() else np.zeros(len(contact))
-    return _in_chords(run, flights, bent) if bent.any() or slowing_of(run.scene).drag is not None else flights
+    return _in_chords(flights, motion) if motion.bend.any() or motion.slowing.drag is not None else flights
 
 
-def _in_chords(run: Run, flights: Tracks, bent: FloatArray) -> Tracks:
-    """Cut stretches on circles (signed radii ``bent``, 0 for none) into short ones that a parabola each comes near.
+def _in_chords(flights: Tracks, motion: Motion) -> Tracks:
+    """Cut stretches on circles into short ones that a parabola each comes near.
 
     With drag all others are cut, too. One that goes to and fro for long is cut so for its first turns only, and stands
     at its end after that.
     """
-    gravity = np.asarray(run.scene.gravity or (0.0, 0.0), dtype=np.float64)
+    bent, drag = motion.bend, motion.slowing.drag
     rho = np.where(bent == 0.0, 1.0, np.abs(bent))
     span = flights.until - flights.time
-    rate = np.maximum(np.hypot(*flights.velocity.T) / rho, np.sqrt(float(np.hypot(*gravity)) / rho))
-    slowing = slowing_of(run.scene)
-    straight = 1.0 if slowing.drag is None else np.ceil(span * slowing.drag / FINE)
+    rate = np.maximum(np.hypot(*flights.velocity.T) / rho, np.sqrt(float(np.hypot(*motion.gravity)) / rho))
+    straight = 1.0 if drag is None else np.ceil(span * drag / FINE)
     pieces = np.clip(np.where(bent == 0.0, straight, np.ceil(rate * span / CHORD)), 1, MOST_CHORDS).astype(np.int64)
     own = np.repeat(np.arange(len(span)), pieces)
     rank = np.arange(len(own)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
@@ -144,17 +144,10 @@ def _in_chords(run: Run, flights: Tracks, bent: FloatArray) -> Tracks:
     pull, last = flights.pull[own].copy(), rank == pieces[own] - 1
     until[last] = flights.until[own[last]]
 
-    def state_after(index: int, time: float) -> FloatArray:
-        stretch = own[index]
-        place, speed, pull = flights.position[stretch], flights.velocity[stretch], flights.pull[stretch]
-        if bent[stretch] == 0.0:
-            return flown_on(slowing.drag, place[None], speed[None], pull[None], np.array([[time]])).ravel()
-        contact = flights.contacts[flights.contact[stretch]]
-        normal = np.array([contact["nx"], contact["ny"]])
-        return glide(gravity, slowing, np.concatenate([place, speed]), normal, float(bent[stretch]), time)
-
-    for index in np.flatnonzero(((bent != 0.0) | (slowing.drag is not None))[own] & (span[own] > 0.0)).tolist():
-        begin, end = (state_after(index, float((rank[index] + more) * step[index])) for more in (0, 1))
+    cut = np.flatnonzero(((bent != 0.0) | (drag is not None))[own] & (span[own] > 0.0))
+    first = np.asarray((rank * step)[cut], dtype=np.float64)
+    begins, ends = motion.at(own[cut], first), motion.at(own[cut], first + step[cut])
+    for index, begin, end in zip(cut.tolist(), begins, ends, strict=True):
         if last[index] and until[index] - time[index] > 2.0 * step[index]:
             begin, end = np.concatenate([target[index], (0.0, 0.0)]), np.concatenate([target[index], (0.0, 0.0)])
         position[index], velocity[index] = begin[0:2], begin[2:4]
@@ -176,19 +169,23 @@ def _in_chords(run: Run, flights: Tracks, bent: FloatArray) -> Tracks:
     )
 
 
-def _pulls(run: Run, contacts: NDArray[Any], contact: IntArray, velocity: FloatArray) -> FloatArray:
-    if not falls(run.scene) and run.scene.rolling_friction is not None:
-        speed = np.hypot(*velocity.T)[:, None]
-        direction: FloatArray = np.divide(velocity, speed, out=np.zeros_like(velocity), where=speed > 0)
-        return -run.scene.rolling_friction * direction
-    gravity, slowing = np.array(run.scene.gravity or (0.0, 0.0), dtype=np.float64), slowing_of(run.scene)
-    pull = np.tile(gravity, (len(contact), 1))
-    if run.scene.gravity is not None and len(contacts):
-        begun = contacts[contact]
-        for row in np.flatnonzero((contact >= 0) & (begun["kind"] == ContactKind.SLIDE)).tolist():
-            normal = np.array([begun["nx"][row], begun["ny"][row]])
-            pull[row] = pull_along(gravity, slowing, velocity[row], normal)
-    return pull
+def _motion(run: Run, begun: NDArray[Any] | None, contact: IntArray, state: FloatArray) -> Motion:
+    """Give what balls do in each stretch; ``begun`` has the contacts that begin them, but for -1 in ``contact``."""
+    motion = Motion.of(run.scene, state)
+    if begun is not None:
+        held = np.flatnonzero((contact >= 0) & (begun["kind"] == ContactKind.SLIDE))
+        own = begun[held]
+        motion.hold(held, np.stack([own["nx"], own["ny"]], axis=1), guides(run.scene.walls, own))
+    return motion
+
+
+def _pulls(run: Run, motion: Motion) -> FloatArray:
+    if falls(run.scene) or run.scene.rolling_friction is None:
+        return motion.pull
+    velocity = motion.state[:, 2:4]
+    speed = np.hypot(*velocity.T)[:, None]
+    direction: FloatArray = np.divide(velocity, speed, out=np.zeros_like(velocity), where=speed > 0)
+    return -run.scene.rolling_friction * direction
 
 
 def _taken(order: IntArray, index: IntArray) -> IntArray:
@@ -220,15 +217,13 @@ def _ends(run: Run) -> tuple[FloatArray, FloatArray]:
     velocity = np.stack([run.final["vx"], run.final["vy"]], axis=1)
     x0, y0, x1, y1 = run.scene.walls.box()
     reach = 1.5 * float(np.hypot(x1 - x0, y1 - y0)) + float(np.abs(final).max(initial=0.0) > 0)
-    touched = np.zeros(len(time))
+    touched, free = np.zeros(len(time)), Motion.of(run.scene, np.hstack([final, velocity]))
     contacts = one_a_ball(run.contacts)
     np.maximum.at(touched, contacts["ball"], contacts["time"])
     for ball, ending in enumerate(run.ending):
         speed = float(np.hypot(*velocity[ball]))
         if ending is Ending.LEFT_SCENE and speed > 0 and time[ball] == touched[ball]:
             span = reach / speed
-            pull, after = np.array([run.scene.gravity or (0.0, 0.0)], dtype=np.float64), np.array([[span]])
-            drag = slowing_of(run.scene).drag
-            final[ball] = flown_on(drag, final[ball : ball + 1], velocity[ball : ball + 1], pull, after)[0, 0:2]
+            final[ball] = free.at(np.array([ball]), np.array([span]))[0, 0:2]
             time[ball] += span
     return final, time
