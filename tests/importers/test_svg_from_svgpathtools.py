@@ -20,7 +20,9 @@ from wallkit import (
     read_drawing_text,
 )
 
-SAMPLES = sorted(path for path in (Path(__file__).parents[2] / "samples").iterdir() if path.suffix != ".toml")
+SAMPLES = sorted(
+    path for path in (Path(__file__).parents[2] / "samples").iterdir() if path.suffix in (".svg", ".ai", ".txt")
+)
 
 
 @pytest.mark.parametrize(

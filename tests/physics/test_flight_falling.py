@@ -57,7 +57,7 @@ def test_a_contact_with_a_corner_is_known_to_the_rounding_of_its_place():
             radius, gravity = float(rng.choice([0.5, 5.0])), -100.0
             t, feature = fall_corners(
                 [Corner(0.0, 0.0, 0.0, 0.0)], [0], 0, 1, None, [0], None, radius, x, y, vx, vy, 0.0, gravity,
-                NO_HIT, 1e-9, 0.0, NEVER, math.inf, NO_HIT,
+                None, math.inf, NO_HIT, 1e-9, 0.0, NEVER, math.inf, NO_HIT,
             )  # fmt: skip
             if feature == NO_HIT:
                 continue
@@ -85,13 +85,14 @@ def test_a_window_of_time_leaves_out_no_contact_in_it(seed):
 
         def ask(now, until, best, radius=radius, arcs=arcs, corners=corners, flight=flight):
             best, feature, _touched = fall_arcs(
-                arcs, [0], 0, 1, None, [0], radius, *flight, NO_HIT, NO_HIT, 1e-10, (0.0, 0.0), now, until, best,
-                NO_HIT,
+                arcs, [0], 0, 1, None, [0], radius, *flight, None, math.inf, NO_HIT, NO_HIT, 1e-10, (0.0, 0.0), now,
+                until, best, NO_HIT,
             )  # fmt: skip
             if radius > 0.0:
                 best, feature = fall_corners(
-                    corners, [0], 0, 1, None, [0], None, radius, *flight, NO_HIT, 1e-10, now, until, best, feature
-                )
+                    corners, [0], 0, 1, None, [0], None, radius, *flight, None, math.inf, NO_HIT, 1e-10, now, until,
+                    best, feature,
+                )  # fmt: skip
             return best, feature
 
         free = ask(0.0, NEVER, math.inf)
