@@ -3,7 +3,7 @@ import pytest
 import shapely
 
 from importers.drawing import Drawing, DrawnPath, Subpath
-from wallkit import SceneError, Walls
+from wallkit import SceneError, WallkitError, Walls, open_scene
 from wallkit.scene.starting_places import roomiest, scattered
 from wallkit.walls.importing.drawn_balls import drawn_balls
 
@@ -119,3 +119,17 @@ def test_scattered_places_have_room_and_come_again_with_their_seed():
     assert (outside > 5).all()
     with pytest.raises(SceneError, match="no room"):
         scattered(walls, spot, 1, 30.0, np.random.default_rng(3))
+
+
+@pytest.mark.parametrize(("lines", "said"), [(30, None), (150, "cross too often")])  # 900 and 22,500 crossings
+def test_a_hatch_too_fine_to_cut_is_told_as_such(lines, said):
+    across = [[("M", -5.0, k + 0.5), ("L", lines + 5.0, k + 0.5)] for k in range(lines)]
+    down = [[("M", float(k), -5.0), ("L", float(k), lines + 5.0)] for k in range(lines)]
+    paths = [DrawnPath([Subpath(line, False)], stroke="#000000") for line in across + down]
+    drawing = Drawing("px", "down", paths=paths)
+    if said is None:
+        assert len(open_scene(drawing).scene.balls) == 1
+        return
+    with pytest.raises(WallkitError, match=said) as caught:
+        open_scene(drawing)
+    assert caught.value.code == "no-room"

@@ -85,7 +85,7 @@ def _random_velocities(count: int, wishes: Wishes, random: np.random.Generator, 
 
 
 def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, Balls]:
-    from wallkit.scene.starting_places import roomiest, scattered
+    from wallkit.scene.starting_places import cross_too_often, roomiest, scattered
     from wallkit.walls.orient import inside_out
     from wallkit.walls.solid import Solid
 
@@ -101,7 +101,10 @@ def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, B
     if spot is None:
         if wishes.may_be_empty:
             return walls, Balls(np.empty((0, 2)), np.empty((0, 2)))
-        raise UsageError("no room for a ball was found inside these walls", code="no-room", fix="give --ball X,Y")
+        why = "there is no room for a ball inside these walls"
+        if cross_too_often(walls):
+            why = "these walls cross too often to look for room for a ball among them"
+        raise UsageError(why, code="no-room", fix="give --ball X,Y")
     count = wishes.balls
     radius = wishes.radius
     meeting = opened.scene.meeting if wishes.meeting is None else wishes.meeting

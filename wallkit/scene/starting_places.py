@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from wallkit.walls.checking.self_check import straight_edges
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.sample import flattened
 from wallkit.walls.solid import walls_around
+
+if TYPE_CHECKING:
+    from wallkit.walls.crossings import Touches
 
 MOST_DRAWS = 200
 """So many times places are drawn, more of them than balls each time, before there is said to be no room."""
@@ -75,20 +78,35 @@ def face_around(walls: Walls, x: float, y: float) -> Spot | None:
     return _spot(min(faces, key=shapely.area), tree) if faces else None
 
 
+def cross_too_often(walls: Walls) -> bool:
+    """Tell whether walls cross at more places than are cut: then no place is looked for among them."""
+    edges, touches = _touching(walls)
+    return len(edges) > 0 and _too_many(touches)
+
+
+def _touching(walls: Walls) -> tuple[Edges, Touches]:
+    from wallkit.walls.crossings import find_touches
+
+    rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
+    offsets = np.concatenate([[0], np.cumsum([len(ring) for ring in rings])]).astype(np.int64)
+    edges = Edges(np.concatenate([np.empty((0, 2)), *rings]), offsets, walls.closed)
+    return edges, find_touches(edges)
+
+
+def _too_many(touches: Touches) -> bool:
+    from wallkit.walls.noding import MOST_CROSSINGS
+
+    return not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS
+
+
 def _noded(walls: Walls) -> Any:
     """Give the walls' lines, cut where they cross; None where there are none, or too many places where they do."""
     import shapely
 
-    from wallkit.walls.crossings import find_touches
-    from wallkit.walls.noding import MOST_CROSSINGS, noded
+    from wallkit.walls.noding import noded
 
-    rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
-    if not rings:
-        return None
-    offsets = np.concatenate([[0], np.cumsum([len(ring) for ring in rings])])
-    edges = Edges(np.concatenate(rings), offsets, walls.closed)
-    touches = find_touches(edges)
-    if not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS or not len(edges):
+    edges, touches = _touching(walls)
+    if not len(edges) or _too_many(touches):
         return None
     return shapely.multilinestrings(shapely.linestrings(np.stack(noded(edges, touches), axis=1)))
 
