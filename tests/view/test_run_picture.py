@@ -1,3 +1,4 @@
+import dataclasses
 import io
 import re
 import xml.etree.ElementTree as ET
@@ -11,7 +12,7 @@ from wallkit.view.canvas import Canvas, Disc, Shape
 from wallkit.view.frame import fit
 from wallkit.view.heat import spent
 from wallkit.view.raster import Raster, png, polylines
-from wallkit.view.run_picture import run_canvas, run_svg, scene_box, scene_svg
+from wallkit.view.run_picture import run_box, run_canvas, run_svg, scene_box, scene_svg
 from wallkit.view.theme import RAMP_STEPS, colour, ramp
 from wallkit.view.tracks import tracks
 
@@ -175,3 +176,14 @@ def test_several_balls_have_their_colours_in_stills_as_in_films_one_shows_the_ti
     alone = run.take([0])
     assert len(steps(alone, "path")) > 2
     assert steps(alone, "ball") == {None}
+
+
+@pytest.mark.parametrize(("speed", "above"), [(20.0, 20.0), (40.0, 40.0)])  # v^2 / 2 g, at most the size of the floor
+def test_a_picture_has_room_for_a_ball_that_is_thrown_above_its_walls(speed, above):
+    floor = wallkit.Walls.from_polylines([[(0.0, 0.0), (40.0, 0.0)]], closed=False)
+    scene = wallkit.Scene(floor, wallkit.Balls([20.0, 0.0], [1.0, speed]), gravity=(0.0, -10.0))
+    x0, y0, x1, y1 = run_box(wallkit.simulate(scene, until=3.0 * speed / 20.0))
+    assert (x0, y0, x1) == (0.0, 0.0, 40.0)
+    assert y1 == pytest.approx(min(speed * speed / 20.0, above))
+    still = dataclasses.replace(scene, gravity=None)
+    assert run_box(wallkit.simulate(still, until=1.0)) == (0.0, 0.0, 40.0, 0.0)

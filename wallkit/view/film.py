@@ -27,7 +27,7 @@ from wallkit.view.canvas import Command, Disc, Item, Label, Shape
 from wallkit.view.frame import Frame
 from wallkit.view.picture import draw_walls, finish, round_length, started
 from wallkit.view.raster import Raster
-from wallkit.view.run_picture import Colouring, draw_sensors, ramp_steps, scene_box
+from wallkit.view.run_picture import Colouring, draw_sensors, ramp_steps, run_box
 from wallkit.view.theme import RAMP_STEPS, Theme
 from wallkit.view.tracks import arrays_of, tracks
 from wallkit.view.ways_picture import Beside
@@ -134,7 +134,7 @@ class _Frames:
         self, run: Run, look: Look, seconds: float, progress: Progress | None, stepped: Stepped | None = None
     ) -> None:
         self.run, self.look, self.fps, self.progress = run, look, look.fps, progress
-        box, up = scene_box(run.scene), run.scene.walls.y_axis == "up"
+        box, up = run_box(run), run.scene.walls.y_axis == "up"
         canvas, self.frame = started(box, up, title="", width=float(look.width))
         start, _, radius = arrays_of(run.scene.balls)
         draw_walls(canvas, run.scene.walls, self.frame, normals=False, free=start)

@@ -124,11 +124,12 @@ def _ended(run: Run, most: int) -> Run:
 
 
 def whole_box(run: Run) -> Box:
-    """Give the box of the walls and of where the balls start."""
+    """Give the box of the walls, of where the balls start, and of the paths of those that fall."""
     from wallkit.view.frame import united, walls_box
+    from wallkit.view.run_picture import run_box
 
     places = [(x, y, x, y) for x, y, _, _ in starts(run).tolist()]
-    return united([*([walls_box(run.scene.walls)] if len(run.scene.walls) else []), *places])
+    return run_box(run, united([*([walls_box(run.scene.walls)] if len(run.scene.walls) else []), *places]))
 
 
 def _hash(text: str) -> str:

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from importers.problems import Problem
 from wallkit.geometry.arrays import FloatArray
 from wallkit.scene.scene import Scene
+from wallkit.simulation.damping import falls
+from wallkit.simulation.run import Ending
 from wallkit.view.canvas import Bitmap, Canvas, Command, Disc, Label, Shape
 from wallkit.view.frame import Box, Frame, united, walls_box
 from wallkit.view.heat import heat_rows
@@ -81,7 +83,7 @@ def run_canvas(
     strobe: float | None = None,
 ) -> Canvas:
     """Draw a run as :func:`run_svg` does, on a canvas that can become SVG or pixels."""
-    canvas, frame = scene_base(run.scene, title, width)
+    canvas, frame = scene_base(run.scene, title, width, run_box(run))
     canvas.title = title or f"{len(run.ending)} balls, {int(run.bounces.sum())} bounces"
     flight = tracks(run, MAX_MEASURED if heat else MAX_STRETCHES)
     if heat:
@@ -108,7 +110,7 @@ def run_canvas(
 
 def run_marks(run: Run) -> tuple[Canvas, Frame]:
     """Draw what :func:`run_canvas` puts over the walls, without them: paths, ghosts, starts and ends."""
-    canvas, frame = started(scene_box(run.scene), run.scene.walls.y_axis == "up", title="", width=WIDTH)
+    canvas, frame = started(run_box(run), run.scene.walls.y_axis == "up", title="", width=WIDTH)
     flight = tracks(run, MAX_STRETCHES)
     steps, _, _ = _steps(flight, "time")
     _draw_flight(canvas, run, frame, flight, steps)
@@ -131,7 +133,7 @@ def _draw_flight(
 
 def run_thumbnail(run: Run, width: float = 420.0) -> str:
     """Draw a run as a small picture without words, as one SVG document."""
-    canvas, frame = scene_base(run.scene, "", width)
+    canvas, frame = scene_base(run.scene, "", width, run_box(run))
     flight = tracks(run, MAX_STRETCHES)
     steps, _, _ = _steps(flight, "ball")
     _draw_flight(canvas, run, frame, flight, steps)
@@ -149,10 +151,10 @@ def scene_svg(scene: Scene, *, title: str = "", width: float = WIDTH) -> str:
     return canvas.to_svg()
 
 
-def scene_base(scene: Scene, title: str, width: float) -> tuple[Canvas, Frame]:
-    """Begin a picture with a scene's walls and sensors."""
+def scene_base(scene: Scene, title: str, width: float, box: Box | None = None) -> tuple[Canvas, Frame]:
+    """Begin a picture with a scene's walls and sensors; of ``box``, by default the scene's own."""
     position, _, _ = arrays_of(scene.balls)
-    canvas, frame = started(scene_box(scene), scene.walls.y_axis == "up", title=title, width=width)
+    canvas, frame = started(box or scene_box(scene), scene.walls.y_axis == "up", title=title, width=width)
     draw_walls(canvas, scene.walls, frame, free=position)
     draw_sensors(canvas, scene, frame)
     return canvas, frame
@@ -177,6 +179,34 @@ def scene_box(scene: Scene) -> Box:
         low, high = (position - radius[:, None]).min(axis=0), (position + radius[:, None]).max(axis=0)
         boxes.append((float(low[0]), float(low[1]), float(high[0]), float(high[1])))
     return united(boxes)
+
+
+def run_box(run: Run, around: Box | None = None) -> Box:
+    """Give the box around a scene, and around the paths of balls that fall, which rise above what holds them.
+
+    A ball that leaves the scene is not followed, and no path farther than the larger side of the scene.
+
+    Args:
+        run: whose paths count.
+        around: the box of the scene; by default that of walls, sensors and balls.
+    """
+    around = scene_box(run.scene) if around is None else around
+    if not falls(run.scene):
+        return around
+    flight = tracks(run, MAX_STRETCHES)
+    left = np.array([ending is Ending.LEFT_SCENE for ending in run.ending], dtype=np.bool_)
+    last = np.zeros(len(flight.time), dtype=np.bool_)
+    last[flight.offsets[1:][left & (np.diff(flight.offsets) > 0)] - 1] = True
+    begin, speed, pull = flight.position[~last], flight.velocity[~last], flight.pull[~last]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        turn = -speed / pull  # when a coordinate comes to stand: the highest place of a parabola
+    turns = (turn > 0.0) & (turn < (flight.until - flight.time)[~last][:, None])
+    highest = begin + np.where(turns, 0.5 * speed * np.where(turns, turn, 0.0), 0.0)
+    places = np.concatenate([begin, flight.target[~last], highest, np.reshape(around, (2, 2))])
+    reach = max(around[2] - around[0], around[3] - around[1])
+    low = np.maximum(places.min(axis=0), np.array(around[:2]) - reach)
+    high = np.minimum(places.max(axis=0), np.array(around[2:]) + reach)
+    return float(low[0]), float(low[1]), float(high[0]), float(high[1])
 
 
 def _steps(flight: Tracks, colour: Colouring) -> tuple[NDArray[np.int64], float, float]:

@@ -21,6 +21,7 @@ from wallkit.view.run_picture import (
     draw_starts,
     ramp_steps,
     rim_of,
+    run_box,
     scene_base,
 )
 from wallkit.view.tracks import Tracks, arrays_of, tracks
@@ -39,7 +40,7 @@ def ways_canvas(run: Run, stepped: Stepped, *, title: str = "", width: float = W
     Each frame is a dot. A ring is where a ball first is somewhere else than its exact run says, with a thin line to the
     exact ball of that moment; a cross is where it went through a wall.
     """
-    canvas, frame = scene_base(run.scene, title, width)
+    canvas, frame = scene_base(run.scene, title, width, run_box(run))
     beside = Beside(run, stepped, frame)
     canvas.title = title or beside.sentence
     canvas.add(*beside.exact_paths(float(stepped.time[-1])))
