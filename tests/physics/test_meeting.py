@@ -459,3 +459,9 @@ def test_a_disc_alone_on_a_floor_bounces_as_alone_until_it_hops() -> None:
     tops = run.position(np.linspace(4.0, 5.0, 200))[:, 0, 1]
     assert tops.max() <= 0.5 + 1.001 * HOP * 0.5
     assert tops.min() >= 0.5 - 1e-12
+
+
+@pytest.mark.parametrize(("sample", "hops"), [("galton", True), ("gas", False)])
+def test_that_discs_hop_is_said_where_they_would_come_to_lie(sample: str, hops: bool) -> None:
+    opened = wallkit.open_scene(Path(__file__).parents[2] / "samples" / f"{sample}.toml")
+    assert ("meeting-hops" in [problem.code for problem in opened.problems]) is hops

@@ -195,7 +195,8 @@ def _completed(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> Open
         ball_restitution=scene.ball_restitution if wishes.ball_restitution is None else wishes.ball_restitution,
     )
     about_balls = [] if opened.found_place else ball_findings(walls, balls)
-    opened.problems = [*walls.problems, *opened.problems, *about_balls, *_bumpers(opened.scene.walls)]
+    acting = [*_bumpers(opened.scene.walls), *_hops(opened.scene)]
+    opened.problems = [*walls.problems, *opened.problems, *about_balls, *acting]
     return opened
 
 
@@ -207,6 +208,16 @@ def _bumpers(walls: Walls) -> list[Problem]:
     words = "1 wall has" if count == 1 else f"{count} walls have"
     message = f"{words} a restitution above 1: each bounce there adds energy, and without an end a ball may collapse"
     return [Problem("energy-grows", "info", message, "nothing to do for a bumper; else give 1 or less")]
+
+
+def _hops(scene: Scene) -> list[Problem]:
+    """Say that discs that meet under gravity do not lie still, where something would let them."""
+    falls = scene.gravity is not None and any(scene.gravity)
+    loses = min([scene.ball_restitution, *(material.restitution for material in scene.walls.materials)]) < 1.0
+    if not (scene.meeting and falls and loses and scene.balls.radius.any()):
+        return []
+    message = "discs that meet do not come to lie under gravity: they hop, too low to be seen (1/4096 of a radius)"
+    return [Problem("meeting-hops", "info", message, "nothing to do; a disc alone, without meeting, slides and rests")]
 
 
 def _with_material(walls: Walls, wishes: Wishes) -> Walls:
