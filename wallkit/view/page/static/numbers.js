@@ -55,7 +55,7 @@
       const name = this.player.motion.balls > 1 ? `, ${this.player.nameOf(bounce.ball)}` : "";
       this.set("when", `${W.number(bounce.time)} s${name}`);
       const [frame, part] = frameOf(bounce.time, this.frames);
-      this.set("frames", W.number(this.frames));
+      this.set("frames", `${Number(this.frames.toPrecision(4))}`);
       this.set("frame", `${frame.toLocaleString("en")} + ${part.toFixed(3)}`);
     }
 
