@@ -19,7 +19,7 @@ from wallkit.scene.asked_balls import walls_and_balls
 from wallkit.scene.ball_findings import ball_findings
 from wallkit.scene.drawn_scene import Drawn, apart, drawn_scene
 from wallkit.scene.lesson import Lesson
-from wallkit.scene.scene import Scene, downwards
+from wallkit.scene.scene import Scene, downwards, falls
 from wallkit.scene.wishes import USUAL, UsageError, Wishes
 from wallkit.walls import Walls
 from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
@@ -212,9 +212,8 @@ def _bumpers(walls: Walls) -> list[Problem]:
 
 def _hops(scene: Scene) -> list[Problem]:
     """Say that discs that meet under gravity do not lie still, where something would let them."""
-    falls = scene.gravity is not None and any(scene.gravity)
     loses = min([scene.ball_restitution, *(material.restitution for material in scene.walls.materials)]) < 1.0
-    if not (scene.meeting and falls and loses and scene.balls.radius.any()):
+    if not (scene.meeting and falls(scene) and loses and scene.balls.radius.any()):
         return []
     message = "discs that meet do not come to lie under gravity: they hop, too low to be seen (1/4096 of a radius)"
     return [Problem("meeting-hops", "info", message, "nothing to do; a disc alone, without meeting, slides and rests")]

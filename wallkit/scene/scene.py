@@ -203,6 +203,11 @@ def _gravity(value: Any) -> tuple[float, float] | None:
     return float(array[0]), float(array[1])
 
 
+def falls(scene: Scene) -> bool:
+    """Tell whether gravity acts."""
+    return scene.gravity is not None and any(scene.gravity)
+
+
 def downwards(gravity: float, walls: Walls) -> tuple[float, float]:
     """Give the gravity of this size that pulls down on the screen: (0, -g) with y upwards, (0, g) with y downwards."""
     return 0.0, gravity if walls.y_axis == "down" else -gravity

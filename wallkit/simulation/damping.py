@@ -10,7 +10,7 @@ import numpy as np
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.flight.damping import AS_GOOD_AS_NONE, last_flight
 from wallkit.kernels.impact.drag_motion import eased
-from wallkit.scene.scene import Scene, SceneError
+from wallkit.scene.scene import Scene, SceneError, falls
 
 LEAST = 2.0**-500
 """A smaller friction or drag changes no digit of a run, and products with it would lose theirs."""
@@ -55,11 +55,6 @@ def slowing_of(scene: Scene) -> Slowing:
         return Slowing(None, None)
     pull = float(np.hypot(*np.ravel(scene.gravity or (0.0, 0.0))))
     return Slowing(friction / pull if friction > 0.0 else None, drag if drag > 0.0 else None)
-
-
-def falls(scene: Scene) -> bool:
-    """Tell whether gravity acts."""
-    return scene.gravity is not None and any(scene.gravity)
 
 
 def _rates(scene: Scene) -> tuple[float, float]:

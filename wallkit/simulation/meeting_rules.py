@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from wallkit.scene.scene import Scene, SceneError, check_masses
+from wallkit.scene.scene import Scene, SceneError, check_masses, falls
 
 
 def check_modelled(scene: Scene) -> None:
@@ -21,7 +21,7 @@ def check_modelled(scene: Scene) -> None:
             "balls meet, and rolling friction acts: between contacts their relative motion is not straight",
             "leave out rolling_friction, or take drag, or leave out meeting",
         )
-    if scene.drag and scene.gravity is not None and any(scene.gravity):
+    if scene.drag and falls(scene):
         raise _not_modelled("balls meet under gravity, and drag acts", "leave out drag, gravity or meeting")
 
 

@@ -14,8 +14,8 @@ from wallkit.kernels.flight.sensors import crosses_too, next_crossing, outward
 from wallkit.kernels.flight.sensors_on_circles import next_crossing_round
 from wallkit.kernels.index.grid import home
 from wallkit.kernels.records import NO_HIT
-from wallkit.scene.scene import Balls, Scene
-from wallkit.simulation.damping import falls, slowing_of
+from wallkit.scene.scene import Balls, Scene, falls
+from wallkit.simulation.damping import slowing_of
 from wallkit.simulation.gliding import guides
 from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.motion import Motion

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.levels.windows import Windows
-from wallkit.scene.scene import Balls, Scene
+from wallkit.scene.scene import Balls, Scene, falls
 from wallkit.simulation.run import ContactKind, Ending, Run
 from wallkit.simulation.simulate import simulate
 from wallkit.view.canvas import Canvas, Command, Disc, Label, Shape
@@ -47,10 +47,9 @@ def aim_canvas(scene: Scene, windows: Windows, *, speed: float = 50.0, title: st
     draw_walls(canvas, scene.walls, frame, free=np.array([windows.start]))
     draw_sensors(canvas, scene, frame)
     shown = np.argsort(-windows.width, kind="stable")[:MOST_DRAWN]
-    falls = scene.gravity is not None and any(scene.gravity)
     for index in shown[::-1].tolist():
-        (_draw_path if falls else _draw_beam)(canvas, frame, scene, windows, index, speed)
-    if len(shown) and not falls:
+        (_draw_path if falls(scene) else _draw_beam)(canvas, frame, scene, windows, index, speed)
+    if len(shown) and not falls(scene):
         middle = _paths(scene, windows, [windows[int(shown[0])].middle], int(windows.bounces[shown[0]]), speed)[0]
         _line(canvas, frame, middle, windows.target)
     canvas.add(Disc("target", *frame.point(x, y), max(r * frame.scale, 3.0), title="target"))

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from importers.problems import Problem
 from wallkit.geometry.arrays import FloatArray
-from wallkit.scene.scene import Scene
-from wallkit.simulation.damping import falls
+from wallkit.scene.scene import Scene, falls
 from wallkit.simulation.run import Ending
 from wallkit.view.canvas import Bitmap, Canvas, Command, Disc, Label, Shape
 from wallkit.view.frame import Box, Frame, united, walls_box
@@ -83,9 +82,9 @@ def run_canvas(
     strobe: float | None = None,
 ) -> Canvas:
     """Draw a run as :func:`run_svg` does, on a canvas that can become SVG or pixels."""
-    canvas, frame = scene_base(run.scene, title, width, run_box(run))
-    canvas.title = title or f"{len(run.ending)} balls, {int(run.bounces.sum())} bounces"
     flight = tracks(run, MAX_MEASURED if heat else MAX_STRETCHES)
+    canvas, frame = scene_base(run.scene, title, width, run_box(run, flight=flight))
+    canvas.title = title or f"{len(run.ending)} balls, {int(run.bounces.sum())} bounces"
     if heat:
         size, rows = heat_rows(flight, frame)
         canvas.items.insert(0, Bitmap(frame.left, frame.top, size, rows, 0.9))
@@ -110,8 +109,8 @@ def run_canvas(
 
 def run_marks(run: Run) -> tuple[Canvas, Frame]:
     """Draw what :func:`run_canvas` puts over the walls, without them: paths, ghosts, starts and ends."""
-    canvas, frame = started(run_box(run), run.scene.walls.y_axis == "up", title="", width=WIDTH)
     flight = tracks(run, MAX_STRETCHES)
+    canvas, frame = started(run_box(run, flight=flight), run.scene.walls.y_axis == "up", title="", width=WIDTH)
     steps, _, _ = _steps(flight, "time")
     _draw_flight(canvas, run, frame, flight, steps)
     return canvas, frame
@@ -133,8 +132,8 @@ def _draw_flight(
 
 def run_thumbnail(run: Run, width: float = 420.0) -> str:
     """Draw a run as a small picture without words, as one SVG document."""
-    canvas, frame = scene_base(run.scene, "", width, run_box(run))
     flight = tracks(run, MAX_STRETCHES)
+    canvas, frame = scene_base(run.scene, "", width, run_box(run, flight=flight))
     steps, _, _ = _steps(flight, "ball")
     _draw_flight(canvas, run, frame, flight, steps)
     canvas.height = frame.height + 2 * frame.top
@@ -181,7 +180,7 @@ def scene_box(scene: Scene) -> Box:
     return united(boxes)
 
 
-def run_box(run: Run, around: Box | None = None) -> Box:
+def run_box(run: Run, around: Box | None = None, flight: Tracks | None = None) -> Box:
     """Give the box around a scene, and around the paths of balls that fall, which rise above what holds them.
 
     A ball that leaves the scene is not followed, and no path farther than the larger side of the scene.
@@ -189,11 +188,12 @@ def run_box(run: Run, around: Box | None = None) -> Box:
     Args:
         run: whose paths count.
         around: the box of the scene; by default that of walls, sensors and balls.
+        flight: its tracks, where they are known.
     """
     around = scene_box(run.scene) if around is None else around
     if not falls(run.scene):
         return around
-    flight = tracks(run, MAX_STRETCHES)
+    flight = tracks(run, MAX_STRETCHES) if flight is None else flight
     left = np.array([ending is Ending.LEFT_SCENE for ending in run.ending], dtype=np.bool_)
     last = np.zeros(len(flight.time), dtype=np.bool_)
     last[flight.offsets[1:][left & (np.diff(flight.offsets) > 0)] - 1] = True

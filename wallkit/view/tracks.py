@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.simulation.damping import falls
+from wallkit.scene.scene import falls
 from wallkit.simulation.gliding import guides
 from wallkit.simulation.motion import Motion
 from wallkit.simulation.run import ContactKind, Ending, one_a_ball, turns_in

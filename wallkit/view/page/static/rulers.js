@@ -8,6 +8,16 @@
   const STEP = 1; // pixels of an arrow key; ten with Shift
   const WIDE = 22; // pixels of the ruler
 
+  // Fills the path of a tool so that the drawing shines through, and sets the pen for its lines.
+  const laid = (ctx, colours) => {
+    ctx.globalAlpha = 0.75;
+    ctx.fillStyle = colours.paper;
+    ctx.fill();
+    ctx.globalAlpha = 1;
+    ctx.strokeStyle = colours.ink;
+    ctx.lineWidth = 1.2;
+  };
+
   // One place that can be moved. `places` are in the drawing's units.
   class Handle {
     constructor(tools, tool, index, label) {
@@ -138,12 +148,7 @@
       ctx.lineTo(b[0] + nx * WIDE, b[1] + ny * WIDE);
       ctx.lineTo(a[0] + nx * WIDE, a[1] + ny * WIDE);
       ctx.closePath();
-      ctx.globalAlpha = 0.75;
-      ctx.fillStyle = colours.paper;
-      ctx.fill();
-      ctx.globalAlpha = 1;
-      ctx.strokeStyle = colours.ink;
-      ctx.lineWidth = 1.2;
+      laid(ctx, colours);
       ctx.stroke();
       this.marks(ctx, units, a, [ux, uy], [nx, ny], pixels);
       const [x, y] = [(a[0] + b[0]) / 2 + nx * (WIDE + 14), (a[1] + b[1]) / 2 + ny * (WIDE + 14)];
@@ -209,12 +214,7 @@
       ctx.moveTo(...c);
       ctx.arc(c[0], c[1], reach, first, first + turn, turn < 0);
       ctx.closePath();
-      ctx.globalAlpha = 0.75;
-      ctx.fillStyle = colours.paper;
-      ctx.fill();
-      ctx.globalAlpha = 1;
-      ctx.strokeStyle = colours.ink;
-      ctx.lineWidth = 1.2;
+      laid(ctx, colours);
       ctx.beginPath();
       ctx.moveTo(...a);
       ctx.lineTo(...c);
