@@ -9,6 +9,7 @@ from dataclasses import replace
 import pytest
 
 from wallkit.cli.play import reader
+from wallkit.kernels import compile_aside
 from wallkit.view.page.bounds import HEAVY
 from wallkit.view.page.server import PageServer
 from wallkit.view.page.workers import Workers
@@ -72,6 +73,17 @@ class Watch:
 @pytest.fixture(name="until")
 def until_fixture():
     return until
+
+
+@pytest.fixture(scope="session")
+def compiled_aside():
+    """A function that waits for the compilers that a question has begun, as long as it takes."""
+
+    def wait():
+        for process in filter(None, compile_aside._processes.values()):
+            process.wait()
+
+    return wait
 
 
 @pytest.fixture

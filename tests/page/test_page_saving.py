@@ -1,7 +1,6 @@
 """What the page saves of a run is what the library draws of it, up to the time that is shown."""
 
 import io
-import time
 
 import pytest
 from PIL import Image
@@ -33,12 +32,16 @@ def document(answers):
     return answers.open(Opening(ROOM.encode(), "my room.svg", None, USUAL))
 
 
-def saved(answers, document, **body):
-    while True:  # as the page's worker does, until the compiler is done
-        try:
-            return answers.save({"balls": [BALL], "until": 12, **body}, document)
-        except CompilingError:
-            time.sleep(0.5)
+@pytest.fixture(scope="module")
+def saved(compiled_aside):
+    def ask(answers, document, **body):
+        while True:
+            try:
+                return answers.save({"balls": [BALL], "until": 12, **body}, document)
+            except CompilingError:  # the page's worker asks again, too
+                compiled_aside()
+
+    return ask
 
 
 @pytest.fixture(scope="module")
@@ -48,20 +51,20 @@ def run(document):
     return wallkit.simulate(wallkit.Scene(scene.walls, balls, sensors=scene.sensors), until=12)
 
 
-def test_a_picture_is_that_of_the_run(answers, document, run):
+def test_a_picture_is_that_of_the_run(answers, document, run, saved):
     download = saved(answers, document, what="picture")
     assert (download.name, download.media) == ("my-room.svg", "image/svg+xml")
     assert download.content == run_svg(run, title="my room.svg")
 
 
-def test_a_picture_of_a_way_shows_its_frames(answers, document, run):
+def test_a_picture_of_a_way_shows_its_frames(answers, document, run, saved):
     download = saved(answers, document, what="picture", way="stop", dt=1)
     own = ways_canvas(run, wallkit.step_through(run.scene, "stop", 1.0, 12.0), title="my room.svg")
     assert download.content == own.to_svg()
 
 
 @pytest.mark.parametrize("way", [{}, {"way": "overlap", "dt": 0.5}])
-def test_a_film_ends_where_the_run_does(answers, document, way):
+def test_a_film_ends_where_the_run_does(answers, document, way, saved):
     download = saved(answers, document, what="film", **way)
     assert (download.name, download.media) == ("my-room.gif", "image/gif")
     image = Image.open(io.BytesIO(download.content))
