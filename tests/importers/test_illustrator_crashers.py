@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from test_pdf_files import make, saved
+from pdf_making import make, saved
 
 from importers.errors import WallkitError
 from importers.illustrator import read_illustrator
