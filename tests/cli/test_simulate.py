@@ -63,7 +63,8 @@ def test_speed_and_angle_give_the_components_of_a_known_case(wallkit, scene):
 @pytest.mark.parametrize("ending", ["csv", "json", "npz", "svg", "png", "gif"])
 def test_the_ending_decides_what_is_written(wallkit, scene, tmp_path, ending):
     target = tmp_path / f"run.{ending}"
-    code, out, _ = wallkit("simulate", scene, "-o", target, "--seconds", 0.2)
+    short = ["--seconds", 0.2] if ending == "gif" else []
+    code, out, _ = wallkit("simulate", scene, "-o", target, *short)
     assert code == 0
     begins = {
         "csv": b"time,",
@@ -285,3 +286,38 @@ def test_real_units_a_ball_falls_as_on_earth(wallkit, tmp_path):
     assert time == pytest.approx((2 * 5 / 9.81) ** 0.5, rel=1e-14)
     assert vy == pytest.approx(-((2 * 9.81 * 5) ** 0.5), rel=1e-14)
     assert "--gravity is 'heavy'" in wallkit("simulate", tmp_path / "room.svg", "--gravity", "heavy")[2]
+
+
+@pytest.mark.parametrize(
+    ("words", "option"),
+    [
+        (["--strobe", 1], "--strobe"),
+        (["--fps", 20, "-o", "run.svg"], "--fps"),
+        (["--strobe", 1, "-o", "run.gif"], "--strobe"),
+        (["--colour", "speed", "-o", "run.html"], "--colour"),
+        (["--theme", "dark", "-o", "run.svg"], "--theme"),
+        (["--seed", 3], "--seed"),
+        (["--ball-restitution", 0.5], "--ball-restitution"),
+    ],
+)
+def test_an_option_that_would_do_nothing_is_refused_and_nothing_is_written(
+    wallkit, scene, tmp_path, monkeypatch, words, option
+):
+    monkeypatch.chdir(tmp_path)
+    before = sorted(tmp_path.iterdir())
+    code, _, err = wallkit("simulate", scene, *words)
+    assert code == 2
+    assert f"{option}: only with" in err
+    assert "leave it out" in err or "--balls" in err
+    assert sorted(tmp_path.iterdir()) == before
+
+
+def test_an_option_is_welcome_where_one_of_several_files_shows_it(wallkit, scene, tmp_path):
+    words = ["-o", tmp_path / "run.svg", "-o", tmp_path / "run.csv", "--strobe", 1, "--size", 400]
+    assert wallkit("simulate", scene, "--bounces", 3, *words)[0] == 0
+    assert 'width="400"' in (tmp_path / "run.svg").read_text()
+
+
+def test_that_points_never_meet_is_said(wallkit, scene):
+    _, out, _ = wallkit("simulate", scene, "--meeting", "--ball", "50,60", "--radius", 0, "--bounces", 1)
+    assert "balls are points, which never meet (--radius)" in out

@@ -65,7 +65,7 @@ def check(
     bounces: Bounces = None,
     speed: Speed = None,
     gravity: Gravity = None,
-    seed: Annotated[int, typer.Option(metavar="K", help="Seed of --balls.", min=0)] = 0,
+    seed: Annotated[int | None, typer.Option(metavar="K", help="Seed of --balls (default: 0).", min=0)] = None,
     out: Annotated[
         str | None, typer.Option("-o", "--out", metavar="OUT.html", help="Write a page about --balls, with pictures.")
     ] = None,

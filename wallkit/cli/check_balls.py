@@ -28,7 +28,7 @@ class Wanted:
     bounces: int | None
     speed: float | None
     gravity: str | None
-    seed: int
+    seed: int | None
     out: str | None
     executor: str
     workers: int | None
@@ -50,7 +50,8 @@ class Wanted:
         from wallkit.scene.wishes import UsageError
 
         asked = {"--from": self.start, "--to": self.target, "--until": self.until, "--bounces": self.bounces,
-                 "--speed": self.speed, "-o": self.out, "--checkpoint": self.checkpoint}  # fmt: skip
+                 "--speed": self.speed, "-o": self.out, "--checkpoint": self.checkpoint,
+                 "--seed": self.seed}  # fmt: skip
         alone = [name for name, value in asked.items() if value is not None]
         if self.many is None and alone:
             fix = "say how many balls fly, such as --balls 10000"
@@ -85,7 +86,7 @@ def fly_balls(opened: OpenedScene, radius: float | None, wanted: Wanted) -> Flow
     from wallkit.levels.starts import starts_of
     from wallkit.levels.targets import given_target
 
-    starts = starts_of(opened, place_given(wanted.start), speed=wanted.speed, radius=radius, seed=wanted.seed)
+    starts = starts_of(opened, place_given(wanted.start), speed=wanted.speed, radius=radius, seed=wanted.seed or 0)
     until, bounces, assumed = opened.until, opened.bounces, list(starts.assumed)
     if any("--bounces" in words for words in opened.assumed):  # nobody said when balls end
         bounces = BOUNCES

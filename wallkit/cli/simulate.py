@@ -19,7 +19,14 @@ if TYPE_CHECKING:
 
 Format = Literal["csv", "json", "npz", "svg", "png", "gif", "mp4", "html"]
 FORMATS: tuple[Format, ...] = ("csv", "json", "npz", "svg", "png", "gif", "mp4", "html")
-_SHOW_WAYS = ("svg", "png", "gif", "mp4")
+_PICTURES: tuple[Format, ...] = ("svg", "png")
+_FILMS: tuple[Format, ...] = ("gif", "mp4")
+_SHOW_WAYS = (*_PICTURES, *_FILMS)
+_SHOWN_IN: dict[str, tuple[Format, ...]] = {
+    "colour": _SHOW_WAYS, "strobe": _PICTURES, "heat": _PICTURES, "theme": ("png", *_FILMS), "size": _SHOW_WAYS,
+    "seconds": _FILMS, "fps": _FILMS, "pace": _FILMS,
+}  # fmt: skip
+"""Which files show what an option of "What is written" asks for."""
 
 File = Annotated[
     str, typer.Argument(metavar="FILE", help="Drawing, walls or scene (told by its content); - is standard input.")
@@ -40,7 +47,7 @@ Speed = Annotated[float | None, _ball(metavar="S", help="Speed of every ball (de
 Angle = Annotated[float | None, _ball(metavar="DEG", help="Direction, from the x towards the y axis (default: 30).")]
 Radius = Annotated[float | None, _ball(metavar="R", help="Radius of every ball; 0 is a point.")]
 Count = Annotated[int | None, _ball("--balls", metavar="N", help="N balls at random places and directions.")]
-Seed = Annotated[int, _ball(metavar="K", help="Seed of --balls.")]
+Seed = Annotated[int | None, _ball(metavar="K", help="Seed of --balls (default: 0).")]
 Settle = Annotated[
     bool, _ball("--settle", help="Move discs that overlap a wall at the start to the nearest free spot.")
 ]
@@ -96,12 +103,17 @@ Colour = Annotated[
 ]
 Strobe = Annotated[float | None, _output(metavar="T", help="Pictures show the balls every T seconds too.", min=1e-9)]
 Heat = Annotated[bool, _output("--heat", help="Pictures show where balls spend their time.")]
-Theme = Annotated[Literal["light", "dark"], _output(help="Of PNG, GIF and MP4; SVG and HTML follow the reader.")]
+Theme = Annotated[
+    Literal["light", "dark"] | None,
+    _output(help="Of PNG, GIF and MP4 (default: light); SVG and HTML follow the reader.", show_default=False),
+]
 Size = Annotated[
     int | None,
     _output(metavar="W", help="Width of pictures and films in pixels (a PNG is twice as fine).", min=160, max=3840),
 ]
-Seconds = Annotated[float, _output(metavar="T", help="Length of a film at most.", min=0.1, max=600)]
+Seconds = Annotated[
+    float | None, _output(metavar="T", help="Length of a film at most (default: 12).", min=0.1, max=600)
+]
 Fps = Annotated[int | None, _output(metavar="N", help="Frames a second of a film.", min=1, max=60)]
 Pace = Annotated[
     float | None, _output(metavar="P", help="Seconds of the run in a second of film; 1 is real time.", min=1e-6)
@@ -125,7 +137,7 @@ def simulate_file(
     angle: Angle = None,
     radius: Radius = None,
     balls: Count = None,
-    seed: Seed = 0,
+    seed: Seed = None,
     settle: Settle = False,
     until: Until = None,
     bounces: Bounces = None,
@@ -141,9 +153,9 @@ def simulate_file(
     colour: Colour = None,
     strobe: Strobe = None,
     heat: Heat = False,
-    theme: Theme = "light",
+    theme: Theme = None,
     size: Size = None,
-    seconds: Seconds = 12.0,
+    seconds: Seconds = None,
     fps: Fps = None,
     pace: Pace = None,
     importing: dict[str, Any] | None = None,
@@ -152,19 +164,21 @@ def simulate_file(
     from wallkit.cli.scene_input import gravity_or_none, opened, pair_or_none, pairs
     from wallkit.scene.wishes import Wishes
 
+    _check_seed(seed, balls)
     wishes = Wishes(
         pairs(ball, "--ball"), pair_or_none(velocity, "--velocity"), speed, angle, radius,
-        balls, seed, gravity_or_none(gravity), restitution, tangential_restitution,
+        balls, seed or 0, gravity_or_none(gravity), restitution, tangential_restitution,
         friction, drag, meeting, ball_restitution, until, bounces, drawing_options.options_of(importing or {}),
     )  # fmt: skip
     targets = _targets(out or [], form)
     way = "exact" if way is None and dt is not None else way
-    _check_way(way, {"colour": colour, "heat": heat, "strobe": strobe}, targets)
+    look: dict[str, Any] = {"colour": colour, "heat": heat or None, "theme": theme, "size": size, "strobe": strobe}
+    look |= {"seconds": seconds, "fps": fps, "pace": pace}
+    _check_way(way, look, targets)
+    _check_look(look, targets)
     scene = opened(file, wishes)
     run = _flown(scene, settle)
-    stepped = _stepped(run, way, 1 / 60 if dt is None else dt)
-    look: dict[str, Any] = {"colour": colour, "heat": heat, "theme": theme, "size": size, "strobe": strobe}
-    look |= {"seconds": seconds, "fps": fps, "pace": pace, "stepped": stepped}
+    stepped = look["stepped"] = _stepped(run, way, 1 / 60 if dt is None else dt)
     trust = _trust(run)
     for target, kind in targets:
         _write(target, kind, run, scene, trust, {**look, "title": "" if file == "-" else Path(file).name})
@@ -221,6 +235,28 @@ def _check_way(way: str | None, look: dict[str, Any], targets: list[tuple[str, F
             )
 
 
+def _check_look(look: dict[str, Any], targets: list[tuple[str, Format]]) -> None:
+    """Refuse what would be left out in silence: a look that no file which is written can show."""
+    from wallkit.scene.wishes import UsageError
+
+    written = {kind for _, kind in targets}
+    for name, kinds in _SHOWN_IN.items():
+        if look[name] is not None and not written.intersection(kinds):
+            raise UsageError(
+                f"--{name}: only with a file that shows it",
+                code="usage",
+                fix=f"write one, such as -o run.{kinds[0]} ({', '.join('.' + kind for kind in kinds)} show it), "
+                "or leave it out",
+            )
+
+
+def _check_seed(seed: int | None, balls: int | None) -> None:
+    from wallkit.scene.wishes import UsageError
+
+    if seed is not None and balls is None:
+        raise UsageError("--seed: only with --balls", code="usage", fix="say how many balls fly, such as --balls 10")
+
+
 def _stepped(run: Run, way: Any, dt: float) -> Stepped | None:
     """Step the balls of a run by frames, if a way is given."""
     if way is None:
@@ -260,13 +296,14 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
         return page
     given = {name: look[name] for name in ("colour",) if look[name] is not None}
     given |= {} if look["size"] is None else {"width": look["size"]}
+    theme: Any = look["theme"] or "light"
     if kind in ("gif", "mp4"):
         from wallkit.cli.progress import progress_bar
         from wallkit.view.film import film
 
-        chosen = {name: look[name] for name in ("seconds", "fps", "pace", "theme", "stepped")}
+        chosen = {name: look[name] for name in ("seconds", "fps", "pace", "stepped") if look[name] is not None}
         with progress_bar("filming") as report:
-            return film(run, kind, **chosen, **given, progress=report)
+            return film(run, kind, theme=theme, **chosen, **given, progress=report)
     from wallkit.view.run_picture import run_canvas
     from wallkit.view.write import picture_data
 
@@ -274,9 +311,9 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
         from wallkit.view.ways_picture import ways_canvas
 
         size = {} if look["size"] is None else {"width": look["size"]}
-        return picture_data(f".{kind}", ways_canvas(run, look["stepped"], title=look["title"], **size), look["theme"])
-    canvas = run_canvas(run, title=look["title"], heat=look["heat"], strobe=look["strobe"], **given)
-    return picture_data(f".{kind}", canvas, look["theme"])
+        return picture_data(f".{kind}", ways_canvas(run, look["stepped"], title=look["title"], **size), theme)
+    canvas = run_canvas(run, title=look["title"], heat=bool(look["heat"]), strobe=look["strobe"], **given)
+    return picture_data(f".{kind}", canvas, theme)
 
 
 def _summary(

@@ -184,6 +184,11 @@ def _completed(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> Open
     if opened.until is None and opened.bounces is None:
         opened.bounces = BOUNCES
         opened.assumed.append(f"{BOUNCES} bounces a ball (--bounces, --until)")
+    meets = scene.meeting if wishes.meeting is None else wishes.meeting
+    if wishes.ball_restitution is not None and not meets:
+        raise UsageError("--ball-restitution: only with --meeting", code="usage", fix="add --meeting, or leave it out")
+    if meets and len(balls) and not balls.radius.any():
+        opened.assumed.append("balls are points, which never meet (--radius)")
     opened.scene = replace(
         scene,
         walls=_with_material(walls, wishes),
@@ -191,7 +196,7 @@ def _completed(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> Open
         gravity=scene.gravity if wishes.gravity is None else _gravity_of(wishes.gravity, walls),
         rolling_friction=scene.rolling_friction if wishes.friction is None else wishes.friction,
         drag=scene.drag if wishes.drag is None else wishes.drag,
-        meeting=scene.meeting if wishes.meeting is None else wishes.meeting,
+        meeting=meets,
         ball_restitution=scene.ball_restitution if wishes.ball_restitution is None else wishes.ball_restitution,
     )
     about_balls = [] if opened.found_place else ball_findings(walls, balls)
