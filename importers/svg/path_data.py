@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import operator
 import re
 from dataclasses import dataclass
 
@@ -131,7 +132,7 @@ def _interpret(tokens: list[str]) -> tuple[list[Subpath], int]:
     """
     subpaths: list[Subpath] = []
     segments: list[Segment] = []
-    kind, last, relative, is_open = "", "", False, False
+    kind, last, relative, is_open, at_once = "", "", False, False, True
     x = y = start_x = start_y = bx = by = cx = cy = 0.0
     i, count = 0, len(tokens)
     while i < count:
@@ -154,6 +155,14 @@ def _interpret(tokens: list[str]) -> tuple[list[Subpath], int]:
         if not is_open and kind != "M":
             is_open, segments = True, [("M", x, y)]
             subpaths.append(Subpath(segments, closed=False))
+        if kind == "C" and at_once and tokens[i - 1] in "Cc" and tokens[i + 6 : i + 7] == [tokens[i - 1]]:
+            done = _same_again(segments, tokens, i, relative)
+            at_once = done > 0  # what failed once is not tried again for all that follow
+            if done:
+                i += 7 * done - 1
+                _, _, _, cx, cy, x, y = segments[-1]
+                last = kind
+                continue
         try:
             if kind == "L":
                 x, y = float(tokens[i]) + bx, float(tokens[i + 1]) + by
@@ -181,6 +190,32 @@ def _interpret(tokens: list[str]) -> tuple[list[Subpath], int]:
         if kind not in "SQT":
             last = kind
     return subpaths, i
+
+
+def _same_again(segments: list[Segment], tokens: list[str], i: int, relative: bool) -> int:
+    """Draw as many C as follow one another, all their numbers at once; none where one of these is none.
+
+    Args:
+        segments: of the subpath, its last point in the last of them; the curves are put behind.
+        tokens: all of them.
+        i: behind the first letter.
+        relative: it is a small one.
+
+    Returns:
+        How many were drawn.
+    """
+    letter = tokens[i - 1]
+    count = min(sum(1 for _ in itertools.takewhile(letter.__eq__, tokens[i - 1 :: 7])), (len(tokens) - i + 1) // 7)
+    end = i + 7 * count - 1
+    try:
+        columns = [list(map(float, tokens[i + k : end : 7])) for k in range(6)]
+    except ValueError:
+        return 0
+    if relative:
+        begins = [list(itertools.accumulate([at, *columns[4 + k]])) for k, at in enumerate(segments[-1][-2:])]
+        columns = [list(map(operator.add, column, begins[k % 2])) for k, column in enumerate(columns)]
+    segments += zip(itertools.repeat("C"), *columns)
+    return count
 
 
 def _arc(x0: float, y0: float, bx: float, by: float, tokens: list[str]) -> tuple[list[Segment], float, float]:
