@@ -118,11 +118,12 @@ def test_a_tree_of_boxes_finds_what_shapely_finds(count, shape):
     if shape == "long":
         size[0, ::2] *= 1e3
     high = low + np.where(shape == "one place", 0.0, size)
-    some = slice(0, 200)
-    boxes = shapely.box(*low, *high)
     tree = BoxTree(low, high)
-    question, box = tree.query(low[:, some], high[:, some])
-    for one, other in zip(tree.among(0, 200), (question, box), strict=True):
+    own, own_found = tree.query(low[:, :200], high[:, :200])
+    for one, other in zip(tree.among(0, 200), (own, own_found), strict=True):
         np.testing.assert_array_equal(one, other)
-    expected = shapely.STRtree(boxes).query(boxes[some]).T if count else np.empty((0, 2), dtype=np.int64)
-    np.testing.assert_array_equal(np.stack([question, box], axis=1), expected[np.lexsort(expected.T[::-1])])
+    corner = rng.uniform(-1.5e3, 1.5e3, (2, 5000))
+    for lowest, highest in ((low[:, :200], high[:, :200]), (corner, corner + rng.uniform(0, 300, (2, 5000)))):
+        found = np.stack(tree.query(lowest, highest), axis=1)
+        expected = shapely.STRtree(shapely.box(*tree.low, *tree.high)).query(shapely.box(*lowest, *highest)).T
+        np.testing.assert_array_equal(found, expected.reshape(-1, 2)[np.lexsort(expected.T[::-1])])

@@ -8,6 +8,7 @@ that the work is done in whole arrays.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 
 _WIDTH = 16
 _BITS = 16  # of each coordinate, which tell the order
+_FEW = 1 << 15  # pairs of a question and a box
 _AT_ONCE = 4096  # rows that are looked at together: what they need stays in the cache
 
 
@@ -22,50 +24,74 @@ class BoxTree:
     """Boxes to be asked for.
 
     Attributes:
-        frame: (2, 2) the lowest and highest middle of a box, which the order goes by.
-        order: (n,) the boxes in the order of the leaves.
-        levels: the boxes from the leaves up, in rows of _WIDTH: row k holds the children of the k-th box above.
+        low: (2, n) their lowest corners.
+        high: (2, n) their highest corners.
     """
 
     def __init__(self, low: FloatArray, high: FloatArray) -> None:
-        """Take the lowest and highest corners, (2, n) each."""
-        middle = low / 2 + high / 2
-        self.frame = np.stack([middle.min(axis=1, initial=np.inf), middle.max(axis=1, initial=-np.inf)])
-        self.order = np.argsort(_along_hilbert(middle, self.frame))
-        level = _Level.of(low[:, self.order], high[:, self.order])
-        self.levels = [level]
-        while level.rows > 1:
-            level = level.above()
-            self.levels.append(level)
+        self.low, self.high = low, high
 
     def query(self, low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
-        """Pairs of a box in question, (2, m) lowest and highest corners, and a box of the tree that meet: both rising.
+        """Pairs of a box in question and a box of the tree that meet, both rising.
 
-        Questions go down in rows as well, each row as the box around it, to the last rows; one by one from there.
+        Args:
+            low: (2, m) lowest corners of those in question.
+            high: (2, m) their highest corners.
         """
-        asked = np.argsort(_along_hilbert(low / 2 + high / 2, self.frame))
-        return self._answers(asked, low[:, asked], high[:, asked])
+        count, asked = self.low.shape[1], low.shape[1]
+        if count * asked <= _FEW:
+            meets = (self.low[:, None] <= high[:, :, None]) & (self.high[:, None] >= low[:, :, None])
+            question, box = np.nonzero(meets[0] & meets[1])
+            return question, box
+        order = np.argsort(_along_hilbert(low / 2 + high / 2, self._frame))
+        return self._answers(order, low[:, order], high[:, order])
 
     def among(self, first: int, stop: int) -> tuple[IntArray, IntArray]:
         """The same for the boxes of the tree itself from the number ``first`` to before ``stop``."""
-        places = np.flatnonzero((self.order >= first) & (self.order < stop))
+        count = self.low.shape[1]
+        if count * (stop - first) <= _FEW:
+            question, box = self.query(self.low[:, first:stop], self.high[:, first:stop])
+            return question + first, box
+        places = np.flatnonzero((self._order >= first) & (self._order < stop))
         row, place = places // _WIDTH, places % _WIDTH
-        x0, y0, x1, y1 = (part[row, place] for part in self.levels[0].corners)
-        return self._answers(self.order[places], np.stack([x0, y0]), np.stack([x1, y1]))
+        x0, y0, x1, y1 = (part[row, place] for part in self._levels[0].corners)
+        return self._answers(self._order[places], np.stack([x0, y0]), np.stack([x1, y1]))
+
+    @cached_property
+    def _frame(self) -> FloatArray:
+        """The lowest and highest middle of a box, which the order goes by: (2, 2)."""
+        middle = self.low / 2 + self.high / 2
+        return np.stack([middle.min(axis=1), middle.max(axis=1)])
+
+    @cached_property
+    def _order(self) -> IntArray:
+        """The boxes in the order of the leaves: (n,)."""
+        return np.argsort(_along_hilbert(self.low / 2 + self.high / 2, self._frame))
+
+    @cached_property
+    def _levels(self) -> list[_Level]:
+        """The boxes from the leaves up, in rows of _WIDTH: row k holds the children of the k-th box above."""
+        levels = [_Level.of(self.low[:, self._order], self.high[:, self._order])]
+        while len(levels) == 1 or levels[-1].rows > 1:
+            levels.append(levels[-1].above())
+        return levels
 
     def _answers(self, asked: IntArray, low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
-        """Answer questions of the numbers ``asked`` (m,), in the order of the leaves."""
+        """Answer questions of the numbers ``asked`` (m,), along Hilbert's curve.
+
+        They go down in rows as well, each row as the box around it, to the last rows; one by one from there.
+        """
         questions = _Level.of(low, high)
         around = questions.above()
         group = np.arange(questions.rows)
         row = np.zeros(len(group), dtype=np.int64)
-        for level in self.levels[:0:-1]:
+        for level in self._levels[:0:-1]:
             group, row = level.below(row, around, group)
-        question, row = questions.below(group, self.levels[1] if len(self.levels) > 1 else around, row)[::-1]
-        question, box = self.levels[0].below(row, questions, question)
-        count = len(self.order)
-        key = np.sort(asked[question] * count + self.order[box])
-        question = key // max(count, 1)
+        question, row = questions.below(group, self._levels[1], row)[::-1]
+        question, box = self._levels[0].below(row, questions, question)
+        count = len(self._order)
+        key = np.sort(asked[question] * count + self._order[box])
+        question = key // count
         return question, key - question * count
 
 
