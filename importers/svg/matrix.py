@@ -49,6 +49,8 @@ def transform(segments: list[Segment], matrix: Matrix) -> list[Segment]:
     if matrix == IDENTITY:
         return segments
     a, b, c, d, e, f = matrix
+    if matrix[:4] == IDENTITY[:4]:
+        return [_moved(segment, e + 0.0, f + 0.0) for segment in segments]  # 0 for -0: -0 moved by 0 is 0
     result: list[Segment] = []
     add = result.append
     for segment in segments:
@@ -74,6 +76,20 @@ def transform(segments: list[Segment], matrix: Matrix) -> list[Segment]:
         else:
             add(_transform_arc(segment, matrix))
     return result
+
+
+def _moved(segment: Segment, e: float, f: float) -> Segment:
+    """Move a segment."""
+    if len(segment) == 7:
+        kind, x1, y1, x2, y2, x, y = segment
+        return kind, x1 + e, y1 + f, x2 + e, y2 + f, x + e, y + f
+    if len(segment) == 3:
+        kind, x, y = segment
+        return kind, x + e, y + f
+    if len(segment) == 5:
+        kind, x1, y1, x, y = segment
+        return kind, x1 + e, y1 + f, x + e, y + f
+    return _transform_arc(segment, (1.0, 0.0, 0.0, 1.0, e, f))
 
 
 def _transform_arc(segment: Segment, matrix: Matrix) -> Segment:

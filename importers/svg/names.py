@@ -34,6 +34,8 @@ def title_of(element: Any) -> str:
 
 
 def _text_of(element: Any, tag: str) -> str:
+    if not len(element):  # as nearly all shapes are
+        return ""
     for child in element.iterchildren(f"{{*}}{tag}", tag):
         return " ".join("".join(child.itertext()).split())
     return ""

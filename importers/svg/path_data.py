@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import operator
 import re
 from dataclasses import dataclass
 
@@ -125,13 +126,12 @@ def _arc_spans(words: str) -> list[tuple[int, int]]:
 def _interpret(tokens: list[str]) -> tuple[list[Subpath], int]:
     """Draw commands and their numbers; give the subpaths and how many tokens were used before a fault.
 
-    A relative command adds the current point to its numbers, an absolute one adds 0. Numbers that are missing
-    show as a token that is no number, or as none: a ValueError either way. One loop, since this is what the
-    reading of a drawing waits for.
+    A relative command adds the current point to its numbers, an absolute one 0. Missing numbers show as a token that is
+    none, or no token: a ValueError either way. What failed at once (-1) is not tried so again.
     """
     subpaths: list[Subpath] = []
     segments: list[Segment] = []
-    kind, last, relative, is_open = "", "", False, False
+    kind, last, relative, is_open, done = "", "", False, False, 0
     x = y = start_x = start_y = bx = by = cx = cy = 0.0
     i, count = 0, len(tokens)
     while i < count:
@@ -141,9 +141,7 @@ def _interpret(tokens: list[str]) -> tuple[list[Subpath], int]:
             kind, relative = _COMMANDS[tokens[i]]
             i += 1
             if kind == "Z":
-                if not is_open:
-                    subpaths.append(Subpath([("M", start_x, start_y)], closed=False))
-                subpaths[-1].closed = True
+                _close(subpaths, is_open, start_x, start_y)
                 x, y, last, is_open = start_x, start_y, "", False
                 continue
         elif kind == "M":
@@ -154,6 +152,11 @@ def _interpret(tokens: list[str]) -> tuple[list[Subpath], int]:
         if not is_open and kind != "M":
             is_open, segments = True, [("M", x, y)]
             subpaths.append(Subpath(segments, closed=False))
+        done = _same_again(segments, tokens, i, relative) if kind == "C" and done >= 0 else min(done, 0)
+        if done > 0:
+            i, last = i + 7 * done - 1, kind
+            _, _, _, cx, cy, x, y = segments[-1]
+            continue
         try:
             if kind == "L":
                 x, y = float(tokens[i]) + bx, float(tokens[i + 1]) + by
@@ -178,9 +181,43 @@ def _interpret(tokens: list[str]) -> tuple[list[Subpath], int]:
         except (ValueError, IndexError, KeyError):
             break
         i += _COUNTS[kind]
-        if kind not in "SQT":
-            last = kind
+        last = last if kind in "SQT" else kind
     return subpaths, i
+
+
+def _close(subpaths: list[Subpath], is_open: bool, x: float, y: float) -> None:
+    """Close the last subpath, or one that is a point."""
+    if not is_open:
+        subpaths.append(Subpath([("M", x, y)], closed=False))
+    subpaths[-1].closed = True
+
+
+def _same_again(segments: list[Segment], tokens: list[str], i: int, relative: bool) -> int:
+    """Draw as many C as follow one another, all their numbers at once; none where one of these is none.
+
+    Args:
+        segments: of the subpath, its last point in the last of them; the curves are put behind.
+        tokens: all of them.
+        i: behind the first letter.
+        relative: it is a small one.
+
+    Returns:
+        How many were drawn; 0 where the first stands alone, -1 where something of them is no number.
+    """
+    letter = tokens[i - 1]
+    if letter not in ("C", "c") or tokens[i + 6 : i + 7] != [letter]:
+        return 0
+    count = min(sum(1 for _ in itertools.takewhile(letter.__eq__, tokens[i - 1 :: 7])), (len(tokens) - i + 1) // 7)
+    end = i + 7 * count - 1
+    try:
+        columns = [list(map(float, tokens[i + k : end : 7])) for k in range(6)]
+    except ValueError:
+        return -1
+    if relative:
+        begins = [list(itertools.accumulate([at, *columns[4 + k]])) for k, at in enumerate(segments[-1][-2:])]
+        columns = [list(map(operator.add, column, begins[k % 2])) for k, column in enumerate(columns)]
+    segments += zip(itertools.repeat("C"), *columns)
+    return count
 
 
 def _arc(x0: float, y0: float, bx: float, by: float, tokens: list[str]) -> tuple[list[Segment], float, float]:

@@ -1,3 +1,4 @@
+import gc
 import gzip
 import io
 import sys
@@ -94,3 +95,25 @@ def test_a_damaged_gzip_says_so():
     with pytest.raises(wallkit.DrawingError) as caught:
         read_drawing_text(gzip.compress(ROOM.encode() * 50)[:-20])
     assert caught.value.code == "bad-gzip"
+
+
+def test_reading_leaves_the_cycle_collector_as_it_was():
+    text = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0,0H9V9Z"/></svg>'
+    gc.freeze()
+    try:
+        aside = gc.get_freeze_count()
+        wallkit.read_drawing_text(text)
+        assert gc.isenabled()
+        assert gc.get_freeze_count() <= aside  # what is freed is no longer there
+        assert gc.get_freeze_count() > aside / 2
+    finally:
+        gc.unfreeze()
+    gc.disable()
+    try:
+        wallkit.read_drawing_text(text)
+        assert not gc.isenabled()
+    finally:
+        gc.enable()
+    wallkit.read_drawing_text(text)
+    assert gc.isenabled()
+    assert gc.get_freeze_count() == 0

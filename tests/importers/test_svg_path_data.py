@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from svg_sampling import points_along
 
+from importers.svg import path_data
 from importers.svg.path_data import parse_path_data
 
 with warnings.catch_warnings():
@@ -163,3 +164,27 @@ def test_an_arc_lies_on_its_ellipse(rx, ry, degrees, large, sweep, x, y):
     assert arcs[-1][-2:] == (x, y)
     assert all(arc[1] >= rx and arc[2] >= ry for arc in arcs)
     assert all(math.isclose(arc[1] / arc[2], rx / ry, rel_tol=1e-12) for arc in arcs)
+
+
+CURVE = "1.5 2 -3,4 5 6.25"
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        f"M1 2C{CURVE}C{CURVE}C{CURVE}Z",
+        f"M1 2c{CURVE}c{CURVE}c{CURVE}L1 1c{CURVE}c{CURVE}",
+        f"M1 2C{CURVE}c{CURVE}C{CURVE} {CURVE} {CURVE}C{CURVE}",
+        f"M1 2C{CURVE} 6 5 4 3 2 6.25 6 5 4 3 2 6.25C{CURVE}",
+        f"M1 2C{CURVE}C{CURVE}S1 2 3 4C{CURVE}C{CURVE}T5 6",
+        f"M1 2C{CURVE}C{CURVE} 1 2 3C{CURVE}",
+        f"M1 2C{CURVE}C{CURVE}C1 2 3 4 5C{CURVE}",
+        f"M1 2C{CURVE}C1.5.5 3 4 5 6C{CURVE}C{CURVE}",
+        f"M1 2C{CURVE}C{CURVE}C{CURVE}C",
+        f"M1 2C{CURVE}C{CURVE}C{CURVE}M3 4Zc{CURVE}c{CURVE}",
+    ],
+)
+def test_curves_in_a_row_are_those_that_are_read_one_by_one(data, monkeypatch):
+    together = parse_path_data(data)
+    monkeypatch.setattr(path_data, "_same_again", lambda *_: 0)
+    assert repr(together) == repr(parse_path_data(data))

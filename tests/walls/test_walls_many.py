@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+import shapely
 
 import wallkit
+from wallkit.geometry.box_tree import BoxTree
 from wallkit.walls.edge_tree import Edges, EdgeTree
 from wallkit.walls.importing import curves_to_lines
 from wallkit.walls.importing.arc_fitting import curves_to_arcs
@@ -60,8 +62,6 @@ def test_edges_on_one_line_and_rings_in_rings_have_the_same_pairs():
 
 
 def test_boxes_find_the_edges_that_they_meet():
-    import shapely
-
     edges = polylines(3)
     low, high = boxes(edges)
     rng = np.random.default_rng(4)
@@ -96,11 +96,34 @@ def test_lines_are_the_same_in_any_blocks(monkeypatch):
 
 
 def test_arcs_are_the_same_in_any_blocks(monkeypatch):
-    """But for rounding: what NumPy does with the last few of a row differs in the last bit from what it does before."""
     drawing = many_curves()
     whole = wallkit.import_walls(drawing, curves="arcs", tolerance=0.01)
     monkeypatch.setattr(curves_to_arcs, "_BLOCK", 3)
     parts = wallkit.import_walls(drawing, curves="arcs", tolerance=0.01)
     np.testing.assert_array_equal(whole.offsets, parts.offsets)
-    np.testing.assert_allclose(whole.vertices, parts.vertices, rtol=0, atol=1e-9)
-    np.testing.assert_allclose(whole.bulges, parts.bulges, rtol=0, atol=1e-9)
+    np.testing.assert_array_equal(whole.vertices, parts.vertices)
+    np.testing.assert_array_equal(whole.bulges, parts.bulges)
+    assert whole.measured_error == parts.measured_error
+    assert whole.measured_normal_error == parts.measured_normal_error
+
+
+@pytest.mark.parametrize("count", [0, 1, 15, 16, 17, 300, 5000])
+@pytest.mark.parametrize("shape", ["scattered", "one place", "long", "on a line"])
+def test_a_tree_of_boxes_finds_what_shapely_finds(count, shape):
+    rng = np.random.default_rng(count)
+    low = np.zeros((2, count)) if shape == "one place" else rng.uniform(-1e3, 1e3, (2, count))
+    if shape == "on a line":
+        low[1] = 7.0
+    size = rng.uniform(0, 2e3 / np.sqrt(count + 1), (2, count))
+    if shape == "long":
+        size[0, ::2] *= 1e3
+    high = low + np.where(shape == "one place", 0.0, size)
+    tree = BoxTree(low, high)
+    own, own_found = tree.query(low[:, :200], high[:, :200])
+    for one, other in zip(tree.among(0, 200), (own, own_found), strict=True):
+        np.testing.assert_array_equal(one, other)
+    corner = rng.uniform(-1.5e3, 1.5e3, (2, 5000))
+    for lowest, highest in ((low[:, :200], high[:, :200]), (corner, corner + rng.uniform(0, 300, (2, 5000)))):
+        found = np.stack(tree.query(lowest, highest), axis=1)
+        expected = shapely.STRtree(shapely.box(*tree.low, *tree.high)).query(shapely.box(*lowest, *highest)).T
+        np.testing.assert_array_equal(found, expected.reshape(-1, 2)[np.lexsort(expected.T[::-1])])

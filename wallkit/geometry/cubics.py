@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.arrays import FloatArray, IntArray
 
 
 def evaluate(cubics: FloatArray, t: FloatArray) -> FloatArray:
@@ -36,6 +36,16 @@ def split(cubics: FloatArray, t: FloatArray | float = 0.5) -> tuple[FloatArray, 
 def _by_columns(count: int) -> FloatArray:
     """Give an empty array (count, 4, 2) of which each coordinate of each control point lies in one piece of memory."""
     return np.moveaxis(np.empty((4, 2, count)), -1, 0)
+
+
+def by_columns(cubics: FloatArray) -> FloatArray:
+    """Give the same cubics (n, 4, 2), each coordinate of each control point in one piece of memory."""
+    return np.moveaxis(np.ascontiguousarray(np.moveaxis(cubics, 0, -1)), -1, 0)
+
+
+def chosen(cubics: FloatArray, rows: IntArray) -> FloatArray:
+    """Give the cubics ``rows`` of some that lie by columns, by columns again."""
+    return np.moveaxis(np.moveaxis(cubics, 0, -1).take(rows, axis=-1), -1, 0)
 
 
 def cut_between(cubics: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:

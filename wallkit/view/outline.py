@@ -8,7 +8,6 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import radius_of
-from wallkit.geometry.rings import signed_areas
 from wallkit.view.canvas import Command
 from wallkit.view.frame import Frame
 from wallkit.walls import Material, Walls
@@ -82,7 +81,7 @@ def _areas_by_material(walls: Walls, turned: bool) -> list[tuple[Material, list[
     either way, a matter of colour only.
     """
     edges = straight_edges(walls)
-    size = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
+    size = np.abs(edges.areas)
     inner, outer = walls_around(edges, walls.vertices[walls.offsets[:-1]])
     larger = size[inner] < size[outer]
     inner, outer = inner[larger], outer[larger]

@@ -72,23 +72,28 @@ def find_touches(edges: Edges) -> Touches:
     passages = _passages(edges, met[:, 0], met[:, 1])
     more_walls, more_at, touch_walls, touch_at = _through_vertices(edges, *passages)
     walls = np.sort(np.concatenate([edges.wall[proper], more_walls]), axis=1)
-    cuts = _cuts(edges, proper, at, passages)
-    overlaps = _with_copies(edges, copy_of, *_overlaps(edges, flat[:, 0], flat[:, 1]))
+    folds = _folds(edges)
+    cuts = _cuts(edges, proper, at, passages, folds)
+    overlaps = _with_copies(edges, copy_of, *_overlaps(edges, flat[:, 0], flat[:, 1], folds))
     return Touches(walls, np.concatenate([at, more_at]), *overlaps, touch_walls, touch_at, *cuts, copy_of, complete)
 
 
 def _cuts(
-    edges: Edges, proper: IntArray, at: FloatArray, passages: tuple[IntArray, IntArray, FloatArray]
+    edges: Edges,
+    proper: IntArray,
+    at: FloatArray,
+    passages: tuple[IntArray, IntArray, FloatArray],
+    folds: tuple[IntArray, IntArray],
 ) -> tuple[IntArray, FloatArray]:
     """Where something meets edges between their ends: crossings, and vertices that lie on them, folds among them."""
     count = len(edges.vertices)
     vertex, partner, _ = passages
     inside = partner >= count
-    first, second = _folds(edges)
+    first, second = folds
     back = np.concatenate([first, second])  # the end of the shorter one lies on the longer
     end = np.concatenate([edges.stop[second], edges.start[first]])
-    length = np.hypot(*(edges.b - edges.a).T)
-    longer = np.concatenate([length[first] > length[second], length[first] < length[second]])
+    one, two = (np.hypot(*(edges.b[part] - edges.a[part]).T) for part in folds)
+    longer = np.concatenate([one > two, one < two])
     edge = np.concatenate([proper.T.ravel(), partner[inside] - count, back[longer]])
     return edge, np.concatenate([at, at, edges.vertices[vertex[inside]], edges.vertices[end[longer]]])
 
@@ -127,10 +132,11 @@ def _meeting(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> Floa
     return a + u * np.clip(np.nan_to_num(t, nan=0.5), 0.0, 1.0)[:, None]
 
 
-def _overlaps(edges: Edges, first: IntArray, second: IntArray) -> tuple[IntArray, FloatArray, FloatArray]:
+def _overlaps(
+    edges: Edges, first: IntArray, second: IntArray, folds: tuple[IntArray, IntArray]
+) -> tuple[IntArray, FloatArray, FloatArray]:
     """Pieces shared by edges on one line, and by neighbours that fold back."""
-    folded = _folds(edges)
-    first, second = np.concatenate([first, folded[0]]), np.concatenate([second, folded[1]])
+    first, second = np.concatenate([first, folds[0]]), np.concatenate([second, folds[1]])
     a, b, c, d = edges.a[first], edges.b[first], edges.a[second], edges.b[second]
     axis = (np.abs(b - a)[:, 1] > np.abs(b - a)[:, 0]).astype(np.int64)[:, None]  # the wider one orders exactly
     ends = np.stack([a, b, c, d], axis=1)
@@ -151,8 +157,8 @@ def _folds(edges: Edges) -> tuple[IntArray, IntArray]:
     second = edge_at[edges.stop]
     first = np.flatnonzero(second >= 0)
     second = second[first]
-    u, v = edges.b[first] - edges.a[first], edges.b[second] - edges.a[second]
-    back = (u * v).sum(axis=1) < 0
+    x, y = (edges.b - edges.a).T.copy()
+    back = x[first] * x[second] + y[first] * y[second] < 0
     first, second = first[back], second[back]
     on_line = side(edges.a[first], edges.b[first], edges.b[second]) == 0
     return first[on_line], second[on_line]

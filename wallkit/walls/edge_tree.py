@@ -12,7 +12,9 @@ import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.box_tree import BoxTree
 from wallkit.geometry.ragged import numbered
+from wallkit.geometry.rings import signed_areas
 
 _RUN = 8  # edges at most: long enough that runs are few, short enough that their boxes are small
 _FIRST_PORTION = 16  # runs; the next portions are as large as the pairs found let expect
@@ -84,10 +86,9 @@ class Edges:
         return self.vertices[self.stop]
 
     @cached_property
-    def boxes(self) -> Any:
-        """(E,) the edges' boxes, as shapely geometry."""
-        low, high = np.minimum(self.a, self.b), np.maximum(self.a, self.b)
-        return shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1])
+    def areas(self) -> FloatArray:
+        """(W,) the signed area of each polyline, taken as a ring."""
+        return signed_areas(self.vertices, np.zeros(len(self.vertices)), self.offsets)
 
     @cached_property
     def tree(self) -> EdgeTree:
@@ -125,8 +126,7 @@ class EdgeTree:
             self.first, self.goes_on = np.arange(len(rows)), np.zeros(len(rows), dtype=np.bool_)
             self.run_low, self.run_high = self.low, self.high
         self.sizes = np.diff(self.first, append=len(rows))
-        self.boxes = shapely.box(*self.run_low, *self.run_high)
-        self.tree = shapely.STRtree(self.boxes)
+        self.tree = BoxTree(self.run_low, self.run_high)
 
     def _boxes(self) -> tuple[FloatArray, FloatArray]:
         """Lowest and highest corner of each run: (2, m) each."""
@@ -160,9 +160,14 @@ class EdgeTree:
 
     def query(self, boxes: Any) -> tuple[IntArray, IntArray]:
         """Pairs of a shapely geometry, one of (m,), and an edge whose boxes meet: number of each, geometries rising."""
-        source, run = self.tree.query(boxes)
         x0, y0, x1, y1 = shapely.bounds(boxes).T
-        low, high = np.stack([x0, y0]), np.stack([x1, y1])
+        return self.meeting(np.stack([x0, y0]), np.stack([x1, y1]))
+
+    def meeting(self, low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
+        """Pairs of a box, one of (2, m) lowest and highest corners, and an edge whose box meets it, boxes rising."""
+        source, run = self.tree.query(low, high)
+        if len(self.first) == len(self.rows):
+            return source, self.rows[run]
         which, edge = self._within(run, low[:, source], high[:, source])
         return source[which], self.rows[edge]
 
@@ -173,9 +178,8 @@ class EdgeTree:
         """
         begin, portion = 0, _FIRST_PORTION
         while begin < len(self.first):
-            one, two = self.tree.query(self.boxes[begin : begin + portion])
+            one, two = self.tree.among(begin, begin + portion)
             found = len(one)
-            one += begin
             begin += portion
             most = _PAIRS_AT_ONCE * len(self.first) // len(self.rows)
             portion = int(min(8 * portion, max(portion * most // max(found, 1), 1)))

@@ -16,13 +16,11 @@ and do not cross it.
 from __future__ import annotations
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.rings import signed_areas
 from wallkit.walls.copies import copies
-from wallkit.walls.edge_tree import Edges
+from wallkit.walls.edge_tree import Edges, EdgeTree
 
 _PAIRS_AT_ONCE = 4_000_000  # of a point and an edge: bounds the memory
 _FRACTION = 0.41421  # of the chord below the top; no simple fraction, so that rays miss the vertices of tidy drawings
@@ -41,7 +39,7 @@ def depths(edges: Edges, crossing: IntArray | None = None, group: IntArray | Non
         those that cross no other, or -1.
     """
     count = len(edges.closed)
-    areas = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
+    areas = np.abs(edges.areas)
     ring = edges.closed & (np.diff(edges.offsets) >= 3) & (areas > 0)
     copy_of = copies(edges, ring, group)
     whole = copy_of if group is None else copies(edges, ring)  # a copy crosses what the first one does
@@ -113,7 +111,8 @@ def _parents(
     reach = 2 * np.abs(tops - points[:, 1]) + 1e-9 * (edges.vertices[:, 1].max() - edges.vertices[:, 1].min())
     while len(looking):
         x, y = points[looking].T
-        hit, edge = edges.tree.query(shapely.box(x, y + reached[looking], x, y + reach[looking]))
+        way = np.stack([x, y + reached[looking]]), np.stack([x, y + reach[looking]])
+        hit, edge = edges.tree.meeting(*way)
         source = looking[hit]
         wall = edges.wall[edge]
         fits = surrounds[wall] & (size[wall] > size[source])
@@ -174,7 +173,7 @@ def _settle(
     """Tell parent or neighbour from the first edges met: the smallest ring that is around, else the largest beside."""
     if not len(source):
         return
-    area = signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets)
+    area = edges.areas
     wall = edges.wall[edge]
     leftward = edges.b[edge, 0] < edges.a[edge, 0]  # its left, where the solid is, is below
     around = leftward == (area[wall] > 0)
@@ -232,13 +231,13 @@ def _tangled_around(
     result = np.zeros(count, dtype=np.int64)
     keys = crossing.min(axis=1) * count + crossing.max(axis=1)
     rows = np.flatnonzero(tangled[edges.wall])
-    tree = shapely.STRtree(edges.boxes[rows])
+    tree = EdgeTree(edges, rows)
     top = float(edges.vertices[:, 1].max()) + 1
     portion = max(_PAIRS_AT_ONCE // len(rows), 1)
     for begin in range(0, count, portion):
         x, y = points[begin : begin + portion].T
-        source, edge = tree.query(shapely.box(x, y, x, np.maximum(y, top)))
-        source, edge = source + begin, rows[edge]
+        source, edge = tree.meeting(np.stack([x, y]), np.stack([x, np.maximum(y, top)]))
+        source = source + begin
         p, a, b = points[source], edges.a[edge], edges.b[edge]
         spans = (np.minimum(a[:, 0], b[:, 0]) <= p[:, 0]) & (p[:, 0] < np.maximum(a[:, 0], b[:, 0]))
         source, edge, p, a, b = source[spans], edge[spans], p[spans], a[spans], b[spans]

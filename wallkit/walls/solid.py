@@ -109,9 +109,7 @@ def walls_around(edges: Edges, points: FloatArray) -> tuple[IntArray, IntArray]:
         return nothing, nothing
     x, y = points.T
     top = np.maximum(y, float(edges.vertices[:, 1].max()) + 1)
-    import shapely  # late: of the rest of this module the types alone are asked for by all
-
-    source, edge = edges.tree.query(shapely.box(x, y, x, top))
+    source, edge = edges.tree.meeting(np.stack([x, y]), np.stack([x, top]))
     p, a, b = points[source], edges.a[edge], edges.b[edge]
     spans = (np.minimum(a[:, 0], b[:, 0]) <= p[:, 0]) & (p[:, 0] < np.maximum(a[:, 0], b[:, 0]))
     with np.errstate(divide="ignore", invalid="ignore"):

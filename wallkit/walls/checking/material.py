@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.rings import signed_areas
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.solid import walls_around
 from wallkit.walls.walls import Walls
@@ -39,7 +38,7 @@ class Solids:
     @classmethod
     def of(cls, walls: Walls, edges: Edges) -> Solids:
         """Take the winding of walls; a ring without signed area (a bow-tie) goes by its depth."""
-        area = signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets)
+        area = edges.areas
         sign = np.where(area == 0, 1 - 2 * (walls.depth % 2), np.sign(area)).astype(np.int64)
         sign[~walls.closed] = 0
         size = np.where(walls.closed, np.abs(area), -1.0)

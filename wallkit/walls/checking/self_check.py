@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from importers.problems import Problem, Severity
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.rings import signed_areas
 from wallkit.walls.as_shapely import straightened
 from wallkit.walls.checking.loose_ends import LooseEnd, loose_ends, settled_places
 from wallkit.walls.checking.widths import is_thin
@@ -185,7 +184,7 @@ def _slivers(findings: Findings, edges: Edges) -> None:
     """
     if not len(edges.closed) or not len(edges):
         return
-    area = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
+    area = np.abs(edges.areas)
     perimeter = np.bincount(edges.wall, np.hypot(*(edges.b - edges.a).T), len(edges.closed))
     width = 2 * area / np.where(perimeter > 0, perimeter, 1.0)
     limit = findings.walls.tolerance or 1e-6 * diagonal(edges.vertices)

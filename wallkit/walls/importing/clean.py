@@ -85,7 +85,7 @@ def _drop_points(outlines: Outlines) -> Outlines:
 def _open_flat(outlines: Outlines) -> Outlines:
     """A closed outline of two vertices without area is a line there and back: keep it once, open."""
     flat = outlines.closed & (np.diff(outlines.offsets) == 2)
-    flat &= signed_areas(outlines.vertices, outlines.bulges, outlines.offsets) == 0
+    flat &= ~_with_area(outlines, flat)
     problems = [
         outlines.problem(
             index,
@@ -102,8 +102,8 @@ def _open_flat(outlines: Outlines) -> Outlines:
 def _close_filled(outlines: Outlines) -> Outlines:
     """Close filled open outlines that enclose an area, as every viewer paints them."""
     filled = np.array([path.fill is not None for path in outlines.paths], dtype=np.bool_)
-    area = signed_areas(outlines.vertices, outlines.bulges, outlines.offsets)
-    close = ~outlines.closed & filled[outlines.owner] & (area != 0) if len(outlines) else outlines.closed
+    close = ~outlines.closed & filled[outlines.owner] if len(outlines) else outlines.closed
+    close = _with_area(outlines, close)
     problems = [
         outlines.problem(
             index,
@@ -115,6 +115,14 @@ def _close_filled(outlines: Outlines) -> Outlines:
         for index in np.flatnonzero(close).tolist()
     ]
     return replace(outlines, closed=outlines.closed | close, problems=outlines.problems + problems)
+
+
+def _with_area(outlines: Outlines, asked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Mark those of the outlines that are asked for which enclose an area."""
+    some = outlines.keep(asked)
+    result = np.zeros(len(outlines), dtype=np.bool_)
+    result[asked] = signed_areas(some.vertices, some.bulges, some.offsets) != 0
+    return result
 
 
 NEARLY_CLOSED = 0.1

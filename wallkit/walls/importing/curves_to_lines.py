@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from importers.limits import MAX_VERTICES, limit_error
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.cubics import chord_bound, cut_between, evaluate, extreme_parameters, split
+from wallkit.geometry.cubics import by_columns, chord_bound, chosen, cut_between, evaluate, extreme_parameters, split
 from wallkit.geometry.ellipse_arcs import Arcs
 from wallkit.geometry.ragged import numbered
 from wallkit.geometry.segments import segment_distance
@@ -105,7 +105,7 @@ def _cubic_cuts(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatAr
     parts: list[tuple[IntArray, FloatArray]] = [(np.empty(0, dtype=np.int64), np.empty(0))]
     total = 0
     for begin in range(0, len(cubics), _BLOCK):
-        ids, ts = _block_cuts(cubics[begin : begin + _BLOCK], tolerance)
+        ids, ts = _block_cuts(by_columns(cubics[begin : begin + _BLOCK]), tolerance)
         parts.append((ids + begin, ts))
         total += len(ids)
         within_limit(total)
@@ -141,10 +141,10 @@ def _halving(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatArray
     cut_ts: list[FloatArray] = []
     total = 0
     for _ in range(_DEEPEST):
-        wrong = chord_bound(piece) > tolerance
-        if not wrong.any():
+        wrong = np.flatnonzero(chord_bound(piece) > tolerance)
+        if not len(wrong):
             break
-        ids, piece, low, width = ids[wrong], piece[wrong], low[wrong], width / 2
+        ids, piece, low, width = ids[wrong], chosen(piece, wrong), low[wrong], width / 2
         total += len(ids)
         within_limit(total)
         cut_ids.append(ids)
@@ -186,7 +186,7 @@ def _even_rows(
     cubics: FloatArray, rows: IntArray, halved: IntArray, tolerance: float, samples: int, taken: NDArray[np.bool_]
 ) -> list[tuple[IntArray, FloatArray]]:
     """Try the predicted number of pieces and a few more; mark the rows of curves that are taken."""
-    t, share = _shares(cubics[rows], samples)
+    t, share = _shares(chosen(cubics, rows), samples)
     wanted = np.ceil(share[:, -1] / math.sqrt(8 * tolerance)).astype(np.int64)
     found = []
     for extra in range(5):
@@ -195,7 +195,7 @@ def _even_rows(
         if not len(trial):
             break
         which, cuts = _invert(t, share[trial], count[trial])
-        passed = _passes(cubics[rows[trial]], which, cuts, count[trial], tolerance)
+        passed = _passes(chosen(cubics, rows[trial]), which, cuts, count[trial], tolerance)
         taken[rows[trial[passed]]] = True
         keep = passed[which]
         found.append((rows[trial[which[keep]]], cuts[keep]))
@@ -238,7 +238,7 @@ def _passes(
 ) -> NDArray[np.bool_]:
     ids = np.repeat(np.arange(len(count)), count)
     low, high = bounds_of(which, cuts, count)
-    bound = chord_bound(cut_between(cubics[ids], low, high))
+    bound = chord_bound(cut_between(chosen(cubics, ids), low, high))
     failures = np.bincount(ids[bound > tolerance], minlength=len(count))
     passed: NDArray[np.bool_] = failures == 0
     return passed
@@ -279,10 +279,15 @@ def _cubic_error(cubics: FloatArray, which: IntArray, cuts: FloatArray) -> float
     count = np.bincount(which, minlength=len(cubics)) + 1
     ids = np.repeat(np.arange(len(cubics)), count)
     low, high = bounds_of(which, cuts, count)
-    piece = cut_between(cubics[ids], low, high)
-    farthest = np.concatenate([_farthest(piece[k : k + _BLOCK]) for k in range(0, len(piece), _BLOCK)])
-    worst = (_peak(piece[row]) for row in np.argsort(farthest)[-_MEASURED_AGAIN:])
-    return max(float(farthest.max()), *worst)
+    farthest = np.empty(len(ids))
+    for begin in range(0, len(ids), _BLOCK):
+        rows = slice(begin, begin + _BLOCK)
+        first = int(ids[begin])
+        some = by_columns(cubics[first : ids[rows][-1] + 1])
+        farthest[rows] = _farthest(cut_between(chosen(some, ids[rows] - first), low[rows], high[rows]))
+    again = np.argsort(farthest)[-_MEASURED_AGAIN:]
+    worst = cut_between(cubics[ids[again]], low[again], high[again])
+    return max(float(farthest.max()), *map(_peak, worst))
 
 
 def _farthest(piece: FloatArray) -> FloatArray:

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from importers.problems import Problem
 from wallkit.geometry.arrays import IntArray
-from wallkit.geometry.rings import signed_areas
 from wallkit.walls.copies import copies
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.importing.outlines import Outlines
@@ -33,7 +32,7 @@ def material_rings(outlines: Outlines, edges: Edges, crossing: IntArray) -> tupl
     whole = copies(edges, outlines.closed & (np.diff(outlines.offsets) >= 3))
     rings &= ~np.isin(whole, whole[crossing])  # a copy crosses what the first one does
     depth, parent = depths(edges, crossing, outlines.owner)
-    area = signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets)
+    area = edges.areas
     first = copies(edges, rings, outlines.owner)
     turns = np.zeros(len(outlines), dtype=np.int64)
     np.add.at(turns, first[rings], np.sign(area[rings]).astype(np.int64))

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.rings import rings_of, signed_areas
+from wallkit.geometry.rings import rings_of
 from wallkit.walls.checking.widths import is_thin, winding
 from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
@@ -135,7 +135,7 @@ def remove_slivers(lines: list[LooseWall], width: float, tolerance: float) -> Re
     if not lines:
         return lines, 0, 0.0, "", None
     edges = edges_of(lines, tolerance / 10)
-    area = np.abs(signed_areas(edges.vertices, np.zeros(len(edges.vertices)), edges.offsets))
+    area = np.abs(edges.areas)
     perimeter = np.bincount(edges.wall, np.hypot(*(edges.b - edges.a).T), len(lines))
     closed = np.array([line.closed for line in lines], dtype=np.bool_)
     thin = np.flatnonzero(closed & (area <= perimeter * width / 2)).tolist()

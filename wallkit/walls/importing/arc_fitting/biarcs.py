@@ -14,13 +14,24 @@ along both in order, so that the largest distance over it bounds the distance bo
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.walls.importing.arc_fitting.curves import BoolArray, ComplexArray, cross, dot, unit
+from wallkit.walls.importing.arc_fitting.curves import (
+    BoolArray,
+    ComplexArray,
+    cross,
+    dot,
+    length,
+    turned_back,
+    unit,
+)
+from wallkit.walls.importing.arc_fitting.moved_curves import Moved
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
 
 # Directions that are equal within this make the two arcs one. The kink that is left in the middle of nowhere,
@@ -34,7 +45,7 @@ _NEARLY_SAME = 1e-3
 _STRAIGHT = 1e-12
 # Pieces whose direction differs by more from their arcs are cut further, so that arcs never take short cuts
 # through a loop, however large the tolerance.
-_LARGEST_TURN = 0.5
+_LARGEST_TURN = math.tan(0.5 / 2)  # of half the angle, as turns are measured
 
 
 @dataclass(slots=True)
@@ -120,27 +131,29 @@ def biarcs(spans: Spans, loose: BoolArray | None = None) -> Biarcs:
             circle, and ``sound`` is false.
         loose: where one arc is taken even if it leaves the ends a little off the directions there.
     """
-    v, both = spans.p1 - spans.p0, spans.t0 + spans.t1
-    ahead, apart = dot(v, both), np.abs(spans.t1 - spans.t0) ** 2
-    square = v.real**2 + v.imag**2
+    v, both, across = spans.p1 - spans.p0, spans.t0 + spans.t1, spans.t0 - spans.t1
+    ahead, apart, square = dot(v, both), dot(across, across), dot(v, v)
     with np.errstate(divide="ignore", invalid="ignore"):
         arm = square / (ahead + np.sqrt(ahead**2 + apart * square))  # apart = 2 (1 - T0 . T1)
     sound = (ahead > 0) & np.isfinite(arm)
     arm = np.where(sound, arm, 0.0)
-    joint = (spans.p0 + spans.p1 + arm * (spans.t0 - spans.t1)) / 2
+    joint = (spans.p0 + spans.p1 + arm * across) / 2
     along = unit(v - arm * both)
     bend0, bulge0 = _from(spans.t0, joint - spans.p0)
     bend1, bulge1 = _from(along, spans.p1 - joint)
-    single = _one_arc(spans, v, sound, loose) | (v == 0)
-    if single.any():
-        # the mean of the two half angles is that of an arc between the end points
-        half = np.where(v == 0, 0.0, (np.angle(v * spans.t0.conj()) + np.angle(spans.t1 * v.conj())) / 2)
-        bulge = np.tan(half / 2)
-        middle = (spans.p0 + spans.p1) / 2 - 0.5j * v * bulge
-        bend = np.divide(2 * np.sin(half), np.abs(v), out=np.zeros_like(half), where=v != 0)
-        joint, along = np.where(single, middle, joint), np.where(single, unit(v), along)
-        bend0, bend1 = np.where(single, bend, bend0), np.where(single, bend, bend1)
-        bulge0, bulge1 = np.where(single, bulge, bulge0), np.where(single, 0.0, bulge1)
+    straight = unit(v)
+    start, end = turned_back(straight, spans.t0), turned_back(spans.t1, straight)
+    limit = _SAME if loose is None else np.where(loose, _NEARLY_SAME, _SAME)
+    single: BoolArray = (sound & (length(start - end) <= limit)) | (v == 0)
+    rows = np.flatnonzero(single)
+    if len(rows):
+        # The mean of the two half angles is that of an arc between the end points: the angle h of the mean direction,
+        # tan(h / 2) = sin h / (1 + cos h).
+        half, chord = unit(start[rows] + end[rows]), v[rows]
+        bulge, size = half.imag / (1 + half.real), length(chord)
+        joint[rows], along[rows] = (spans.p0[rows] + spans.p1[rows]) / 2 - 0.5j * chord * bulge, straight[rows]
+        bend0[rows] = bend1[rows] = np.divide(2 * half.imag, size, out=np.zeros_like(size), where=size > 0)
+        bulge0[rows], bulge1[rows] = bulge, 0.0
     sound &= (np.abs(bulge0) <= 1) & (np.abs(bulge1) <= 1)
     return Biarcs(joint, along, bend0, bend1, _rounded(bulge0), _rounded(bulge1), single, sound)
 
@@ -158,19 +171,14 @@ def flatten(spans: Spans, arcs: Biarcs) -> bool:
 
 def _from(direction: ComplexArray, chord: ComplexArray) -> tuple[FloatArray, FloatArray]:
     """Curvature and bulge of the arc that starts in a direction and has a chord."""
-    side, ahead, length = cross(direction, chord), dot(direction, chord), np.abs(chord)
-    there = length > 0
-    bend = np.divide(2 * side, length**2, out=np.zeros_like(side), where=there)
+    side, ahead, square = cross(direction, chord), dot(direction, chord), dot(chord, chord)
+    there = square > 0
+    bend = np.divide(2 * side, square, out=np.zeros_like(side), where=there)
     with np.errstate(divide="ignore", invalid="ignore"):
-        bulge = side / (length + ahead)  # tan(h / 2) = sin h / (1 + cos h), h the angle from direction to chord
+        bulge = side / (
+            np.sqrt(square) + ahead
+        )  # tan(h / 2) = sin h / (1 + cos h), h the angle from direction to chord
     return bend, np.where(there & np.isfinite(bulge), bulge, 0.0)
-
-
-def _one_arc(spans: Spans, v: ComplexArray, sound: BoolArray, loose: BoolArray | None) -> BoolArray:
-    start, end = unit(v) * spans.t0.conj(), spans.t1 * unit(v).conj()
-    limit = _SAME if loose is None else np.where(loose, _NEARLY_SAME, _SAME)
-    same: BoolArray = sound & (np.abs(start - end) <= limit)
-    return same
 
 
 def _rounded(bulge: FloatArray) -> FloatArray:
@@ -183,7 +191,7 @@ class Fit:
 
     Attributes:
         distance: (n,) largest measured distance.
-        turn: (n,) largest measured angle between the directions (so between the normals).
+        turn: (n,) largest measured angle between the directions (so between the normals), as the tangent of its half.
         sound: (n,) the arcs may be used at all.
     """
 
@@ -201,20 +209,25 @@ class Fit:
         return Fit(*(np.concatenate([getattr(part, name.name) for part in parts]) for name in fields(Fit)))
 
 
-CHUNK = 1 << 15  # sections measured at once, so that the working memory stays near 50 MB
+MOST_PLACES = 1 << 14  # of sections measured at once, so that the work stays in the cache
 
 
 def measure(chains: Chains, spans: Spans, arcs: Biarcs, fractions: FloatArray) -> Fit:
     """Measure at fixed fractions of the parameter range of each part of a span that is in one curve."""
     sections = chains.sections(spans.ids, spans.low, spans.high)
     distance, turn = np.zeros(len(sections)), np.zeros(len(sections))
-    for first in range(0, len(sections), CHUNK):
-        rows = slice(first, first + CHUNK)
-        low = sections.low[rows, None]
-        t = low + (sections.high[rows, None] - low) * fractions
-        off, angle = offsets(chains, sections, rows, t, arcs)
-        distance[rows], turn[rows] = np.abs(off).max(axis=1), angle.max(axis=1)
+    for rows in portions(len(sections), len(fractions)):
+        low = sections.low[rows]
+        t = low + (sections.high[rows] - low) * fractions[:, None]
+        off, angle = Ruler.of(chains, sections, rows, arcs).offsets(t)
+        distance[rows], turn[rows] = np.abs(off).max(axis=0), angle.max(axis=0)
     return largest(sections, distance, turn, arcs)
+
+
+def portions(count: int, places: int) -> Iterator[slice]:
+    """Give portions of so many sections that are looked at in so many places each."""
+    step = max(MOST_PLACES // places, 1)
+    return (slice(first, first + step) for first in range(0, count, step))
 
 
 def largest(sections: Sections, distance: FloatArray, turn: FloatArray, arcs: Biarcs) -> Fit:
@@ -232,38 +245,98 @@ def deviations(
     """Signed distances of curve points from the arcs, at fixed fractions of the parameter range.
 
     Returns:
-        The distances (n, k), left of the arcs positive; where on the chord, as a part of it, each point is
-        (n, k); the lengths of the chords (n, 1).
+        The distances (k, n), left of the arcs positive; where on the chord, as a part of it, each point is
+        (k, n); the lengths of the chords (n,).
     """
-    width = (spans.high - spans.low)[:, None]
-    u = spans.low[:, None] + width * fractions
-    place = chains.places(spans.ids, u)
-    distance = _offset((place - arcs.joint[:, None]) * arcs.along[:, None].conj(), arcs.bend0, arcs.bend1)[0]
-    chord = (spans.p1 - spans.p0)[:, None]
-    length = np.abs(chord)
-    square = np.where(length > 0, length**2, 1.0)
-    return distance, dot(place - spans.p0[:, None], chord) / square, length
+    distance, part = np.empty((len(fractions), len(spans))), np.empty((len(fractions), len(spans)))
+    chord = spans.p1 - spans.p0
+    square = dot(chord, chord)
+    divisor = np.where(square > 0, square, 1.0)
+    start, way = turned_back(spans.p0 - arcs.joint, arcs.along), turned_back(chord, arcs.along)
+    for rows in portions(len(spans), len(fractions)):
+        low = spans.low[rows]
+        u = low + (spans.high[rows] - low) * fractions[:, None]
+        x, y = chains.places_from(spans.ids[rows], u, arcs.joint[rows], arcs.along[rows])
+        distance[:, rows] = _offset(x, y, np.where(x < 0, arcs.bend0[rows], arcs.bend1[rows]))
+        x -= start.real[rows]
+        y -= start.imag[rows]
+        part[:, rows] = (x * way.real[rows] + y * way.imag[rows]) / divisor[rows]
+    return distance, part, np.sqrt(square)
 
 
-def offsets(
-    chains: Chains, sections: Sections, rows: slice, t: FloatArray, arcs: Biarcs
-) -> tuple[FloatArray, FloatArray]:
-    """Signed distances (left is positive) and angles between directions of curve points at t: (n, k) each."""
-    curve, span = sections.curves[rows], sections.rows[rows]
-    place, velocity = chains.curves.motion(curve, t)
-    joint, along = arcs.joint[span], arcs.along[span].conj()[:, None]
-    # in axes with the origin at J and x along the arcs: x + i y
-    turned = (place + (chains.shifts[curve] - joint)[:, None]) * along
-    velocity = velocity * along
-    distance, bend = _offset(turned, arcs.bend0[span], arcs.bend1[span])
-    # The arc's direction at the foot is i times its normal there, n - k Q, so 1 - k y + i k x in these axes.
-    fx, fy, vx, vy = 1 - bend * turned.imag, bend * turned.real, velocity.real, velocity.imag
-    return distance, np.abs(np.arctan2(fx * vy - fy * vx, fx * vx + fy * vy))
+@dataclass(slots=True)
+class Ruler:
+    """Measures sections of curves against their arcs, (n,) each.
+
+    Attributes:
+        curves: the curves in axes with the origin at J and x along the arcs.
+        bend0: curvatures of the first arcs.
+        bend1: curvatures of the second arcs.
+    """
+
+    curves: Moved
+    bend0: FloatArray
+    bend1: FloatArray
+
+    @classmethod
+    def of(cls, chains: Chains, sections: Sections, rows: slice, arcs: Biarcs) -> Ruler:
+        """Take some sections of spans that have arcs."""
+        curve, span = sections.curves[rows], sections.rows[rows]
+        moved = chains.curves.moved(curve, arcs.joint[span] - chains.shifts[curve], arcs.along[span])
+        return cls(moved, arcs.bend0[span], arcs.bend1[span])
+
+    def offsets(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Signed distances (left is positive) at ``t`` (k, n), and tangents of half the angles between directions.
+
+        The arc's direction at the foot is i times its normal there, n - k Q, so 1 - k y + i k x in these axes.
+        """
+        x, y, vx, vy = self.curves.motion(t)
+        bend = np.where(x < 0, self.bend0, self.bend1)
+        distance = _offset(x, y, bend)
+        y *= bend
+        fx = np.subtract(1, y, out=y)
+        fy = np.multiply(bend, x, out=x)
+        side = fx * vy
+        side -= fy * vx
+        vx *= fx
+        vy *= fy
+        vx += vy
+        return distance, half_tangent(side, vx)
 
 
-def _offset(turned: ComplexArray, bend0: FloatArray, bend1: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Signed distances of points (n, k) in axes at J along the arcs, and the curvature of the arc on their side."""
-    x, y = turned.real, turned.imag
-    bend = np.where(x < 0, bend0[:, None], bend1[:, None])
-    f = bend * (x * x + y * y) / 2 - y
-    return -2 * f / (1 + np.sqrt(np.maximum(1 + 2 * bend * f, 0.0))), bend
+def half_tangent(side: FloatArray, ahead: FloatArray) -> FloatArray:
+    """Tan(h / 2) = sin h / (1 + cos h) of the angle h between vectors, by cross and dot product; 0 where one is 0.
+
+    Beyond a right angle it is (1 - cos h) / sin h, infinite or so for half a turn. What is added to the divisor is
+    less than the rounding of anything but 0.
+    """
+    size = side * side
+    size += ahead * ahead
+    np.sqrt(size, out=size)
+    side = np.abs(side, out=side)
+    back = ahead < 0
+    over = np.where(back, size - ahead, side)
+    size += ahead
+    under = np.where(back, side, size)
+    under += 1e-300
+    with np.errstate(over="ignore"):
+        over /= under
+    return over
+
+
+def _offset(x: FloatArray, y: FloatArray, bend: FloatArray) -> FloatArray:
+    """Signed distances of points in axes at J along the arcs, ``bend`` the curvature of the arc on their side."""
+    f = x * x
+    f += y * y
+    f *= bend
+    f /= 2
+    f -= y
+    root = 2 * bend
+    root *= f
+    root += 1
+    np.maximum(root, 0.0, out=root)
+    np.sqrt(root, out=root)
+    root += 1
+    f *= -2
+    f /= root
+    return f

@@ -1,7 +1,10 @@
 """Curves in one form for fitting: points, velocities and accelerations of many curves, as complex numbers.
 
 A point (x, y) is x + i y, relative to its curve's first point, so that a drawing far from the origin costs no
-digits. With conj(a) b = a . b + i (a x b), the dot and cross products of plane geometry are one multiplication.
+digits. Complex numbers are added and scaled here, but multiplied as real ones: NumPy's product of two complex numbers,
+and their absolute value, have other last digits on other processors.
+
+What is measured at many places of many curves is measured in real numbers (``moved_curves``).
 """
 
 from __future__ import annotations
@@ -15,6 +18,7 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.ellipse_arcs import Arcs
+from wallkit.walls.importing.arc_fitting.moved_curves import Moved, MovedCubics, MovedEllipses
 
 ComplexArray = NDArray[np.complex128]
 BoolArray = NDArray[np.bool_]
@@ -74,6 +78,10 @@ class Curves(Protocol):
         """Points and velocities (first derivatives by t) of curves ``ids`` (n,) at ``t`` (n, k): (n, k) each."""
         ...
 
+    def moved(self, ids: IntArray, origin: ComplexArray, along: ComplexArray) -> Moved:
+        """Curves ``ids`` (n,) in axes at ``origin`` (n,), seen from their first points, the x axis ``along`` (n,)."""
+        ...
+
     def accelerations(self, ids: IntArray, t: FloatArray) -> ComplexArray:
         """Second derivatives by t: (n, k)."""
         ...
@@ -87,10 +95,27 @@ class Curves(Protocol):
         ...
 
 
+def length(z: ComplexArray) -> FloatArray:
+    """Absolute values."""
+    x, y = z.real, z.imag
+    result: FloatArray = np.sqrt(x * x + y * y)
+    return result
+
+
 def unit(z: ComplexArray) -> ComplexArray:
     """Give numbers of length one; 0 stays 0."""
-    size = np.abs(z)
-    result: ComplexArray = np.divide(z, size, out=np.zeros_like(z), where=size > 0)
+    size = length(z)
+    there = size > 0
+    result = np.zeros_like(z)
+    np.divide(z.real, size, out=result.real, where=there)
+    np.divide(z.imag, size, out=result.imag, where=there)
+    return result
+
+
+def turned_back(a: ComplexArray, b: ComplexArray) -> ComplexArray:
+    """Give a conj(b), which is a in axes along b where b has length one."""
+    result = np.empty(np.broadcast_shapes(a.shape, b.shape), dtype=np.complex128)
+    result.real, result.imag = dot(b, a), cross(b, a)
     return result
 
 
@@ -117,7 +142,7 @@ def leading(velocity: ComplexArray, acceleration: ComplexArray, jerk: ComplexArr
     Returns:
         0 for the velocity, 1 for the acceleration, 2 for the jerk; 0 where the velocity is not a number.
     """
-    v, a, j = np.abs(velocity), np.abs(acceleration), np.abs(jerk)
+    v, a, j = length(velocity), length(acceleration), length(jerk)
     rate = a + np.sqrt(a * a + 2 * j * v)
     h = np.divide(2 * v, rate, out=np.where(v > 0, np.inf, 0.0), where=rate > 0)
     with np.errstate(invalid="ignore"):  # inf where nothing undoes the velocity
@@ -163,14 +188,14 @@ class Cubics:
     @property
     def sizes(self) -> FloatArray:
         """(n,) the largest distance of a control point from the first."""
-        size: FloatArray = np.abs(self.control).max(axis=1)
+        size: FloatArray = length(self.control).max(axis=1)
         return size
 
     @property
     def lengths(self) -> FloatArray:
         """(n,) the mean of chord and control polygon."""
-        length: FloatArray = (np.abs(np.diff(self.control, axis=1)).sum(axis=1) + np.abs(self.last)) / 2
-        return length
+        result: FloatArray = (length(np.diff(self.control, axis=1)).sum(axis=1) + length(self.last)) / 2
+        return result
 
     def _powers(self, ids: IntArray) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
         p = self.control[ids]
@@ -205,6 +230,12 @@ class Cubics:
             sum_ *= s
             np.add(sum_, third * square, out=part(velocity))
         return self.places(ids, t), velocity
+
+    def moved(self, ids: IntArray, origin: ComplexArray, along: ComplexArray) -> Moved:
+        """Give cubics in axes of their own."""
+        p = turned_back(self.control[ids].T, along)[1:]
+        start = turned_back(origin, along)
+        return MovedCubics.of(-start, p)
 
     def accelerations(self, ids: IntArray, t: FloatArray) -> ComplexArray:
         """Second derivatives."""
@@ -257,7 +288,7 @@ class Cubics:
         ids = np.arange(len(self))
         a, b, c = (part[:, 0] for part in self._powers(ids))
         spokes = self.control[:, 1:]
-        along = unit(spokes[ids, np.abs(spokes).argmax(axis=1)])
+        along = unit(spokes[ids, length(spokes).argmax(axis=1)])
         with np.errstate(divide="ignore", invalid="ignore"):
             # velocity x acceleration = 2 (c x b + 3 t (c x a) + 3 t^2 (b x a))
             vertex = -cross(c, a) / (2 * cross(b, a))
@@ -274,8 +305,8 @@ class Cubics:
         ids, least = np.arange(len(self)), ROUNDING * self.sizes[:, None]
         here, low, high = (self.motion(ids, place)[0] for place in (t, t / 2, (t + 1) / 2))
         last = self.last[:, None]
-        start = np.maximum(np.abs(here), np.abs(low)) <= least
-        result: BoolArray = start | (np.maximum(np.abs(here - last), np.abs(high - last)) <= least)
+        start = np.maximum(length(here), length(low)) <= least
+        result: BoolArray = start | (np.maximum(length(here - last), length(high - last)) <= least)
         return result
 
 
@@ -336,6 +367,12 @@ class Ellipses:
         p, q, angle, turn = self._turned(ids, t)
         cos, sin = np.cos(angle), np.sin(angle)
         return q * sin - p * (2 * np.sin(angle / 2) ** 2), (q * cos - p * sin) * turn
+
+    def moved(self, ids: IntArray, origin: ComplexArray, along: ComplexArray) -> Moved:
+        """Give arcs in axes of their own."""
+        p, q, _, turn = self._turned(ids, np.zeros((len(ids), 1)))
+        start, p, q = (turned_back(z, along) for z in (-origin, p[:, 0], q[:, 0]))
+        return MovedEllipses(start, p, q, turn[:, 0])
 
     def accelerations(self, ids: IntArray, t: FloatArray) -> ComplexArray:
         """Second derivatives."""

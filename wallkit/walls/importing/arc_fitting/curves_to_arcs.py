@@ -22,7 +22,7 @@ import numpy as np
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.ellipse_arcs import Arcs
 from wallkit.walls.importing.arc_fitting.biarcs import Fit, Spans
-from wallkit.walls.importing.arc_fitting.curves import BoolArray, Cubics, Curves, Ellipses, as_complex, cross
+from wallkit.walls.importing.arc_fitting.curves import BoolArray, Cubics, Curves, Ellipses, as_complex, cross, length
 from wallkit.walls.importing.arc_fitting.cuts import (
     between_cusps,
     even_out,
@@ -170,7 +170,7 @@ def _fit_block(curves: Curves, segments: Segments, at: IntArray, smooth: BoolArr
     ids = np.repeat(spans.ids, edge_counts)
     ends = segments.begins[at[chains.offsets[ids]]] + np.stack([z.real, z.imag], axis=1)
     owner = at[chains.offsets[ids + 1] - 1]
-    return _Edges(owner, ends, bulges, float(fit.distance.max()), float(fit.turn.max()))
+    return _Edges(owner, ends, bulges, float(fit.distance.max()), 2 * math.atan(float(fit.turn.max())))
 
 
 def _arcs_by_themselves(chains: Chains, spans: Spans) -> BoolArray:
@@ -190,11 +190,11 @@ def _bends_on(curves: Curves, spans: Spans, fit: Fit, tolerance: float) -> BoolA
     """
     first = np.flatnonzero(np.diff(spans.ids, prepend=-1))
     last = np.append(first[1:], len(spans)) - 1
-    reach = np.abs(spans.p1 - spans.p0) / np.maximum(np.cbrt(fit.distance / tolerance), 0.1)
+    reach = length(spans.p1 - spans.p0) / np.maximum(np.cbrt(fit.distance / tolerance), 0.1)
     ids, ends = np.arange(len(curves)), np.broadcast_to(np.array([0.0, 1.0]), (len(curves), 2))
     velocity = curves.motion(ids, ends)[1]
     with np.errstate(divide="ignore", invalid="ignore"):
-        bend = cross(velocity, curves.accelerations(ids, ends)) / np.abs(velocity) ** 3
+        bend = cross(velocity, curves.accelerations(ids, ends)) / length(velocity) ** 3
         jump = np.abs(bend[1:, 0] - bend[:-1, 1])
         even = jump * np.minimum(reach[first[1:]], reach[last[:-1]]) ** 2 <= _LARGEST_JUMP * tolerance
     return np.concatenate([[False], even])

@@ -9,6 +9,7 @@ The directions at the new cuts lean (``joint_directions``); where a stretch ends
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -16,17 +17,18 @@ import numpy as np
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.ragged import numbered
 from wallkit.walls.importing.arc_fitting.biarcs import (
-    CHUNK,
     Biarcs,
     Fit,
+    Ruler,
     Spans,
     biarcs,
     flatten,
+    half_tangent,
     largest,
     measure,
-    offsets,
+    portions,
 )
-from wallkit.walls.importing.arc_fitting.curves import ROUNDING, BoolArray
+from wallkit.walls.importing.arc_fitting.curves import ROUNDING, BoolArray, cross, dot, length
 from wallkit.walls.importing.arc_fitting.joint_directions import lean
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
 from wallkit.walls.importing.curves_to_lines import within_limit
@@ -112,9 +114,11 @@ def _look(chains: Chains, spans: Spans) -> Fit:
 def _wrong(chains: Chains, fit: Fit, spans: Spans, tolerance: float) -> BoolArray:
     """Tell which spans must be cut further: not within the tolerance, unless there is nothing left to cut."""
     still = spans.t0 == 0  # the curve is a point
-    short = np.abs(spans.p1 - spans.p0) <= ROUNDING * chains.sizes[spans.ids]  # or comes back to its start
-    narrow = spans.high - spans.low < 1e-6 * chains.lengths[spans.ids]
-    wrong: BoolArray = ~(fit.sound & (fit.distance <= tolerance)) & ~still & ~(short & narrow)
+    wrong: BoolArray = ~(fit.sound & (fit.distance <= tolerance)) & ~still
+    narrow = np.flatnonzero(wrong & (spans.high - spans.low < 1e-6 * chains.lengths[spans.ids]))
+    if len(narrow):  # it ends, where it comes back to its start or is as short as rounding
+        short = length(spans.p1[narrow] - spans.p0[narrow]) <= ROUNDING * chains.sizes[spans.ids[narrow]]
+        wrong[narrow[short]] = False
     return wrong
 
 
@@ -233,12 +237,12 @@ def settled_cuts(chains: Chains, spans: Spans, whole: Spans, tolerance: float) -
 
 
 def _turned(chains: Chains, spans: Spans) -> FloatArray:
-    """The angles between the directions at the ends of spans and those of the curve, of which the look sees nothing."""
+    """The turns from the curve's directions to those at the ends of spans, of which the look sees nothing."""
     left = np.flatnonzero(spans.stretch[1:] == spans.stretch[:-1])
-    ids, u, direction = spans.ids[left], spans.high[left], spans.t1[left].conj()
+    ids, u, direction = spans.ids[left], spans.high[left], spans.t1[left]
     turn = np.zeros(len(spans))
     for curve in (chains.before(ids, u), chains.at(ids, u)[1]):
-        turn[left] = np.maximum(turn[left], np.abs(np.angle(curve * direction)))
+        turn[left] = np.maximum(turn[left], half_tangent(cross(direction, curve), dot(direction, curve)))
     return turn
 
 
@@ -267,33 +271,36 @@ def _in_order(parts: list[tuple[Spans, Fit]]) -> tuple[Spans, Fit]:
 def _close_look(chains: Chains, spans: Spans, arcs: Biarcs) -> Fit:
     """Measure at even places, then once more at the top of the parabola through the worst place and its neighbours."""
     sections = chains.sections(spans.ids, spans.low, spans.high)
-    worst = np.zeros(len(sections)), np.zeros(len(sections))
-    for first in range(0, len(sections), CHUNK):
-        rows = slice(first, first + CHUNK)
+    worst = np.zeros((2, len(sections)))
+    for rows in portions(len(sections), len(_EVEN)):
+        ruler = Ruler.of(chains, sections, rows, arcs)
         low, high = _inside(sections, rows)
-        seen = offsets(chains, sections, rows, low + (high - low) * _EVEN, arcs)
-        for kind, most in enumerate(worst):
-            values = np.abs(seen[kind])
-            place = np.clip(low + (high - low) * _peak(values)[:, None], *_inside(sections, rows, 1 / 80))
-            top = offsets(chains, sections, rows, place, arcs)[kind]
-            most[rows] = np.maximum(values.max(axis=1), np.abs(top[:, 0]))
+        off, angle = ruler.offsets(low + (high - low) * _EVEN[:, None])
+        peaks = [_peak(np.abs(off, out=off)), _peak(angle, np.arctan)]
+        place = np.clip(low + (high - low) * np.stack([place for place, _ in peaks]), *_inside(sections, rows, 1 / 80))
+        off, angle = ruler.offsets(place)
+        worst[0, rows] = np.maximum(peaks[0][1], np.abs(off[0]))
+        worst[1, rows] = np.maximum(peaks[1][1], angle[1])
     turn = np.where(spans.t0[sections.rows] == 0, 0.0, worst[1])  # a curve that is a point has no direction
     return largest(sections, worst[0], turn, arcs)
 
 
 def _inside(sections: Sections, rows: slice, margin: float = 1 / 20) -> tuple[FloatArray, FloatArray]:
-    """Columns of where to look first and last: a margin away from the span's own ends, but at joints of curves."""
-    low, high = sections.low[rows, None], sections.high[rows, None]
+    """Where to look first and last: a margin away from the span's own ends, but at joints of curves."""
+    low, high = sections.low[rows], sections.high[rows]
     away = (high - low) * margin
-    return low + away * sections.begins[rows, None], high - away * sections.ends[rows, None]
+    return low + away * sections.begins[rows], high - away * sections.ends[rows]
 
 
-def _peak(values: FloatArray) -> FloatArray:
-    """Where, 0 for the first column and 1 for the last, the parabola through the largest and its neighbours peaks."""
-    at = np.clip(values.argmax(axis=1), 1, values.shape[1] - 2)
-    row = np.arange(len(values))
-    before, middle, after = values[row, at - 1], values[row, at], values[row, at + 1]
+def _peak(values: FloatArray, meant: Callable[[FloatArray], FloatArray] = np.asarray) -> tuple[FloatArray, FloatArray]:
+    """Where the parabola through the largest value of each column and its neighbours peaks, and that value: (n,) each.
+
+    The first row is at 0, the last at 1. The parabola is through what the values mean, which rises with them.
+    """
+    largest = values.max(axis=0)
+    at = np.clip((values == largest).argmax(axis=0), 1, len(values) - 2)
+    column = np.arange(values.shape[1])
+    before, middle, after = (meant(values[at + step, column]) for step in (-1, 0, 1))
     bow = before - 2 * middle + after
     shift = np.divide(before - after, 2 * bow, out=np.zeros_like(bow), where=bow < 0)
-    result: FloatArray = _EVEN[at] + np.clip(shift, -1, 1) * _EVEN[1]
-    return result
+    return _EVEN[at] + np.clip(shift, -1, 1) * _EVEN[1], largest

@@ -15,15 +15,20 @@ look at the curve.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import pairwise
+
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.importing.arc_fitting.biarcs import Spans, biarcs, deviations
+from wallkit.walls.importing.arc_fitting.curves import length
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains
 
 _MOST = 0.05  # radians a direction leans at most; what asks for more is no smooth curve yet
 _LOOK = np.array([0.1, 0.22, 1 / 3, 0.41, 0.5, 0.59, 2 / 3, 0.78, 0.9])  # fractions of a span
 _SWEEPS = 5
+_AT_ONCE = 1024  # spans: what the search needs for them stays in the cache
 # The largest of some numbers is about their p-norm, which Newton's method makes smallest; as p is no infinity its
 # steps are too short, which the second number makes good.
 _NORM, _STRIDE = 12, 3.0
@@ -34,28 +39,53 @@ def lean(chains: Chains, spans: Spans) -> Spans:
     left = np.flatnonzero(spans.stretch[1:] == spans.stretch[:-1])
     spans.t1[left] = spans.t0[left + 1] = chains.at(spans.ids[left], spans.high[left])[1]
     _turn(spans, left, _rate(spans, left))
-    first = np.searchsorted(spans.stretch, spans.stretch[left])
-    off, along, length = deviations(chains, spans, biarcs(spans), _LOOK)
-    start, end = -_response(along) * length, _response(1 - along) * length
-    off, start, end = (np.ascontiguousarray(part.T) for part in (off, start, end))  # sums over rows are the quick ones
-    cuts = [left[(left - first) % 2 == parity] for parity in (0, 1)]  # no two of one parity have a span in common
-    response = [np.concatenate([end[:, cut], start[:, cut + 1]]) for cut in cuts]
+    off, along, chord = deviations(chains, spans, biarcs(spans), _LOOK)
+    start, end = -_response(along) * chord, _response(1 - along) * chord
     angle = np.zeros(len(spans))
-    for _ in range(_SWEEPS):
-        for cut, moved in zip(cuts, response, strict=True):
-            both = np.concatenate([off[:, cut], off[:, cut + 1]])
-            step = _evening(both, moved)
-            both += moved * step
-            off[:, cut], off[:, cut + 1] = both[: len(_LOOK)], both[len(_LOOK) :]
-            angle[cut] += step
+    for rows in _portions(spans.stretch):
+        angle[rows] = _angles(spans.stretch[rows], *(part[:, rows] for part in (off, start, end)))
     _turn(spans, left, angle[left])
     return spans
 
 
+def _portions(stretch: IntArray) -> Iterator[slice]:
+    """Give portions of about _AT_ONCE spans, whole stretches each."""
+    begins = np.flatnonzero(np.diff(stretch, prepend=-1))
+    marks = begins[np.flatnonzero(np.diff(begins // _AT_ONCE, prepend=-1))].tolist()
+    return (slice(first, last) for first, last in pairwise([*marks, len(stretch)]))
+
+
+def _angles(stretch: IntArray, off: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """Find the angles that directions at the ends of spans are turned by, (n,), 0 at those of stretches.
+
+    Args:
+        stretch: (n,) of each span.
+        off: (k, n) how far it is off where it is looked at.
+        start: (k, n) how much farther, by its direction at the start turned by 1.
+        end: (k, n) the same for the end.
+    """
+    left = np.flatnonzero(stretch[1:] == stretch[:-1])
+    odd = (left - np.searchsorted(stretch, stretch[left])) % 2 == 1
+    cuts = [left[~odd], left[odd]]  # no two of one kind have a span in common
+    response = [np.concatenate([end.take(cut, axis=1), start.take(cut + 1, axis=1)]) for cut in cuts]
+    off, angle = off.copy(), np.zeros(len(stretch))
+    for _ in range(_SWEEPS):
+        for cut, moved in zip(cuts, response, strict=True):
+            both = np.concatenate([off.take(cut, axis=1), off.take(cut + 1, axis=1)])
+            step = _evening(both, moved)
+            both += moved * step
+            off[:, cut], off[:, cut + 1] = both[: len(_LOOK)], both[len(_LOOK) :]
+            angle[cut] += step
+    return angle
+
+
 def _turn(spans: Spans, left: IntArray, angle: FloatArray) -> None:
     """Turn the directions at the end of spans ``left``, which are those at the start of the next ones."""
-    before = spans.t1[left]
-    after = before * np.exp(1j * np.clip(angle, -_MOST, _MOST))  # in place, one alone comes out otherwise than many
+    before, x = spans.t1[left], np.clip(angle, -_MOST, _MOST)
+    square = x * x  # Taylor's series, to 1e-20 for angles as small as these
+    cos = 1 - square / 2 * (1 - square / 12 * (1 - square / 30 * (1 - square / 56)))
+    sin = x * (1 - square / 6 * (1 - square / 20 * (1 - square / 42 * (1 - square / 72))))
+    after = cos * before + sin * (1j * before)
     spans.t1[left] = spans.t0[left + 1] = after
 
 
@@ -63,7 +93,7 @@ def _rate(spans: Spans, left: IntArray) -> FloatArray:
     """Give -k' h^2 / 48 at the ends of spans ``left``: the mean of both sides."""
     arcs = biarcs(spans)
     # the curvatures of the two arcs of a biarc differ by 2 k' h / 3
-    rate = (arcs.bend0 - arcs.bend1) * np.abs(spans.p1 - spans.p0) / 32
+    rate = (arcs.bend0 - arcs.bend1) * length(spans.p1 - spans.p0) / 32
     rate = np.where(arcs.sound & ~arcs.single, rate, 0.0)
     mean: FloatArray = (rate[left] + rate[left + 1]) / 2
     return mean
@@ -78,13 +108,19 @@ def _response(x: FloatArray) -> FloatArray:
 def _evening(off: FloatArray, response: FloatArray) -> FloatArray:
     """The angle that about makes the largest of ``|off + angle * response|`` smallest, column by column: (n,)."""
     largest = np.abs(off).max(axis=0)
-    weighted = np.divide(off, largest, out=np.zeros_like(off), where=largest > 0)
+    weighted = off / np.where(largest > 0, largest, 1.0)
     weighted *= weighted
     fourth = weighted * weighted
-    weighted *= response * fourth * fourth  # the power _NORM - 2; pow itself takes ten times as long
-    bend, slope = _sum(weighted * response), _sum(weighted * off)
+    fourth *= fourth
+    weighted *= fourth  # the power _NORM - 2; pow itself takes ten times as long
+    weighted *= response
+    bend = _sum(np.multiply(weighted, response, out=fourth))
+    weighted *= off
+    slope = _sum(weighted)
     step = np.divide(-_STRIDE * slope, (_NORM - 1) * bend, out=np.zeros_like(slope), where=bend > 0)
-    worse = np.abs(off + step * response).max(axis=0) > largest
+    after = np.multiply(step, response, out=weighted)
+    after += off
+    worse = np.abs(after, out=after).max(axis=0) > largest
     result: FloatArray = np.where(worse, step / 5, step)
     return result
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.walls.importing.arc_fitting.curves import ComplexArray, Curves, as_complex, unit
+from wallkit.walls.importing.arc_fitting.curves import ComplexArray, Curves, as_complex, cross, dot, unit
 from wallkit.walls.importing.segments import Segments
 
 # Curves whose directions differ by less (radians) were drawn as one smooth line and lost the rest when coordinates
@@ -108,22 +108,27 @@ class Chains:
         direction = np.where(t == 0, self.headings[curve], unit(velocity[:, 0]))
         return self.shifts[curve] + place[:, 0], direction
 
-    def places(self, ids: IntArray, u: FloatArray) -> ComplexArray:
-        """Points of chains ``ids`` (n,) at ``u`` (n, k), rising along each row: (n, k)."""
-        first, last = self._curve_at(ids, u[:, 0]), self._curve_at(ids, u[:, -1])
-        place = self._places(first, u)
+    def places_from(
+        self, ids: IntArray, u: FloatArray, origin: ComplexArray, along: ComplexArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Points of chains ``ids`` (n,) at ``u``, rising in each column, in axes of their own: x and y, (k, n) each."""
+        first, last = self._curve_at(ids, u[0]), self._curve_at(ids, u[-1])
+        x, y = self._places(first, u, origin, along)
         across = np.flatnonzero(first != last)
-        flat = u[across].reshape(-1, 1)
-        curve = self._curve_at(np.repeat(ids[across], u.shape[1]), flat[:, 0])
-        place[across] = self._places(curve, flat).reshape(-1, u.shape[1])
-        return place
+        if len(across):
+            again = np.tile(across, len(u))
+            flat = u[:, across].reshape(1, -1)
+            parts = self._places(self._curve_at(ids[again], flat[0]), flat, origin[again], along[again])
+            x[:, across], y[:, across] = (part.reshape(len(u), -1) for part in parts)
+        return x, y
 
-    def _places(self, curve: IntArray, u: FloatArray) -> ComplexArray:
-        """Points of curves (n,) at their chain's u (n, k)."""
-        start = self.starts[curve, None]
-        place = self.curves.places(curve, (u - start) / (self.stops[curve, None] - start))
-        place += self.shifts[curve, None]
-        return place
+    def _places(
+        self, curve: IntArray, u: FloatArray, origin: ComplexArray, along: ComplexArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Points of curves (n,) at their chain's u (k, n)."""
+        start = self.starts[curve]
+        moved = self.curves.moved(curve, origin - self.shifts[curve], along)
+        return moved.places((u - start) / (self.stops[curve] - start))
 
     def before(self, ids: IntArray, u: FloatArray) -> ComplexArray:
         """Directions of chains ``ids`` at ``u``; at a joint that of the earlier curve."""
@@ -150,12 +155,15 @@ class Chains:
 
     def _curve_at(self, ids: IntArray, u: FloatArray) -> IntArray:
         """The last curve of each chain that starts at u or before, by bisection."""
-        low, high = self.offsets[ids], self.offsets[ids + 1] - 1
+        first = self.offsets[ids]
+        rows = np.flatnonzero(self.offsets[ids + 1] - first > 1)  # most chains are of one curve
+        low, high, u = first[rows], self.offsets[ids[rows] + 1] - 1, u[rows]
         while (low < high).any():
             middle = (low + high + 1) // 2
             there = self.starts[middle] <= u
             low, high = np.where(there, middle, low), np.where(there, high, middle - 1)
-        return low
+        first[rows] = low
+        return first
 
 
 def runs_on(curves: Curves, segments: Segments, at: IntArray) -> NDArray[np.bool_]:
@@ -167,11 +175,10 @@ def runs_on(curves: Curves, segments: Segments, at: IntArray) -> NDArray[np.bool
         at: (n,) the segment of each curve, rising.
     """
     first, last = curves.end_tangents()
-    along = first[1:] * last[:-1].conj()
     subpath = np.searchsorted(segments.offsets, at, side="right")
     joined = np.zeros(len(at), dtype=np.bool_)
     joined[1:] = (np.diff(at) == 1) & (np.diff(subpath) == 0)
-    joined[1:] &= (along.real > 0) & (np.abs(along.imag) <= _SMOOTH)
+    joined[1:] &= (dot(last[:-1], first[1:]) > 0) & (np.abs(cross(last[:-1], first[1:])) <= _SMOOTH)
     rows = np.flatnonzero(joined)
     if len(rows):
         joints = as_complex(segments.begins[at[rows]])
