@@ -19,15 +19,19 @@ from wallkit.kernels.meeting.records import (
     BOUNCES,
     CELL,
     DISCS,
+    DUE,
     FLYING,
     FRESH,
     MET,
+    NEXT,
     NOBODY,
     NOTHING,
     NUMBER,
     PARTNER,
     ROW,
+    UNLISTED,
     Discs,
+    Queue,
 )
 from wallkit.kernels.meeting.wall_contacts import states_at
 from wallkit.kernels.records import AT_REST, LOG_STRIDE, STATE, STATE_SIZE, TIME_REACHED, Counts, in_lists
@@ -51,6 +55,7 @@ MANY, OFTEN = 2_000, 50
 contacts a disc."""
 HOP = 2.0**-12
 """By this part of the radius of the smallest disc a disc under gravity hops off what it would come to lie on."""
+_COLD = [STATE.energy, STATE.from_x, STATE.from_y, STATE.from_vx, STATE.from_vy, STATE.tolerance]
 _compiled: set[tuple[bool, ...]] = set()
 
 
@@ -121,10 +126,11 @@ class Meeting:
         order = along_a_curve(cell_of(cells, place))
         self.numbers, radii = self.numbers[order], radii[order]
         states = initial_states(self.modelled, balls.position[self.numbers], balls.velocity[self.numbers])
-        count, size = self._count, max(self._count, 2)
+        count = self._count
         ball, link = np.zeros((count, 8)), np.zeros((count, 8), dtype=np.uint32)
         ball[:, 0:4], ball[:, 7] = states[:, 0:4], radii
         link[:, PARTNER], link[:, NUMBER], link[:, MET], link[:, BEING] = NOTHING, self.numbers, NOBODY, FLYING
+        link[:, NEXT] = UNLISTED
         counts = np.array(start, dtype=np.int64)
         near = near_walls(scene.walls, self.modelled.origin, cells, float(radii.max(initial=0.0)))
         hits = np.zeros(max(len(scene.walls), 1), dtype=np.int64)
@@ -135,13 +141,12 @@ class Meeting:
             mass=balls.mass[self.numbers],
             leave=np.full(count, math.inf),
             step=np.zeros(count, dtype=np.int32),
-            key=np.full(2 * size, math.inf),
-            tree=np.concatenate([np.zeros(size), np.arange(size)]).astype(np.uint32),
+            queue=_empty_queue(count),
             head=np.full(cells.rows << cells.shift, NOBODY, dtype=np.uint32),
             near=near,
             cells=cells,
             restitution=_restitution(scene),
-            cold=states[:, [STATE.energy, STATE.from_x, STATE.from_y, STATE.from_vx, STATE.from_vy, STATE.tolerance]],
+            cold=np.hstack([states[:, _COLD], np.zeros((count, 1))]),
             counts=np.tile(counts.astype(np.int32), (count, 1)),
             hop=_hop(scene, radii),
             tries=(np.zeros(STATE_SIZE), counts.copy(), hits, np.zeros(LOG_STRIDE)),
@@ -211,8 +216,6 @@ class Meeting:
         place[order] = np.arange(self._count, dtype=np.uint32)
         for part in (discs.ball, discs.link, discs.mass, discs.leave, discs.step, discs.cold, discs.counts):
             part[:] = part[order]
-        leaves = discs.key[len(discs.key) // 2 :][: self._count]
-        leaves[:] = leaves[order]
         self.numbers = self.numbers[order]
         for column, above in ((PARTNER, DISCS), (MET, NOBODY)):
             named = discs.link[:, column] < above
@@ -259,11 +262,28 @@ class Meeting:
         return states[back], endings[back]
 
     @property
+    def next_time(self) -> float:
+        """When something is next to be done: up to then the states of all discs are known."""
+        discs = self._discs if self._lists is None else self._lists
+        due = np.array(discs.ball).reshape(-1, 8)[:, DUE]
+        return float(np.minimum(due, discs.leave).min(initial=math.inf))
+
+    @property
     def bounces(self) -> NDArray[np.int64]:
         """(n,) contacts of each disc so far, by number."""
         link = self._discs.link if self._lists is None else np.array(self._lists.link).reshape(-1, 8)
         found: NDArray[np.int64] = link[np.argsort(self.numbers), BOUNCES].astype(np.int64)
         return found
+
+
+def _empty_queue(count: int) -> Queue:
+    return Queue(
+        first=np.full(2 << max(count - 1, 3).bit_length(), NOBODY, dtype=np.uint32),
+        heap=np.zeros(count, dtype=np.uint32),
+        times=np.zeros(count),
+        state=np.zeros(4, dtype=np.int64),
+        scale=np.zeros(2),
+    )
 
 
 def compile_each(*wanted: tuple[Any, tuple[Any, ...]]) -> None:

@@ -15,7 +15,7 @@ from wallkit.kernels.flight.gravity import move
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.meeting.cell_list import cell_at, enter, next_border, quit_cell
 from wallkit.kernels.meeting.collapse import is_caught
-from wallkit.kernels.meeting.event_queue import names, play_all, precedes, requeue
+from wallkit.kernels.meeting.event_queue import first_due, names, plan, precedes, requeue, retie, take_out
 from wallkit.kernels.meeting.pair_impact import collide, meet_at, meeting_time
 from wallkit.kernels.meeting.records import (
     BEING,
@@ -67,10 +67,11 @@ def meet(model, gravity, discs, until, limit, hits, log, capacity, budget):
     """
     noted, events, now = 0, 0, 0.0
     while noted < capacity and events < budget:
-        ball = int(discs.tree[1])
-        if discs.key[1] > until or discs.key[1] == NEVER:
+        ball = first_due(discs)
+        if ball == NOBODY or discs.queue.times[0] > until:
             return noted, now, 1
-        now = discs.key[1]
+        now = discs.queue.times[0]
+        take_out(discs, ball)
         events += 1
         row, own = discs.ball[ball], discs.link[ball]
         other, step = NOBODY, 0
@@ -86,6 +87,7 @@ def meet(model, gravity, discs, until, limit, hits, log, capacity, budget):
         if other != NOBODY:
             discs.ball[other][DUE], discs.link[other][PARTNER] = NEVER, NOTHING
             discs.leave[other] = NEVER
+            take_out(discs, other)
         for turn in range(2):
             looking = ball if turn == 0 else other
             if looking != NOBODY:
@@ -98,26 +100,25 @@ def meet(model, gravity, discs, until, limit, hits, log, capacity, budget):
 @kernel
 def begin(gravity, discs, now):
     """Put all discs into cells, and let each look at the time ``now``, one after the other."""
-    size = len(discs.key) >> 1
     for ball in range(len(discs.ball)):
         row, own = discs.ball[ball], discs.link[ball]
         x, y, _vx, _vy = move(gravity, row[X], row[Y], row[VX], row[VY], now - (row[TIME] + row[LOST]))
         own[CELL] = cell_at(discs.cells, x, y)
         row[DUE], own[PARTNER] = NEVER if own[BEING] == OUT else now, LOOK
-        discs.key[size + ball], discs.leave[ball] = row[DUE], NEVER
+        discs.leave[ball] = NEVER
     lay_out(discs)
 
 
 @kernel
 def lay_out(discs):
-    """List all discs in the cells in which they are, and play all matches, for discs whose keys are set."""
+    """List all discs in the cells in which they are, and in the queue."""
     head = discs.head
     for cell in range(len(head)):
         head[cell] = NOBODY
     for ball in range(len(discs.ball)):
         if discs.link[ball][BEING] != OUT:
             enter(discs, ball, discs.link[ball][CELL])
-    play_all(discs)
+    plan(discs)
 
 
 @kernel
@@ -208,14 +209,14 @@ def promise(discs, ball, due, partner):
     link[ball][PARTNER] = partner
     if before < DISCS:
         link[before][PARTNER] = LOOK
-        requeue(discs, before)
+        retie(discs, before)
     if partner < DISCS:
         third = link[partner][PARTNER]
         link[partner][PARTNER], discs.ball[partner][DUE] = ball, due
         requeue(discs, partner)
         if third < DISCS:
             link[third][PARTNER] = LOOK
-            requeue(discs, third)
+            retie(discs, third)
 
 
 @kernel
