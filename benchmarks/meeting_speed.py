@@ -78,7 +78,8 @@ def speed(counts: tuple[int, ...] = (100, 1_000, 10_000, 100_000, 1_000_000)) ->
         for count in counts:
             balls, side = filled(count, packing)
             best, meeting = pairs_a_second(wallkit.Scene(box(side), balls, meeting=True), max(200_000, count))
-            parts = (*meeting._discs, *meeting._discs.queue)
+            discs = meeting._discs
+            parts = (*(part for part in discs if part is not discs.link), *discs.queue)  # link is ball, seen otherwise
             size = sum(part.nbytes for part in parts if isinstance(part, np.ndarray)) / count
             words = f"{best / 1e6:.2f} M pairs a second, {size:.0f} bytes a disc"
             print(f"N {count:>9,}, packing {packing}: {words}", flush=True)

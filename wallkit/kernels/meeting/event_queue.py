@@ -1,35 +1,36 @@
 """What is due first: a calendar of short stretches of time, and a heap of what is due in the present one.
 
-Each stretch has a list of the discs whose next event falls into it, or into one that comes whole laps of the calendar
-later (R. Brown 1988, Commun. ACM 31:1220; G. Paul 2007, J. Comput. Phys. 221:615). The lists are linked through the
-discs' own rows, so that nothing is ever out of date, and nothing grows. The discs of the present stretch, one or two of
-them, are in a binary heap, which knows the order of events at the same time. As what is due soon is known ahead, its
-cache lines are asked for before it is taken.
+Each stretch has a list of discs whose next event was put into it, or into one that comes whole laps of the calendar
+later (R. Brown 1988, Commun. ACM 31:1220; G. Paul 2007, J. Comput. Phys. 221:615). A list is one cache line, and is
+only written to: who is due at another time by now is found out when the stretch comes. Its discs, a few, then go into a
+binary heap, which knows the order of events at the same time, and takes in what a full list does not. As what is due
+soon is known ahead, its cache lines are asked for before it is taken.
 """
 
 from __future__ import annotations
 
 from wallkit.kernels.intrinsics import prefetch_far
 from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.meeting.cell_list import cell_number, row_and_column
 from wallkit.kernels.meeting.records import (
     BEGIN,
     CELL,
     DISCS,
     DUE,
-    HEAPED,
+    FLOATS,
+    LEAVE,
     LEFT,
     NEVER,
-    NEXT,
     NOBODY,
     NUMBER,
     PARTNER,
     PASSED,
+    PLACE,
     PRESENT,
-    PREVIOUS,
     RATE,
+    ROOM,
     SIZE,
-    STRETCH,
-    UNLISTED,
+    UNHEAPED,
     WALL,
 )
 
@@ -37,9 +38,9 @@ FAR = 1 << 15
 """Discs from which on they do not fit into the nearer caches."""
 LATE = 2.0**62
 """Number of a stretch that is never reached."""
-EACH = 0.5
+EACH = 3.0
 """Events in a stretch, about."""
-AHEAD = 4
+AHEAD = 1
 """Stretches."""
 
 
@@ -66,14 +67,14 @@ def names(link, ball):
 @kernel
 def next_event(discs, ball):
     """When something is next to be done for a disc: a contact or a search is due, or it leaves its cell."""
-    due, leave = discs.ball[ball][DUE], discs.leave[ball]
+    due, leave = discs.ball[ball][DUE], discs.ball[ball][LEAVE]
     return leave if leave <= due else due
 
 
 @rare_kernel
 def _rank(discs, ball):
     """(lower number, higher one) of the contact that is due, as ``names``: searches first, so none is overlooked."""
-    if discs.leave[ball] <= discs.ball[ball][DUE]:
+    if discs.ball[ball][LEAVE] <= discs.ball[ball][DUE]:
         return -1, -1
     return names(discs.link, ball)
 
@@ -97,7 +98,7 @@ def _settle(discs, ball, time, place):
         other = heap[above]
         if not _before(discs, time, ball, times[above], other):
             break
-        heap[place], times[place], link[other][PREVIOUS] = other, times[above], place
+        heap[place], times[place], link[other][PLACE] = other, times[above], place
         place = above
     below = 2 * place + 1
     while below < size:
@@ -106,9 +107,9 @@ def _settle(discs, ball, time, place):
         other = heap[below]
         if not _before(discs, times[below], other, time, ball):
             break
-        heap[place], times[place], link[other][PREVIOUS] = other, times[below], place
+        heap[place], times[place], link[other][PLACE] = other, times[below], place
         place, below = below, 2 * below + 1
-    heap[place], times[place], link[ball][PREVIOUS] = ball, time, place
+    heap[place], times[place], link[ball][PLACE] = ball, time, place
 
 
 @rare_kernel
@@ -119,22 +120,16 @@ def _settle_again(discs, place):
 
 @kernel
 def take_out(discs, ball):
-    """Take a disc out of the calendar and of the heap."""
-    queue, link, own = discs.queue, discs.link, discs.link[ball]
-    after, before = own[NEXT], own[PREVIOUS]
-    if after == HEAPED:
-        last = queue.state[SIZE] - 1
-        queue.state[SIZE] = last
-        if before < last:
-            queue.heap[before], queue.times[before] = queue.heap[last], queue.times[last]
-            _settle_again(discs, before)
-    elif after != UNLISTED:
-        if before >= STRETCH:
-            queue.first[before - STRETCH] = after
-        else:
-            link[before][NEXT] = after
-        link[ball if after == NOBODY else after][PREVIOUS] = before
-    own[NEXT] = UNLISTED
+    """Take a disc out of the heap, if it is there."""
+    queue, own = discs.queue, discs.link[ball]
+    place = own[PLACE]
+    if place == UNHEAPED:
+        return
+    last = queue.state[SIZE] - 1
+    queue.state[SIZE], own[PLACE] = last, UNHEAPED
+    if place < last:
+        queue.heap[place], queue.times[place] = queue.heap[last], queue.times[last]
+        _settle_again(discs, place)
 
 
 @kernel
@@ -145,25 +140,28 @@ def _stretch(queue, time):
 
 @kernel
 def put_in(discs, ball, time):
-    """Put a disc that is in neither into the heap, or into the calendar; nowhere if nothing is due for it."""
-    queue, own = discs.queue, discs.link[ball]
+    """Put a disc that is not in the heap into the calendar, or into the heap; nowhere if nothing is due for it."""
     if time == NEVER:
         return
+    queue = discs.queue
     number = _stretch(queue, time)
-    if number <= queue.state[PRESENT]:
-        size = queue.state[SIZE]
-        queue.state[SIZE] = size + 1
-        own[NEXT] = HEAPED
-        queue.heap[size], queue.times[size], own[PREVIOUS] = ball, time, size
-        if size > 0:
-            _settle_again(discs, own[PREVIOUS])
-        return
-    slot = number & (len(queue.first) - 1)
-    after = queue.first[slot]
-    # Nobody is another one's row that is written for nothing: a branch would wait for memory.
-    discs.link[ball if after == NOBODY else after][PREVIOUS] = ball
-    own[NEXT], own[PREVIOUS] = after, STRETCH + slot
-    queue.first[slot] = ball
+    if number > queue.state[PRESENT]:
+        slot = number & (len(queue.filled) - 1)
+        filled = int(queue.filled[slot])
+        if filled < ROOM:
+            queue.lists[ROOM * slot + filled], queue.filled[slot] = ball, filled + 1
+            return
+    push(discs, ball, time)
+
+
+@kernel
+def push(discs, ball, time):
+    """Put a disc into the heap."""
+    queue, size = discs.queue, discs.queue.state[SIZE]
+    queue.state[SIZE] = size + 1
+    queue.heap[size], queue.times[size], discs.link[ball][PLACE] = ball, time, size
+    if size > 0:
+        _settle_again(discs, discs.link[ball][PLACE])
 
 
 @kernel
@@ -176,40 +174,47 @@ def requeue(discs, ball):
 @kernel
 def retie(discs, ball):
     """Note that a search, instead of a contact, is due for a disc at the same time."""
-    if discs.link[ball][NEXT] == HEAPED:
-        _settle_again(discs, discs.link[ball][PREVIOUS])
+    if discs.link[ball][PLACE] != UNHEAPED:
+        _settle_again(discs, discs.link[ball][PLACE])
 
 
 @kernel
 def first_due(discs):
     """Give the disc for which something is to be done first: the time is ``discs.queue.times[0]``; or NOBODY."""
-    state = discs.queue.state
+    queue, state = discs.queue, discs.queue.state
     state[LEFT] -= 1
     if state[LEFT] < 0 and not plan(discs):
         return NOBODY
-    while state[SIZE] == 0:
+    # In the heap may be what a full list did not take in, and lists may have something sooner.
+    while state[SIZE] == 0 or _stretch(queue, queue.times[0]) > state[PRESENT]:
         if not _go_on(discs):
             return NOBODY
-    return int(discs.queue.heap[0])
+    return int(queue.heap[0])
 
 
 @kernel
 def _go_on(discs):
     """Go on to the next stretch; tell whether anything is due at all."""
     queue, link = discs.queue, discs.link
-    state, most = queue.state, len(queue.first)
+    state, lists, most = queue.state, queue.lists, len(queue.filled)
     state[PASSED] += 1
-    if state[PASSED] > most + 4 * (8 * most - state[LEFT]):  # stretches are too short for what happens now
+    if state[PASSED] > most + 4 * (8 * len(lists) - state[LEFT]):  # stretches are too short for what happens now
         return plan(discs)
     present = state[PRESENT] + 1
     state[PRESENT] = present
-    ball = queue.first[present & (most - 1)]
-    while ball != NOBODY:
-        after, time = link[ball][NEXT], next_event(discs, ball)
-        if _stretch(queue, time) <= present:
-            take_out(discs, ball)
-            put_in(discs, ball, time)
-        ball = after
+    slot, kept = present & (most - 1), 0
+    for k in range(queue.filled[slot]):
+        ball = lists[ROOM * slot + k]
+        if link[ball][PLACE] == UNHEAPED:
+            time = next_event(discs, ball)
+            if time < NEVER:
+                number = _stretch(queue, time)
+                if number <= present:
+                    push(discs, ball, time)
+                elif (number - present) & (most - 1) == 0:
+                    lists[ROOM * slot + kept] = ball
+                    kept += 1
+    queue.filled[slot] = kept
     if len(link) > FAR:
         _ask_ahead(discs, present)
     return True
@@ -225,11 +230,11 @@ def plan(discs):
     begin, end, finite = NEVER, 0.0, 0
     for ball in range(count):
         time = next_event(discs, ball)
-        link[ball][NEXT] = UNLISTED
+        link[ball][PLACE] = UNHEAPED
         if time < NEVER:
             begin, end, finite = min(begin, time), max(end, time), finite + 1
-    for slot in range(len(queue.first)):
-        queue.first[slot] = NOBODY
+    for slot in range(len(queue.filled)):
+        queue.filled[slot] = 0
     queue.state[SIZE], queue.state[PRESENT], queue.state[PASSED], queue.state[LEFT] = 0, 0, 0, 0
     if finite == 0:
         return False
@@ -237,7 +242,7 @@ def plan(discs):
     queue.state[LEFT] = finite
     span = _half_within(discs, begin, end - begin, finite)
     if span > 0.0:  # all that is due is not due at once
-        queue.state[LEFT] = 8 * len(queue.first)
+        queue.state[LEFT] = 8 * len(queue.lists)
         queue.scale[RATE] = min(finite / (2.0 * EACH * span), 2.0**50 / (abs(begin) + span))
     for ball in range(count):
         put_in(discs, ball, next_event(discs, ball))
@@ -264,39 +269,32 @@ def _ask_ahead(discs, present):
 
     First the own rows of a disc, then its partner's and the cells around it, which those name, then the discs in these.
     """
-    first, link, head, shift = discs.queue.first, discs.link, discs.head, discs.cells.shift
-    mask = len(first) - 1
-    ball = first[(present + 4 * AHEAD) & mask]
-    if ball != NOBODY:
-        _ask_for(discs, ball)
-    ball = first[(present + 3 * AHEAD) & mask]
-    while ball != NOBODY:
-        ball = link[ball][NEXT]
-        if ball != NOBODY:
-            _ask_for(discs, ball)
-    ball = first[(present + 2 * AHEAD) & mask]
-    while ball != NOBODY:
-        partner, cell = int(link[ball][PARTNER]), int(link[ball][CELL])
-        for line in range(-1, 2):
-            prefetch_far(head, cell + (line << shift))
+    lists, filled = discs.queue.lists, discs.queue.filled
+    link, head, cells, mask = discs.link, discs.head, discs.cells, len(filled) - 1
+    slot = (present + 3 * AHEAD) & mask
+    for k in range(ROOM * slot, ROOM * slot + int(filled[slot])):
+        _ask_for(discs, int(lists[k]))
+    slot = (present + 2 * AHEAD) & mask
+    for k in range(ROOM * slot, ROOM * slot + int(filled[slot])):
+        partner, cell = int(link[lists[k]][PARTNER]), int(link[lists[k]][CELL])
+        up, along = row_and_column(cells, cell)
+        for corner in range(4):
+            prefetch_far(head, cell_number(cells, up - 1 + (corner & 2), along - 1 + 2 * (corner & 1)))
         prefetch_far(discs.near, cell)
         if partner < DISCS:
             _ask_for(discs, partner)
-        ball = link[ball][NEXT]
-    ball = first[(present + AHEAD) & mask]
-    while ball != NOBODY:
-        cell = int(link[ball][CELL])
-        for line in range(-1, 2):
-            for c in range(cell + (line << shift) - 1, cell + (line << shift) + 2):
-                if 0 <= c < len(head) and head[c] != NOBODY:
-                    prefetch_far(discs.ball, 8 * int(head[c]))
-                    prefetch_far(discs.after, int(head[c]))
-        ball = link[ball][NEXT]
+    slot = (present + AHEAD) & mask
+    for k in range(ROOM * slot, ROOM * slot + int(filled[slot])):
+        up, along = row_and_column(cells, int(link[lists[k]][CELL]))
+        for line in range(max(up - 1, 0), min(up + 2, cells.rows)):
+            for column in range(max(along - 1, 0), min(along + 2, cells.columns)):
+                other = head[cell_number(cells, line, column)]
+                if other != NOBODY:
+                    _ask_for(discs, int(other))
 
 
 @kernel
 def _ask_for(discs, ball):
-    prefetch_far(discs.ball, 8 * int(ball))
-    prefetch_far(discs.link, 8 * int(ball))
-    prefetch_far(discs.leave, int(ball))
-    prefetch_far(discs.step, int(ball))
+    """Prefetch both lines of a disc."""
+    prefetch_far(discs.ball, FLOATS * ball)
+    prefetch_far(discs.ball, FLOATS * ball + LEAVE)

@@ -1,4 +1,4 @@
-"""What the kernels see of discs that meet: two short rows a disc, cells, and the queue of what is due.
+"""What the kernels see of discs that meet: a row a disc, cells, and the queue of what is due.
 
 A disc's state is that of its last contact and stands until the next one: neither a border of a cell nor another disc's
 contact changes a bit of it. So the contacts are the same, bit for bit, for any size of the cells.
@@ -9,21 +9,24 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-X, Y, VX, VY, TIME, LOST, DUE, RADIUS = range(8)
-"""Row of floats of a disc, a line of the cache: its state after its last contact; the time of that and what the time
-lost to rounding; when its next contact is due; its radius."""
-CELL, PARTNER, NUMBER, BOUNCES, MET, BEING, NEXT, PREVIOUS = range(8)
-"""Row of whole numbers of a disc: its cell; with what its next contact is; its number in the scene; contacts so far;
-the disc that it met last and has not parted from by another contact; how it is, see FLYING and the following; and where
-it stands in the queue: the disc after it in its list, HEAPED or UNLISTED; the disc before it, or STRETCH and the number
-of the list that it leads, or its place in the heap."""
+X, Y, VX, VY, TIME, LOST, DUE, RADIUS, LEAVE, MASS = range(10)
+"""Row of floats of a disc: in its first line of the cache, which other discs ask for, its state after its last contact;
+the time of that and what the time lost to rounding; when its next contact is due; its radius. In the second one: when
+it leaves its cell; its mass."""
+CELL, PARTNER, NUMBER, BOUNCES, MET, BEING, PLACE, STEP, AFTER = range(20, 29)
+"""Row of whole numbers of a disc, in the same two lines, behind MASS: its cell; with what its next contact is; its
+number in the scene; contacts so far; the disc that it met last and has not parted from by another contact; how it is,
+see FLYING and the following; its place in the heap, or UNHEAPED; to which side it leaves its cell; the next disc of its
+cell, or NOBODY."""
+FLOATS, NUMBERS = 16, 32
+"""Columns of such a row as floats, and as whole numbers."""
 
 NOBODY, WALL, LOOK, NOTHING = 2**32 - 1, 2**32 - 2, 2**32 - 3, 2**32 - 4
 """In place of a disc: none; and what is due otherwise: a contact with a wall, a search for what is due, nothing."""
 DISCS = 2**32 - 4
 """All below are discs."""
-HEAPED, UNLISTED, STRETCH = 2**32 - 2, 2**32 - 3, 2**31
-"""Marks of NEXT and PREVIOUS; discs are fewer than STRETCH."""
+UNHEAPED = 2**32 - 1
+"""In place of a place in the heap."""
 FLYING, FRESH, FIXED, OUT = 0, 1, 2, 3
 """How a disc is: flying since a contact with a wall; flying since a contact with a disc (its cold state is to be made
 anew); ended where it stands, and met as if it had no end of mass; ended and taken out: no disc meets it."""
@@ -37,7 +40,7 @@ NEVER = math.inf
 
 
 class Cells(NamedTuple):
-    """Square cells, row by row; those at the border reach out to infinity."""
+    """Square cells, see ``cell_list``; those at the border reach out to infinity."""
 
     x0: float
     y0: float
@@ -45,12 +48,14 @@ class Cells(NamedTuple):
     columns: int
     rows: int
     shift: int
-    """Row r begins at the cell r << shift."""
+    """A row of tiles has 1 << shift of them."""
 
 
 SIZE, PRESENT, PASSED, LEFT = range(4)
 """Whole numbers of the queue: discs in the heap; the present stretch of time; stretches passed, and events left, since
 it was planned, and until it is planned anew."""
+ROOM = 16
+"""Whole numbers of a list of the queue."""
 BEGIN, RATE = range(2)
 """Floats of the queue: time at which stretch 0 begins, stretches a unit of time."""
 
@@ -58,8 +63,10 @@ BEGIN, RATE = range(2)
 class Queue(NamedTuple):
     """What is due first, see ``event_queue``."""
 
-    first: Any
-    """By stretch of time, modulo their number, a power of two: the first disc of its list, or NOBODY."""
+    lists: Any
+    """Lists of at most ROOM discs, a line of the cache each, by stretch of time modulo their number, a power of two."""
+    filled: Any
+    """How many discs are in each; apart from them, so that a disc is written to its list without waiting for it."""
     heap: Any
     """(n,) discs of the present stretch and before: that at k comes before those at 2 k + 1 and 2 k + 2."""
     times: Any
@@ -74,17 +81,9 @@ class Discs(NamedTuple):
     """All that meeting needs to know of the discs of a scene; coordinates are local, as in ``Model``."""
 
     ball: Any
-    """(n, 8) floats: see X and the following."""
+    """(n, FLOATS) floats: see X and the following."""
     link: Any
-    """(n, 8) unsigned: see CELL and the following."""
-    after: Any
-    """(n,) the next disc of its cell, or NOBODY."""
-    mass: Any
-    """(n,)."""
-    leave: Any
-    """(n,) when it leaves its cell."""
-    step: Any
-    """(n,) by how much the number of its cell changes then."""
+    """(n, NUMBERS) unsigned: see CELL and the following; the same memory as ``ball``, in other columns."""
     queue: Queue
     head: Any
     """By cell: its first disc, or NOBODY."""
