@@ -3,7 +3,7 @@
     python benchmarks/meeting_speed.py            # speed by number of discs and packing
     python benchmarks/meeting_speed.py pi         # Galperin: contacts of masses 100^d : 1, d up to 7
     python benchmarks/meeting_speed.py room       # a room of 10,000 edges beside a box
-    python benchmarks/meeting_speed.py soak       # a thousand million contacts: overlap, energy, momentum
+    python benchmarks/meeting_speed.py soak [gas.npz [1e9 [SEED]]]   # overlap, energy, momentum; in portions
     python benchmarks/meeting_speed.py peer       # beside billiards 0.5 (pip install billiards)
 
 Times are those of the processor, of one thread, without compiling.
@@ -14,6 +14,8 @@ from __future__ import annotations
 import math
 import sys
 import time
+from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -96,13 +98,19 @@ def pi() -> None:
         print(f"masses 100^{digits} : 1: {met:,} contacts in {seconds:.1f} s, floor(pi 10^{digits}) = {known:,}")
 
 
-def soak(contacts: int = 1_000_000_000) -> None:
-    """Fly 10,000 discs on and on: deepest overlap, drift of the energy, and of the momentum less what walls gave."""
+def soak(file: str = "", contacts: str = "1e9", seed: str = "0") -> None:
+    """Fly 10,000 discs on and on: deepest overlap, drift of the energy, and of the momentum less what walls gave.
+
+    Args:
+        file: goes on from there, bit by bit, if it is there already; left there after every ten million contacts.
+        contacts: to be made in all, those of earlier portions counted.
+        seed: of the discs; another one goes with another file.
+    """
     count, piece = 10_000, 10_000_000
-    balls, side = filled(count, 0.3)
+    balls, side = filled(count, 0.3, int(seed))
     meeting = Meeting(wallkit.Scene(box(side), balls, meeting=True), START, mode="compiled")
-    energy, made, deepest, slip = float((balls.velocity**2).sum()), 0, 0.0, 0.0
-    while made < contacts:
+    energy, (made, deepest, slip) = float((balls.velocity**2).sum()), _taken_up(meeting, file)
+    while made < float(contacts):
         go(meeting, piece)
         before = meeting.states(meeting.next_time)[0]
         log = next(meeting.go(math.inf, 2**31, most=100_000))
@@ -115,12 +123,36 @@ def soak(contacts: int = 1_000_000_000) -> None:
         gap = np.hypot(*(states[one, 0:2] - states[two, 0:2]).T) - 1.0
         deepest = max(deepest, float(-gap.min()))
         drift = float((states[:, 2:4] ** 2).sum()) / energy - 1.0
-        bounces = int(meeting.bounces.sum())
         print(
-            f"{made:,} contacts: deepest overlap {deepest:.1e} diameters, energy {drift:.1e}, momentum {slip:.1e} "
-            f"(of {count:,} discs, in 100,000 contacts); {bounces:,} takings part",
+            f"{made:,.0f} contacts: deepest overlap {deepest:.1e} diameters, energy {drift:.1e}, momentum {slip:.1e} "
+            f"(of {count:,} discs, in 100,000 contacts)",
             flush=True,
         )
+        if file:
+            told = np.array([made, deepest, slip])
+            np.savez(f"{file}.part.npz", told, meeting.numbers, meeting.hits, *_arrays(meeting._discs))
+            Path(f"{file}.part.npz").replace(file)  # whole, or the one before
+
+
+def _taken_up(meeting: Meeting, file: str) -> tuple[float, float, float]:
+    """Take up a soak from its file: contacts made, deepest overlap, slip of the momentum so far."""
+    if not file or not Path(file).exists():
+        return 0.0, 0.0, 0.0
+    kept = list(np.load(file).values())
+    meeting.numbers, meeting.hits[:] = kept[1], kept[2]
+    for own, value in zip(_arrays(meeting._discs), kept[3:], strict=True):
+        own[...] = value
+    made, deepest, slip = kept[0].tolist()
+    return made, deepest, slip
+
+
+def _arrays(value: Any) -> Iterator[Any]:
+    """All arrays in tuples of tuples."""
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, tuple):
+        for part in value:
+            yield from _arrays(part)
 
 
 def peer() -> None:
@@ -153,4 +185,7 @@ def room() -> None:
 
 
 if __name__ == "__main__":
-    {"pi": pi, "room": room, "soak": soak, "peer": peer}.get("".join(sys.argv[1:2]), speed)()
+    if sys.argv[1:2] == ["soak"]:
+        soak(*sys.argv[2:])
+        sys.exit()
+    {"pi": pi, "room": room, "peer": peer}.get("".join(sys.argv[1:2]), speed)()

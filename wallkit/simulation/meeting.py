@@ -290,7 +290,7 @@ def _rows(count: int, columns: int, kind: Any) -> NDArray[Any]:
 
 
 def _empty_queue(count: int) -> Queue:
-    stretches = 1 << max((count - 1) // 3, 3).bit_length()
+    stretches = 1 << max((count - 1) // 4, 3).bit_length()
     return Queue(
         lists=_rows(stretches, ROOM, np.uint32).reshape(-1),
         filled=np.zeros(stretches, dtype=np.uint8),
