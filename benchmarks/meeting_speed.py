@@ -2,9 +2,8 @@
 
     python benchmarks/meeting_speed.py            # speed by number of discs and packing
     python benchmarks/meeting_speed.py pi         # Galperin: contacts of masses 100^d : 1, d up to 7
-    python benchmarks/meeting_speed.py pressure   # equation of state beside what is published
     python benchmarks/meeting_speed.py room       # a room of 10,000 edges beside a box
-    python benchmarks/meeting_speed.py soak       # a thousand million contacts: overlap, energy, momentum
+    python benchmarks/meeting_speed.py soak [gas.npz [1e9 [SEED]]]   # overlap, energy, momentum; in portions
     python benchmarks/meeting_speed.py peer       # beside billiards 0.5 (pip install billiards)
 
 Times are those of the processor, of one thread, without compiling.
@@ -15,6 +14,8 @@ from __future__ import annotations
 import math
 import sys
 import time
+from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,10 +26,6 @@ from wallkit.kernels.meeting.meet import meet
 from wallkit.scene.start_overlaps import close_pairs
 from wallkit.simulation.meeting import Meeting
 from wallkit.simulation.simulate import START
-
-VIRIAL = (1.0, 1.0, 0.78200442, 0.53223180, 0.33355604, 0.1988425, 0.1148728, 0.0649930, 0.0362193, 0.0199537)
-"""B_k / B_2^(k-1) of hard discs, k = 1 to 10 (N. Clisby, B. M. McCoy 2006, J. Stat. Phys. 122:15); with the packing y,
-Z = sum of B_k / B_2^(k-1) (2 y)^(k-1)."""
 
 
 def filled(count: int, packing: float, seed: int = 0) -> tuple[wallkit.Balls, float]:
@@ -83,7 +80,9 @@ def speed(counts: tuple[int, ...] = (100, 1_000, 10_000, 100_000, 1_000_000)) ->
         for count in counts:
             balls, side = filled(count, packing)
             best, meeting = pairs_a_second(wallkit.Scene(box(side), balls, meeting=True), max(200_000, count))
-            size = sum(part.nbytes for part in meeting._discs if isinstance(part, np.ndarray)) / count
+            discs = meeting._discs
+            parts = (*(part for part in discs if part is not discs.link), *discs.queue)  # link is ball, seen otherwise
+            size = sum(part.nbytes for part in parts if isinstance(part, np.ndarray)) / count
             words = f"{best / 1e6:.2f} M pairs a second, {size:.0f} bytes a disc"
             print(f"N {count:>9,}, packing {packing}: {words}", flush=True)
 
@@ -99,73 +98,24 @@ def pi() -> None:
         print(f"masses 100^{digits} : 1: {met:,} contacts in {seconds:.1f} s, floor(pi 10^{digits}) = {known:,}")
 
 
-def luding(packing: float) -> float:
-    """Z = 1 + 2 y g of hard discs, fitted to simulations within some 0.1 % up to the packing y = 0.67.
+def soak(file: str = "", contacts: str = "1e9", seed: str = "0") -> None:
+    """Fly 10,000 discs on and on: deepest overlap, drift of the energy, and of the momentum less what walls gave.
 
-    g = (1 - 7 y / 16) / (1 - y)^2 - (y / 2)^3 / (16 (1 - y)^4), S. Luding 2001, Phys. Rev. E 63:042201.
+    Args:
+        file: goes on from there, bit by bit, if it is there already; left there after every ten million contacts.
+        contacts: to be made in all, those of earlier portions counted.
+        seed: of the discs; another one goes with another file.
     """
-    y = packing
-    g = (1.0 - 7.0 * y / 16.0) / (1.0 - y) ** 2 - y**3 / 128.0 / (1.0 - y) ** 4
-    return 1.0 + 2.0 * y * g
-
-
-def coexisting(packing: float) -> float:
-    """Z at a packing of 0.700 to 0.716, where liquid and hexatic coexist: their pressure P* = 4 p r^2 / kT is 9.185.
-
-    E. P. Bernard, W. Krauth 2011, Phys. Rev. Lett. 107:155704. With n = y / (pi r^2), Z = P* pi / (4 y).
-    """
-    return 9.185 * math.pi / 4.0 / packing
-
-
-INNER = 10.0
-"""Contacts and discs nearer to a wall than this, ten diameters, are left out of the pressure."""
-
-
-def inner_pressure(packing: float, settle: int, rounds: int = 20) -> tuple[float, float]:
-    """(packing, Z) of 10,000 discs of the diameter 1 far from the walls, by the virial of contacts.
-
-    Z = 1 + sqrt(pi) c / (2 sqrt(kT / m)), c contacts of pairs a disc and second.
-    """
-    count = 10_000
-    balls, side = filled(count, packing)
-    meeting = Meeting(wallkit.Scene(box(side), balls, meeting=True), START, mode="compiled")
-    go(meeting, settle * count)
-    centre, middle = side / 2.0 - meeting.modelled.origin, side / 2.0 - INNER
-    met, inside, begun = 0, [], float(meeting._discs.key[1])
-    for _ in range(rounds):
-        log = next(meeting.go(math.inf, 2**31, most=5 * count))
-        pairs = log[log[:, 12] >= 0.0]
-        met += int(np.count_nonzero(np.abs((pairs[:, 1:3] + pairs[:, 13:15]) / 2.0 - centre).max(axis=1) < middle))
-        states, _codes = meeting.states(float(meeting._discs.key[1]))
-        inside.append(int(np.count_nonzero(np.abs(states[:, 0:2] - centre).max(axis=1) < middle)))
-    span, within = float(meeting._discs.key[1]) - begun, float(np.mean(inside))
-    heat = float((meeting._discs.ball[:, 2:4] ** 2).sum()) / (2.0 * count)
-    z = 1.0 + math.sqrt(math.pi) / 2.0 * met / within / span / math.sqrt(heat)
-    return within * math.pi / 4.0 / (2.0 * middle) ** 2, z
-
-
-def pressure() -> None:
-    for packing in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.65, 0.705):
-        inner, z = inner_pressure(packing, 50 if packing < 0.6 else 400)
-        series = sum(b * (2.0 * inner) ** k for k, b in enumerate(VIRIAL))
-        said = f"virial series to B10 {series:.4f}, Luding {luding(inner):.4f}"
-        if inner > 0.69:
-            said = f"Bernard and Krauth {coexisting(inner):.3f} (from 0.700 to 0.716)"
-        print(f"packing {packing}, {inner:.4f} far from the walls: Z {z:.4f}; {said}", flush=True)
-
-
-def soak(contacts: int = 1_000_000_000) -> None:
-    """Fly 10,000 discs on and on: deepest overlap, drift of the energy, and of the momentum less what walls gave."""
     count, piece = 10_000, 10_000_000
-    balls, side = filled(count, 0.3)
+    balls, side = filled(count, 0.3, int(seed))
     meeting = Meeting(wallkit.Scene(box(side), balls, meeting=True), START, mode="compiled")
-    energy, made, deepest, slip = float((balls.velocity**2).sum()), 0, 0.0, 0.0
-    while made < contacts:
+    energy, (made, deepest, slip) = float((balls.velocity**2).sum()), _taken_up(meeting, file)
+    while made < float(contacts):
         go(meeting, piece)
-        before = meeting.states(float(meeting._discs.key[1]))[0]
+        before = meeting.states(meeting.next_time)[0]
         log = next(meeting.go(math.inf, 2**31, most=100_000))
         made += piece + len(log)
-        states = meeting.states(float(meeting._discs.key[1]))[0]
+        states = meeting.states(meeting.next_time)[0]
         walls = log[log[:, 12] < 0.0]
         pushed = (2.0 * (walls[:, 3:5] * walls[:, 7:9]).sum(axis=1)[:, None] * walls[:, 7:9]).sum(axis=0)
         slip = max(slip, float(np.abs(states[:, 2:4].sum(axis=0) - before[:, 2:4].sum(axis=0) - pushed).max()))
@@ -173,12 +123,36 @@ def soak(contacts: int = 1_000_000_000) -> None:
         gap = np.hypot(*(states[one, 0:2] - states[two, 0:2]).T) - 1.0
         deepest = max(deepest, float(-gap.min()))
         drift = float((states[:, 2:4] ** 2).sum()) / energy - 1.0
-        bounces = int(meeting.bounces.sum())
         print(
-            f"{made:,} contacts: deepest overlap {deepest:.1e} diameters, energy {drift:.1e}, momentum {slip:.1e} "
-            f"(of {count:,} discs, in 100,000 contacts); {bounces:,} takings part",
+            f"{made:,.0f} contacts: deepest overlap {deepest:.1e} diameters, energy {drift:.1e}, momentum {slip:.1e} "
+            f"(of {count:,} discs, in 100,000 contacts)",
             flush=True,
         )
+        if file:
+            told = np.array([made, deepest, slip])
+            np.savez(f"{file}.part.npz", told, meeting.numbers, meeting.hits, *_arrays(meeting._discs))
+            Path(f"{file}.part.npz").replace(file)  # whole, or the one before
+
+
+def _taken_up(meeting: Meeting, file: str) -> tuple[float, float, float]:
+    """Take up a soak from its file: contacts made, deepest overlap, slip of the momentum so far."""
+    if not file or not Path(file).exists():
+        return 0.0, 0.0, 0.0
+    kept = list(np.load(file).values())
+    meeting.numbers, meeting.hits[:] = kept[1], kept[2]
+    for own, value in zip(_arrays(meeting._discs), kept[3:], strict=True):
+        own[...] = value
+    made, deepest, slip = kept[0].tolist()
+    return made, deepest, slip
+
+
+def _arrays(value: Any) -> Iterator[Any]:
+    """All arrays in tuples of tuples."""
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, tuple):
+        for part in value:
+            yield from _arrays(part)
 
 
 def peer() -> None:
@@ -211,4 +185,7 @@ def room() -> None:
 
 
 if __name__ == "__main__":
-    {"pi": pi, "pressure": pressure, "room": room, "soak": soak, "peer": peer}.get("".join(sys.argv[1:2]), speed)()
+    if sys.argv[1:2] == ["soak"]:
+        soak(*sys.argv[2:])
+        sys.exit()
+    {"pi": pi, "room": room, "peer": peer}.get("".join(sys.argv[1:2]), speed)()

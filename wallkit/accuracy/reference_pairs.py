@@ -6,7 +6,7 @@ those of :class:`wallkit.accuracy.reference.Reference`; discs are asked pair by 
 What counts as a contact of two discs: touching *and approaching*. Times that differ by less than
 ``10 ** (-0.6 digits)`` of the scene's own time are one time, and a speed below that part of the scene's own is none.
 Contacts at one time are made in the order that docs/meeting.md states: by the lower number of a disc, its walls
-first, then by the higher number.
+first, then by the higher number. Under gravity discs hop as it states, too.
 """
 
 from __future__ import annotations
@@ -82,7 +82,24 @@ class PairsReference:
         if scene.gravity is not None:  # what a fall through the scene gives
             speed = max(speed, math.sqrt(math.hypot(*scene.gravity) * self.walls.size))
         self.speed = speed or 1.0
+        self.hop = self._hop()
         self.same = self.small * self.walls.size / self.speed
+
+    def _hop(self) -> Real:
+        """Speed that lifts the smallest disc by 1/4096 of its radius, from its energy: v v / 2 = |g| r / 4096."""
+        pull = self.walls.gravity
+        if pull is None:
+            return self.mp.mpf(0)
+        height = self.mp.mpf(float(self.scene.balls.radius.min())) / 4096
+        return self.mp.sqrt(2 * self.mp.sqrt(_dot(pull, pull)) * height)
+
+    def _hopped(self, velocity: Vector, normal: Vector, restitution: Real) -> Vector:
+        """Part at the speed of a hop at least, where speed is taken, or where there is none to part with."""
+        parting = _dot(velocity, normal)
+        if parting >= self.hop or (restitution == 1 and parting > self.small * self.speed):
+            return velocity
+        more = self.hop - parting
+        return velocity[0] + more * normal[0], velocity[1] + more * normal[1]
 
     def events(self) -> Iterator[Meeting]:
         """Yield the contacts of all discs in order, without end unless nothing meets any more."""
@@ -168,12 +185,14 @@ class PairsReference:
         wall = self.walls.obstacles[obstacle]
         disc.velocity = _reflect(disc.velocity, normal, wall.restitution, wall.tangential)
         disc.out = wall.restitution == 0 and wall.tangential == 0
+        if not disc.out:
+            disc.velocity = self._hopped(disc.velocity, normal, wall.restitution)
         return Meeting(
             time, ball, -1, disc.position, disc.velocity, normal, wall.wall, wall.edge, disc.position, disc.velocity
         )
 
     def _together(self, one: _Disc, other: _Disc, low: int, high: int, time: Real) -> Meeting:
-        """Turn two velocities: in the frame of their common centre of mass each is turned as at a wall."""
+        """Turn what one velocity is relative to the other as at a wall; that of their centre of mass stays."""
         self._carry(one, time)
         self._carry(other, time)
         d = (one.position[0] - other.position[0], one.position[1] - other.position[1])
@@ -181,8 +200,10 @@ class PairsReference:
         normal = (d[0] / length, d[1] / length)
         whole = one.mass + other.mass
         mean = tuple((one.mass * one.velocity[axis] + other.mass * other.velocity[axis]) / whole for axis in (0, 1))
-        for disc in (one, other):
-            own = (disc.velocity[0] - mean[0], disc.velocity[1] - mean[1])
-            own = _reflect(own, normal, *self.kept)
-            disc.velocity = (mean[0] + own[0], mean[1] + own[1])
+        apart = (one.velocity[0] - other.velocity[0], one.velocity[1] - other.velocity[1])
+        turned = _reflect(apart, normal, *self.kept)
+        if self.kept[0] < 1:
+            turned = self._hopped(turned, normal, self.kept[0])
+        for disc, part in ((one, other.mass / whole), (other, -one.mass / whole)):
+            disc.velocity = (mean[0] + part * turned[0], mean[1] + part * turned[1])
         return Meeting(time, low, high, one.position, one.velocity, normal, -1, -1, other.position, other.velocity)

@@ -13,27 +13,41 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.jit import compile_for, compiled, types_of
+from wallkit.kernels.meeting.cell_list import row_and_column
 from wallkit.kernels.meeting.meet import begin, lay_out, meet
 from wallkit.kernels.meeting.records import (
+    AFTER,
     BEING,
     BOUNCES,
     CELL,
     DISCS,
+    DUE,
+    FLOATS,
     FLYING,
     FRESH,
+    LEAVE,
+    MASS,
     MET,
     NOBODY,
     NOTHING,
     NUMBER,
+    NUMBERS,
     PARTNER,
+    PLACE,
+    RADIUS,
+    ROOM,
     ROW,
+    UNHEAPED,
     Discs,
+    Queue,
 )
 from wallkit.kernels.meeting.wall_contacts import states_at
 from wallkit.kernels.records import AT_REST, LOG_STRIDE, STATE, STATE_SIZE, TIME_REACHED, Counts, in_lists
 from wallkit.scene.scene import Scene
+from wallkit.simulation.aligned_arrays import on_cache_lines
 from wallkit.simulation.damping import damping_of
 from wallkit.simulation.meeting_cells import along_a_curve, box_of, cell_of, cells_for, near_walls
+from wallkit.simulation.meeting_hops import hop_speed
 from wallkit.simulation.meeting_rules import check_modelled
 from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.shared_clock import SharedClock
@@ -49,8 +63,7 @@ FEW = 500
 MANY, OFTEN = 2_000, 50
 """Discs from which on they are brought into order again, so that neighbours are close in memory, and after how many
 contacts a disc."""
-HOP = 2.0**-12
-"""By this part of the radius of the smallest disc a disc under gravity hops off what it would come to lie on."""
+_COLD = [STATE.energy, STATE.from_x, STATE.from_y, STATE.from_vx, STATE.from_vy, STATE.tolerance]
 _compiled: set[tuple[bool, ...]] = set()
 
 
@@ -121,29 +134,27 @@ class Meeting:
         order = along_a_curve(cell_of(cells, place))
         self.numbers, radii = self.numbers[order], radii[order]
         states = initial_states(self.modelled, balls.position[self.numbers], balls.velocity[self.numbers])
-        count, size = self._count, max(self._count, 2)
-        ball, link = np.zeros((count, 8)), np.zeros((count, 8), dtype=np.uint32)
-        ball[:, 0:4], ball[:, 7] = states[:, 0:4], radii
+        count = self._count
+        ball = _rows(count, FLOATS, np.float64)
+        link = ball.view(np.uint32)
+        ball[:, 0:4], ball[:, RADIUS], ball[:, LEAVE] = states[:, 0:4], radii, math.inf
+        ball[:, MASS] = balls.mass[self.numbers]
         link[:, PARTNER], link[:, NUMBER], link[:, MET], link[:, BEING] = NOTHING, self.numbers, NOBODY, FLYING
+        link[:, PLACE] = UNHEAPED
         counts = np.array(start, dtype=np.int64)
         near = near_walls(scene.walls, self.modelled.origin, cells, float(radii.max(initial=0.0)))
         hits = np.zeros(max(len(scene.walls), 1), dtype=np.int64)
         return Discs(
             ball=ball,
             link=link,
-            after=np.full(count, NOBODY, dtype=np.uint32),
-            mass=balls.mass[self.numbers],
-            leave=np.full(count, math.inf),
-            step=np.zeros(count, dtype=np.int32),
-            key=np.full(2 * size, math.inf),
-            tree=np.concatenate([np.zeros(size), np.arange(size)]).astype(np.uint32),
-            head=np.full(cells.rows << cells.shift, NOBODY, dtype=np.uint32),
+            queue=_empty_queue(count),
+            head=_rows(len(near) // ROOM, ROOM, np.uint32).reshape(-1),
             near=near,
             cells=cells,
             restitution=_restitution(scene),
-            cold=states[:, [STATE.energy, STATE.from_x, STATE.from_y, STATE.from_vx, STATE.from_vy, STATE.tolerance]],
+            cold=np.hstack([states[:, _COLD], np.zeros((count, 1))]),
             counts=np.tile(counts.astype(np.int32), (count, 1)),
-            hop=_hop(scene, radii),
+            hop=hop_speed(scene, radii),
             tries=(np.zeros(STATE_SIZE), counts.copy(), hits, np.zeros(LOG_STRIDE)),
             start=counts,
         )
@@ -205,14 +216,12 @@ class Meeting:
     def _bring_into_order(self) -> None:
         """Lay neighbours next to one another in memory; no bit of what is to come depends on it."""
         discs = self._discs
-        cell = discs.link[:, CELL].astype(np.int64)
-        order = along_a_curve(np.stack([cell & ((1 << discs.cells.shift) - 1), cell >> discs.cells.shift], axis=1))
+        row, column = row_and_column(discs.cells, discs.link[:, CELL].astype(np.int64))
+        order = along_a_curve(np.stack([column, row], axis=1))
         place = np.empty(self._count, dtype=np.uint32)
         place[order] = np.arange(self._count, dtype=np.uint32)
-        for part in (discs.ball, discs.link, discs.mass, discs.leave, discs.step, discs.cold, discs.counts):
+        for part in (discs.ball, discs.cold, discs.counts):
             part[:] = part[order]
-        leaves = discs.key[len(discs.key) // 2 :][: self._count]
-        leaves[:] = leaves[order]
         self.numbers = self.numbers[order]
         for column, above in ((PARTNER, DISCS), (MET, NOBODY)):
             named = discs.link[:, column] < above
@@ -259,11 +268,37 @@ class Meeting:
         return states[back], endings[back]
 
     @property
+    def next_time(self) -> float:
+        """When something is next to be done: up to then the states of all discs are known."""
+        discs = self._discs if self._lists is None else self._lists
+        rows = np.array(discs.ball).reshape(-1, FLOATS)
+        return float(rows[:, [DUE, LEAVE]].min(initial=math.inf))
+
+    @property
     def bounces(self) -> NDArray[np.int64]:
         """(n,) contacts of each disc so far, by number."""
-        link = self._discs.link if self._lists is None else np.array(self._lists.link).reshape(-1, 8)
+        link = self._discs.link if self._lists is None else np.array(self._lists.link).reshape(-1, NUMBERS)
         found: NDArray[np.int64] = link[np.argsort(self.numbers), BOUNCES].astype(np.int64)
         return found
+
+
+def _rows(count: int, columns: int, kind: Any) -> NDArray[Any]:
+    """Rows of zeros, none of which reaches into two lines of the cache."""
+    rows = on_cache_lines(count * columns, kind).reshape(count, columns)
+    rows[:] = 0
+    return rows
+
+
+def _empty_queue(count: int) -> Queue:
+    stretches = 1 << max((count - 1) // 4, 3).bit_length()
+    return Queue(
+        lists=_rows(stretches, ROOM, np.uint32).reshape(-1),
+        filled=np.zeros(stretches, dtype=np.uint8),
+        heap=np.zeros(count, dtype=np.uint32),
+        times=np.zeros(count),
+        state=np.zeros(4, dtype=np.int64),
+        scale=np.zeros(2),
+    )
 
 
 def compile_each(*wanted: tuple[Any, tuple[Any, ...]]) -> None:
@@ -277,14 +312,12 @@ def _restitution(scene: Scene) -> FloatArray | None:
     return None if pair == (1.0, 1.0) else np.array(pair, dtype=np.float64)
 
 
-def _hop(scene: Scene, radii: FloatArray) -> float:
-    """Speed at which the smallest disc rises by ``HOP`` of its radius: v^2 = 2 g h."""
-    pull = math.hypot(*scene.gravity) if scene.gravity is not None else 0.0
-    return math.sqrt(2.0 * pull * HOP * float(radii.min(initial=math.inf))) if len(radii) else 0.0
-
-
 def _copy_back(arrays: Any, lists: Any) -> None:
     """Write lists into the arrays that they were made of."""
+    if isinstance(arrays, Discs):  # two views of the same rows: each gives its own columns
+        arrays.ball[:, : MASS + 1] = np.array(lists.ball).reshape(-1, FLOATS)[:, : MASS + 1]
+        arrays.link[:, CELL : AFTER + 1] = np.array(lists.link).reshape(-1, NUMBERS)[:, CELL : AFTER + 1]
+        arrays, lists = arrays[2:], lists[2:]
     for array, values in zip(arrays, lists, strict=True):
         if isinstance(array, np.ndarray):
             array[...] = np.array(values, dtype=array.dtype).reshape(array.shape)

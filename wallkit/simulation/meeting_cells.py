@@ -29,7 +29,7 @@ def cells_for(box: FloatArray, radii: FloatArray, per_disc: float) -> Cells:
     side = math.sqrt(width * height / max(len(radii), 1) / per_disc)
     side = max(side, 2.0 * most * OVER, max(width, height) / MOST) or 1.0
     columns, rows = max(1, math.ceil(width / side)), max(1, math.ceil(height / side))
-    return Cells(x0, y0, side, columns, rows, (columns - 1).bit_length())
+    return Cells(x0, y0, side, columns, rows, ((columns - 1) // 4).bit_length())
 
 
 def box_of(modelled: Modelled, position: FloatArray) -> FloatArray:
@@ -61,7 +61,7 @@ def near_walls(walls: Walls, origin: FloatArray, cells: Cells, radius: float) ->
     Each edge is cut into pieces as long as a cell, or of a turn of pi / 8 on an arc; the boxes of these, widened by
     the radius, and by what an arc bows beyond its chord, cover all such places.
     """
-    near = np.zeros((cells.rows, 1 << cells.shift), dtype=np.uint8)
+    near = np.zeros((-(-cells.rows // 4) * 4, 4 << cells.shift), dtype=np.uint8)
     start = walls.edge_starts
     a, b, bulge = walls.vertices[start] - origin, walls.vertices[walls.edge_ends] - origin, walls.bulges[start]
     turn = 4.0 * np.arctan(np.abs(bulge))
@@ -78,7 +78,7 @@ def near_walls(walls: Walls, origin: FloatArray, cells: Cells, radius: float) ->
     box, down = numbered(rows)
     line, across = numbered((last[:, 0] - first[:, 0] + 1)[box])
     near[(first[box, 1] + down)[line], first[box, 0][line] + across] = 1
-    return near.reshape(-1)
+    return near.reshape(len(near) // 4, 4, -1, 4).transpose(0, 2, 1, 3).reshape(-1)  # tile by tile
 
 
 def _along(a: FloatArray, b: FloatArray, bulge: FloatArray, part: FloatArray) -> FloatArray:

@@ -9,7 +9,7 @@ velocity W, and the changes P U and -Q U of their velocities (P, Q the parts of 
     U  = -(1 + e) (W.n) n - (1 - f) (W - (W.n) n)
     dt = -(dD.n) / (W.n),                          by which the neighbour touches later
     dn = (dD + W dt) / s,                          across n, for n.(dD + W dt) = 0
-    dU = -(e + f) ((dW.n) n + (W.dn) n + (W.n) dn) - (1 - f) dW
+    dU = -(e + f) ((dW.n) n + (W.dn) n + (W.n) dn) - (1 - f) dW  (of hops: ``meeting_hops``)
     dx' = dx + (v - v') dt,    dv' = dv + g dt + P dU - g' dt      (-Q dU for the second)
 
 Between two discs of the radius r an error grows by some 2 L / s at each contact, L the free path: chaos.
@@ -43,6 +43,7 @@ from wallkit.simulation.horizon import (
     trusted_until,
 )
 from wallkit.simulation.meeting_flights import Flights, in_turns, joined, least_gap, passing
+from wallkit.simulation.meeting_hops import hop_speed, turned_errors
 from wallkit.simulation.near_misses import NEAR_CORNER, FlightTable, near_misses
 from wallkit.simulation.run import ContactKind, Ending, Run
 from wallkit.simulation.shared_clock import SharedClock
@@ -126,17 +127,16 @@ class _Trust:
         number = np.full(len(self.run.final), -1, dtype=np.int64)
         number[self.discs] = np.arange(count)
         # Sensors change no flight, and points meet no disc.
-        self.rows: Any = rows[
-            (rows["kind"] != ContactKind.ENTER) & (rows["kind"] != ContactKind.EXIT) & (number[rows["ball"]] >= 0)
-        ]
+        crossings = (rows["kind"] == ContactKind.ENTER) | (rows["kind"] == ContactKind.EXIT)
+        self.rows: Any = rows[~crossings & (number[rows["ball"]] >= 0)]
         self.one = number[self.rows["ball"]]
         self.two = np.where(self.rows["other"] >= 0, number[self.rows["other"]], -1)
         self.radius, self.mass = scene.balls.radius[self.discs], scene.balls.mass[self.discs]
         self.bad = np.full(count, len(self.rows) + 1, dtype=np.int64)
         self.why, self.doubt = [""] * count, np.full(count, np.inf)
         self.random = np.random.default_rng(53)
-        gravity = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
-        self.gravity = gravity
+        gravity = self.gravity = np.asarray(scene.gravity or (0.0, 0.0), dtype=np.float64)
+        self.hop = hop_speed(scene, self.radius)
         zero, start = np.zeros((count, SAMPLES, 2)), self.run.start[self.discs]
         self.cloud = _Cloud(
             start[:, 0:2].copy(), start[:, 2:4].copy(), np.tile(gravity, (count, 1)), np.zeros(count),
@@ -292,7 +292,7 @@ class _Trust:
         h: FloatArray, off: FloatArray, drift: FloatArray,
     ) -> tuple[FloatArray, FloatArray, FloatArray]:  # fmt: skip
         """Errors after bounces off walls, and those of the places where they touch; see ``horizon``."""
-        tangential, both = self.keep[rows, 0][:, None, None], self.keep[rows].sum(axis=1)[:, None, None]
+        f, e = self.keep[rows].T[:, :, None, None]
         shift, turn = self.fresh[rows, 0], self.fresh[rows, 1]
         if self.source == "rounding":
             turn = np.full(len(rows), RMS_ROUNDING)
@@ -303,8 +303,8 @@ class _Trust:
         w = drift + g[:, None] * dt[..., None]
         tangent = np.stack([-n[:, 1], n[:, 0]], axis=1)[:, None]
         dn = self.bend[rows][:, None, None] * spot + turn[:, None, None] * noise[..., 1:] * tangent
-        turned = (_dot(w, n_) + _dot(v_, dn))[..., None] * n_ + speed[..., None] * dn
-        new_drift = tangential * w - both * turned - h[:, None] * dt[..., None]
+        turned = turned_errors((e, f), self.hop, speed, _dot(w, n_) + _dot(v_, dn), n_, (w, dn))
+        new_drift = turned - h[:, None] * dt[..., None]
         return off + (v - after)[:, None] * dt[..., None], new_drift, spot
 
     def _meetings(self, rows: IntArray) -> list[Flights]:
@@ -322,8 +322,8 @@ class _Trust:
             g = (fa.pull - fb.pull)[:, None]
             dw = wa - wb + g * dt[..., None]
             dn = (xa - xb + w * dt[..., None]) / s[:, None, None]
-            e, f = self.scene.ball_restitution, self.scene.ball_tangential_restitution
-            du = -(e + f) * ((_dot(dw, n) + _dot(w, dn))[..., None] * n + closing[..., None] * dn) - (1.0 - f) * dw
+            kept = np.array([self.scene.ball_restitution, self.scene.ball_tangential_restitution])
+            du = turned_errors((kept[:1], kept[1:]), self.hop, closing, _dot(dw, n) + _dot(w, dn), n, (dw, dn)) - dw
             whole = self.mass[ids[0]] + self.mass[ids[1]]
             parts = (self.mass[ids[1]] / whole, -self.mass[ids[0]] / whole)
             worst, grazing = np.zeros(len(rows)), s * _missing(closing[:, 0], np.hypot(*w[:, 0].T))

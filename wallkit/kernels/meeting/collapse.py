@@ -28,9 +28,9 @@ def is_caught(gravity, discs, restitution, one, two):
 @kernel
 def count_still(discs, ball, t):
     """Count a contact of a disc, t after its last one: how many in a row pass neither time nor space."""
-    row, own = discs.ball[ball], discs.link[ball]
+    row, cold = discs.ball[ball], discs.cold[ball]
     time = row[TIME]
-    moves = time + t > time and t * (abs(row[VX]) + abs(row[VY])) > discs.cold[ball][TOLERANCE] * 2.0**-6
-    still = 0 if moves else int(own[STILL]) + 1
-    own[STILL] = still
+    moves = time + t > time and t * (abs(row[VX]) + abs(row[VY])) > cold[TOLERANCE] * 2.0**-6
+    still = 0.0 if moves else cold[STILL] + 1.0
+    cold[STILL] = still
     return still

@@ -13,11 +13,24 @@ import math
 
 from wallkit.kernels.flight.gravity import move
 from wallkit.kernels.jit import kernel
-from wallkit.kernels.meeting.cell_list import cell_at, enter, next_border, quit_cell
+from wallkit.kernels.meeting.cell_list import (
+    DOWNWARDS,
+    LEFT,
+    RIGHT,
+    STAYS,
+    UPWARDS,
+    cell_at,
+    cell_number,
+    enter,
+    next_border,
+    quit_cell,
+    row_and_column,
+)
 from wallkit.kernels.meeting.collapse import is_caught
-from wallkit.kernels.meeting.event_queue import names, play_all, precedes, requeue
+from wallkit.kernels.meeting.event_queue import first_due, names, plan, precedes, requeue, retie, take_out
 from wallkit.kernels.meeting.pair_impact import collide, meet_at, meeting_time
 from wallkit.kernels.meeting.records import (
+    AFTER,
     BEING,
     BOUNCES,
     CELL,
@@ -25,8 +38,10 @@ from wallkit.kernels.meeting.records import (
     DUE,
     FIXED,
     FRESH,
+    LEAVE,
     LOOK,
     LOST,
+    MASS,
     MET,
     NEVER,
     NOBODY,
@@ -36,6 +51,7 @@ from wallkit.kernels.meeting.records import (
     PARTNER,
     RADIUS,
     ROW,
+    STEP,
     TIME,
     VX,
     VY,
@@ -67,25 +83,27 @@ def meet(model, gravity, discs, until, limit, hits, log, capacity, budget):
     """
     noted, events, now = 0, 0, 0.0
     while noted < capacity and events < budget:
-        ball = int(discs.tree[1])
-        if discs.key[1] > until or discs.key[1] == NEVER:
+        ball = first_due(discs)
+        if ball == NOBODY or discs.queue.times[0] > until:
             return noted, now, 1
-        now = discs.key[1]
+        now = discs.queue.times[0]
+        take_out(discs, ball)
         events += 1
         row, own = discs.ball[ball], discs.link[ball]
-        other, step = NOBODY, 0
-        if discs.leave[ball] <= row[DUE]:
+        other, step = NOBODY, STAYS
+        if row[LEAVE] <= row[DUE]:
             step = change_cell(discs, ball)
         elif own[PARTNER] == WALL:
             noted = take_wall_contact(model, gravity, discs, ball, hits, log, noted)
         elif own[PARTNER] < DISCS:
             other = int(own[PARTNER])
             noted = take_meeting(gravity, discs, ball, other, log, noted)
-        if step == 0:
+        if step == STAYS:
             row[DUE], own[PARTNER] = NEVER, NOTHING
         if other != NOBODY:
-            discs.ball[other][DUE], discs.link[other][PARTNER] = NEVER, NOTHING
-            discs.leave[other] = NEVER
+            discs.ball[other][DUE], discs.ball[other][LEAVE] = NEVER, NEVER
+            discs.link[other][PARTNER] = NOTHING
+            take_out(discs, other)
         for turn in range(2):
             looking = ball if turn == 0 else other
             if looking != NOBODY:
@@ -98,34 +116,36 @@ def meet(model, gravity, discs, until, limit, hits, log, capacity, budget):
 @kernel
 def begin(gravity, discs, now):
     """Put all discs into cells, and let each look at the time ``now``, one after the other."""
-    size = len(discs.key) >> 1
     for ball in range(len(discs.ball)):
         row, own = discs.ball[ball], discs.link[ball]
         x, y, _vx, _vy = move(gravity, row[X], row[Y], row[VX], row[VY], now - (row[TIME] + row[LOST]))
         own[CELL] = cell_at(discs.cells, x, y)
         row[DUE], own[PARTNER] = NEVER if own[BEING] == OUT else now, LOOK
-        discs.key[size + ball], discs.leave[ball] = row[DUE], NEVER
+        row[LEAVE] = NEVER
     lay_out(discs)
 
 
 @kernel
 def lay_out(discs):
-    """List all discs in the cells in which they are, and play all matches, for discs whose keys are set."""
+    """List all discs in the cells in which they are, and in the queue."""
     head = discs.head
     for cell in range(len(head)):
         head[cell] = NOBODY
     for ball in range(len(discs.ball)):
         if discs.link[ball][BEING] != OUT:
             enter(discs, ball, discs.link[ball][CELL])
-    play_all(discs)
+    plan(discs)
 
 
 @kernel
 def change_cell(discs, ball):
-    """Take a disc to the next cell: by how much its number changes."""
-    cell, step = int(discs.link[ball][CELL]), int(discs.step[ball])
+    """Take a disc to the next cell: to which side."""
+    step = int(discs.link[ball][STEP])
+    up, along = row_and_column(discs.cells, int(discs.link[ball][CELL]))
+    along += (1 if step == RIGHT else 0) - (1 if step == LEFT else 0)
+    up += (1 if step == UPWARDS else 0) - (1 if step == DOWNWARDS else 0)
     quit_cell(discs, ball)
-    enter(discs, ball, cell + step)
+    enter(discs, ball, cell_number(discs.cells, up, along))
     return step
 
 
@@ -134,18 +154,18 @@ def look(model, gravity, discs, ball, now, step):
     """Find what is due next for a disc, among all that are near, or, after a step to another cell, those new there."""
     row, own = discs.ball[ball], discs.link[ball]
     if own[BEING] == OUT:
-        discs.leave[ball] = NEVER
+        row[LEAVE] = NEVER
         requeue(discs, ball)
         return
     cell = int(own[CELL])
-    up, along = cell >> discs.cells.shift, cell & ((1 << discs.cells.shift) - 1)
+    up, along = row_and_column(discs.cells, cell)
     due, partner = among_discs(gravity, discs, ball, up, along, step)
-    leave, discs.step[ball] = next_border(gravity, discs.cells, row, up, along, now)
+    leave, own[STEP] = next_border(gravity, discs.cells, row, up, along, now)
     if discs.near[cell] != 0:
         t = wall_ahead(model, gravity, discs, ball, min(due, leave))
         if t < NEVER and (t < due or (t == due and partner != WALL)):
             due, partner = t, WALL
-    discs.leave[ball] = leave
+    row[LEAVE] = leave
     promise(discs, ball, due, partner)
     requeue(discs, ball)
 
@@ -155,26 +175,26 @@ def among_discs(gravity, discs, ball, up, along, step):
     """Find the disc with which a contact is due first: (when, which), or what was due before where that is sooner."""
     row, link, head = discs.ball[ball], discs.link, discs.head
     due, partner, met = row[DUE], int(link[ball][PARTNER]), link[ball][MET]
-    shift = discs.cells.shift
     low, high, left, right = up - 1, up + 2, along - 1, along + 2
-    if step != 0:
-        if shift > 0 and (step == 1 or step == -1):
-            left = along + step
-            right = left + 1
-        else:
-            low = up + (1 if step > 0 else -1)
-            high = low + 1
+    if step == RIGHT:
+        left = along + 1
+    elif step == LEFT:
+        right = along
+    elif step == UPWARDS:
+        low = up + 1
+    elif step == DOWNWARDS:
+        high = up
     left, right = max(left, 0), min(right, discs.cells.columns)
     for line in range(max(low, 0), min(high, discs.cells.rows)):
-        for c in range((line << shift) + left, (line << shift) + right):
-            other = head[c]
+        for column in range(left, right):
+            other = head[cell_number(discs.cells, line, column)]
             while other != NOBODY:
                 if other != ball and not (other == met and link[other][MET] == ball):
                     t, _span = meeting_time(gravity, row, discs.ball[other])
                     if t < NEVER and t <= due and t <= discs.ball[other][DUE]:
                         if (t < due and t < discs.ball[other][DUE]) or goes_before(discs, ball, other, t, due, partner):
                             due, partner = t, int(other)
-                other = discs.after[other]
+                other = link[other][AFTER]
     return due, partner
 
 
@@ -208,14 +228,14 @@ def promise(discs, ball, due, partner):
     link[ball][PARTNER] = partner
     if before < DISCS:
         link[before][PARTNER] = LOOK
-        requeue(discs, before)
+        retie(discs, before)
     if partner < DISCS:
         third = link[partner][PARTNER]
         link[partner][PARTNER], discs.ball[partner][DUE] = ball, due
         requeue(discs, partner)
         if third < DISCS:
             link[third][PARTNER] = LOOK
-            requeue(discs, third)
+            retie(discs, third)
 
 
 @kernel
@@ -250,8 +270,9 @@ def shares(discs, one, two):
         return 0.0, 1.0
     if discs.link[two][BEING] == FIXED:
         return 1.0, 0.0
-    whole = discs.mass[one] + discs.mass[two]
-    return discs.mass[two] / whole, discs.mass[one] / whole
+    mass, its_mass = discs.ball[one][MASS], discs.ball[two][MASS]
+    whole = mass + its_mass
+    return its_mass / whole, mass / whole
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""What the kernels see of discs that meet: two short rows a disc, cells, and the queue of what is due.
+"""What the kernels see of discs that meet: a row a disc, cells, and the queue of what is due.
 
 A disc's state is that of its last contact and stands until the next one: neither a border of a cell nor another disc's
 contact changes a bit of it. So the contacts are the same, bit for bit, for any size of the cells.
@@ -9,23 +9,30 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-X, Y, VX, VY, TIME, LOST, DUE, RADIUS = range(8)
-"""Row of floats of a disc, a line of the cache: its state after its last contact; the time of that and what the time
-lost to rounding; when its next contact is due; its radius."""
-CELL, PARTNER, NUMBER, BOUNCES, STILL, MET, BEING, SPARE = range(8)
-"""Row of whole numbers of a disc: its cell; with what its next contact is; its number in
-the scene; contacts so far; contacts in a row that rounding does not tell apart; the disc that it met last and has not
-parted from by another contact; how it is, see FLYING and the following."""
+X, Y, VX, VY, TIME, LOST, DUE, RADIUS, LEAVE, MASS = range(10)
+"""Row of floats of a disc: in its first line of the cache, which other discs ask for, its state after its last contact;
+the time of that and what the time lost to rounding; when its next contact is due; its radius. In the second one: when
+it leaves its cell; its mass."""
+CELL, PARTNER, NUMBER, BOUNCES, MET, BEING, PLACE, STEP, AFTER = range(20, 29)
+"""Row of whole numbers of a disc, in the same two lines, behind MASS: its cell; with what its next contact is; its
+number in the scene; contacts so far; the disc that it met last and has not parted from by another contact; how it is,
+see FLYING and the following; its place in the heap, or UNHEAPED; to which side it leaves its cell; the next disc of its
+cell, or NOBODY."""
+FLOATS, NUMBERS = 16, 32
+"""Columns of such a row as floats, and as whole numbers."""
 
 NOBODY, WALL, LOOK, NOTHING = 2**32 - 1, 2**32 - 2, 2**32 - 3, 2**32 - 4
 """In place of a disc: none; and what is due otherwise: a contact with a wall, a search for what is due, nothing."""
 DISCS = 2**32 - 4
 """All below are discs."""
+UNHEAPED = 2**32 - 1
+"""In place of a place in the heap."""
 FLYING, FRESH, FIXED, OUT = 0, 1, 2, 3
 """How a disc is: flying since a contact with a wall; flying since a contact with a disc (its cold state is to be made
 anew); ended where it stands, and met as if it had no end of mass; ended and taken out: no disc meets it."""
-ENERGY, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE = range(6)
-"""Row of what else a flight alone knows of a disc, see ``State``, since its last contact with a wall."""
+ENERGY, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE, STILL = range(7)
+"""Row of what else a flight alone knows of a disc, see ``State``, since its last contact with a wall; and how many
+contacts in a row rounding does not tell apart."""
 ROW = 17
 """Floats of a contact in the log: those of a contact with a wall (``LOG_STRIDE``), then ball, other (-1 for none), and
 the other's centre and velocity."""
@@ -33,7 +40,7 @@ NEVER = math.inf
 
 
 class Cells(NamedTuple):
-    """Square cells, row by row; those at the border reach out to infinity."""
+    """Square cells, see ``cell_list``; those at the border reach out to infinity."""
 
     x0: float
     y0: float
@@ -41,29 +48,43 @@ class Cells(NamedTuple):
     columns: int
     rows: int
     shift: int
-    """Row r begins at the cell r << shift."""
+    """A row of tiles has 1 << shift of them."""
+
+
+SIZE, PRESENT, PASSED, LEFT = range(4)
+"""Whole numbers of the queue: discs in the heap; the present stretch of time; stretches passed, and events left, since
+it was planned, and until it is planned anew."""
+ROOM = 16
+"""Whole numbers of a list of the queue."""
+BEGIN, RATE = range(2)
+"""Floats of the queue: time at which stretch 0 begins, stretches a unit of time."""
+
+
+class Queue(NamedTuple):
+    """What is due first, see ``event_queue``."""
+
+    lists: Any
+    """Lists of at most ROOM discs, a line of the cache each, by stretch of time modulo their number, a power of two."""
+    filled: Any
+    """How many discs are in each; apart from them, so that a disc is written to its list without waiting for it."""
+    heap: Any
+    """(n,) discs of the present stretch and before: that at k comes before those at 2 k + 1 and 2 k + 2."""
+    times: Any
+    """(n,) what is due for them when."""
+    state: Any
+    """See SIZE and the following."""
+    scale: Any
+    """See BEGIN and RATE."""
 
 
 class Discs(NamedTuple):
     """All that meeting needs to know of the discs of a scene; coordinates are local, as in ``Model``."""
 
     ball: Any
-    """(n, 8) floats: see X and the following."""
+    """(n, FLOATS) floats: see X and the following."""
     link: Any
-    """(n, 8) unsigned: see CELL and the following."""
-    after: Any
-    """(n,) the next disc of its cell, or NOBODY."""
-    mass: Any
-    """(n,)."""
-    leave: Any
-    """(n,) when it leaves its cell."""
-    step: Any
-    """(n,) by how much the number of its cell changes then."""
-    key: Any
-    """(2 m,) by node of the tournament, m = max(n, 2): from m on that of each disc, the lesser of when it leaves its
-    cell and of what is due (infinite beyond n); before, that of the winner of 2 k and 2 k + 1."""
-    tree: Any
-    """(2 m,) who that is; at node 1 the first of all."""
+    """(n, NUMBERS) unsigned: see CELL and the following; the same memory as ``ball``, in other columns."""
+    queue: Queue
     head: Any
     """By cell: its first disc, or NOBODY."""
     near: Any
@@ -72,7 +93,7 @@ class Discs(NamedTuple):
     restitution: Any
     """(normal, tangential) between discs; None where both are 1."""
     cold: Any
-    """(n, 6) floats: see ENERGY and the following."""
+    """(n, 7) floats: see ENERGY and the following."""
     counts: Any
     """(n, len(Counts)) whole numbers of 32 bits, as ``fly`` knows them; bounces are counted in ``link`` alone."""
     hop: float
