@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -12,7 +14,9 @@ from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.checking.climbing import Segments, climb
 
 MOST_ROOMS = 16  # the roomiest; the others keep the circle that was found
-_STARTS = 64  # of the roomiest triangles of a room: where it is climbed from
+_STARTS = (
+    64  # the roomiest triangles of a room, where it is climbed from, and so many times four that may have more room
+)
 
 
 def largest_circles(
@@ -37,9 +41,14 @@ def largest_circles(
     starts = [np.empty(0, dtype=np.int64)]
     parts = {width: joined(mesh, ~mesh.wall & (mesh.length > width)) for width in set(rooms[chosen, 3].tolist())}
     of_room = [parts[width] == parts[width][at] for at, width in zip(home, rooms[chosen, 3].tolist(), strict=True)]
-    for inside, radius in zip(of_room, rooms[chosen, 2], strict=True):
-        rows = np.flatnonzero(inside & (circle > radius / 2))
-        starts.append(rows[np.argsort(-circle[rows], kind="stable")[:_STARTS]])
+    longest = np.where((mesh.corners < len(mesh.points) - 4).all(axis=1), mesh.length[mesh.edge].max(axis=1), 0.0)
+    for inside, radius in zip(of_room, rooms[chosen, 2].tolist(), strict=True):
+        known = np.flatnonzero(inside & (circle > radius / 2))
+        known = known[np.argsort(-circle[known], kind="stable")[:_STARTS]]
+        # no place in a triangle is farther from all corners than 1 / sqrt 3 of the longest side
+        more = np.flatnonzero(inside & (longest > math.sqrt(3) * radius))
+        more = more[np.argsort(-longest[more], kind="stable")[: 4 * _STARTS]]
+        starts.append(np.union1d(known, more))
     room = np.repeat(np.arange(len(chosen)), [len(rows) for rows in starts[1:]])
     summit, radius = climb(walls, place[np.concatenate(starts)])
     at = triangles_at(mesh, summit)
