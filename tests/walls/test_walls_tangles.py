@@ -52,7 +52,7 @@ TURN = "np.arange(401) * 200 * 2 * np.pi / 401"
         (f"Walls.from_polylines([np.stack([np.cos({TURN}), np.sin({TURN})], axis=1)])", "False False"),
         (
             "Walls.from_polylines([[(k, k), (900 - k, k), (900 - k, 900 - k), (k, 900 - k)] for k in range(400)])",
-            "False False",
+            "True False",
         ),
     ],
     ids=["scribble", "scribbles", "polylines", "lines", "near", "same", "star", "nested"],
@@ -133,9 +133,25 @@ def test_rings_that_cross_are_counted_by_even_and_odd():
 
 
 def test_a_tangle_is_told_by_check_and_no_gap_is_made_up():
-    squares = [[(k, k), (900 - k, k), (900 - k, 900 - k), (k, 900 - k)] for k in range(300)]
-    walls = Walls.from_polylines(squares)
+    turn = np.arange(401) * 200 * 2 * np.pi / 401
+    walls = Walls.from_polylines([np.stack([np.cos(turn), np.sin(turn)], axis=1)])
     space = free_space(walls)
     assert (space.gaps, len(space.closed_rooms)) == ([], 0)
     (problem,) = leak_problems(space, reach_of(space, walls, None, np.empty((0, 2))))
     assert (problem.code, problem.severity) == ("tangled", "warning")
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3])
+def test_squares_in_each_other_take_as_many_points_as_they_have_corners_and_feet(turn):
+    """Rings 1 wide; a disc in a corner touches two sides and the inner corner: r (1 + sqrt 2) = sqrt 2."""
+    around = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    squares = [np.array([(k, k), (900 - k, k), (900 - k, 900 - k), (k, 900 - k)]) @ around for k in range(0, 400)]
+    space = free_space(Walls.from_polylines(squares))
+    radii = np.sort(space.closed_rooms[:, 2])
+    assert (space.complete, space.gaps, len(radii)) == (True, [], 400)
+    corner = 2**0.5 / (1 + 2**0.5)
+    assert radii[-1] == pytest.approx(51, rel=1e-8)  # the innermost square's own inside
+    assert radii[-16:-1] == pytest.approx(corner, rel=1e-8)
+    assert radii[0] >= 0.5 * (1 - 1e-9)  # between two sides: of the other rooms one circle is looked at
+    assert radii[-2] <= corner * (1 + 1e-9)
+    assert len(space.parts.mesh.points) <= 4 * 400 + 8 * 399 + 4

@@ -3,18 +3,21 @@
 It begins as the Delaunay triangulation (GEOS); a segment that is missing takes the place of the edges that it crosses:
 they are flipped, one after the other, until none is left (S. W. Sloan, A fast algorithm for generating constrained
 Delaunay triangulations, 1993). All questions of side are answered exactly, so that what comes out is a triangulation.
+What the flips leave is no Delaunay triangulation beside the segments; where that matters, edges are turned until it is
+(:func:`constrained`).
 """
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from typing import NamedTuple
 
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.conforming_delaunay import delaunay
-from wallkit.geometry.orientation import side
+from wallkit.geometry.delaunay import SURE, delaunay, edge_keys
+from wallkit.geometry.orientation import BOUND, side
 
 Edge = tuple[int, int]
 
@@ -41,24 +44,48 @@ def triangulate(points: FloatArray, segments: IntArray) -> Mesh:
     Segments meet at their ends only, but for rounding: one that passes through a point, or crosses another one, is led
     through that point, or through the nearest end of the other one.
     """
-    corners = _counter_clockwise(points, delaunay(points))
-    edges = np.concatenate([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]])
-    wanted = np.sort(segments, axis=1)
-    there = np.isin(_keys(wanted, len(points)), _keys(np.sort(edges, axis=1), len(points)))
-    parts: dict[Edge, int] = dict(zip(map(tuple, wanted[there].tolist()), np.flatnonzero(there).tolist(), strict=True))
-    missing = np.flatnonzero(~there).tolist()
+    corners, parts, missing = _begun(points, segments)
     if missing:
         flips = _Flips(points, corners, parts)
         for number in missing:
-            flips.insert(int(wanted[number, 0]), int(wanted[number, 1]), number)
+            flips.insert(int(segments[number, 0]), int(segments[number, 1]), number)
         corners = flips.corners()
     return _meshed(points, corners, parts)
 
 
-def _keys(pairs: IntArray, count: int) -> IntArray:
-    """One number for each pair of points of so many."""
-    keys: IntArray = pairs[:, 0] * count + pairs[:, 1]
-    return keys
+def constrained(points: FloatArray, segments: IntArray, most: int) -> tuple[IntArray, IntArray] | None:
+    """Give the constrained Delaunay triangulation, of the same as :func:`triangulate` takes.
+
+    Each edge has a circle through its ends with no point in it that is seen from the edge, segments being opaque.
+
+    Args:
+        points: the outermost are ends of no segment.
+        segments: ends of each.
+        most: how many edges may be turned.
+
+    Returns:
+        (T, 3) corners, and (N, 2) the edges on segments, the smaller number first; None where it takes more turns.
+    """
+    corners, parts, missing = _begun(points, segments)
+    if missing:
+        flips = _Flips(points, corners, parts, most)
+        for number in missing:
+            flips.insert(int(segments[number, 0]), int(segments[number, 1]), number)
+        flips.restore()
+        if flips.left < 0:
+            return None
+        corners = flips.corners()
+    return corners, np.array(list(parts), dtype=np.int64).reshape(-1, 2)
+
+
+def _begun(points: FloatArray, segments: IntArray) -> tuple[IntArray, dict[Edge, int], list[int]]:
+    """Give the Delaunay triangles, the segments among their edges by their number, and the segments that are not."""
+    corners = _counter_clockwise(points, delaunay(points))
+    edges = np.concatenate([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]])
+    wanted = np.sort(segments, axis=1)
+    there = np.isin(edge_keys(wanted, len(points)), edge_keys(edges, len(points)))
+    known: dict[Edge, int] = dict(zip(map(tuple, wanted[there].tolist()), np.flatnonzero(there).tolist(), strict=True))
+    return corners, known, np.flatnonzero(~there).tolist()
 
 
 def _counter_clockwise(points: FloatArray, corners: IntArray) -> IntArray:
@@ -91,13 +118,16 @@ def _meshed(points: FloatArray, corners: IntArray, parts: dict[Edge, int]) -> Me
 class _Flips:
     """A triangulation on its way: from each directed edge to the corner opposite, on the left of it."""
 
-    def __init__(self, points: FloatArray, corners: IntArray, parts: dict[Edge, int]) -> None:
+    def __init__(self, points: FloatArray, corners: IntArray, parts: dict[Edge, int], most: float = math.inf) -> None:
+        """Take triangles, the edges on segments, and how many edges may be turned."""
         self._points = points
+        self._at: list[tuple[float, float]] = [*map(tuple, points.tolist())]
         self._parts = parts
-        self._apex: dict[Edge, int] = {}
-        self._near: dict[int, int] = {}
-        for a, b, c in corners.tolist():
-            self._put(a, b, c)
+        self._suspect: list[Edge] = []  # edges of triangles that are new
+        self.left = most  # below 0: more edges had to be turned
+        begin, end = np.roll(corners, -1, axis=1).ravel().tolist(), np.roll(corners, -2, axis=1).ravel().tolist()
+        self._apex: dict[Edge, int] = dict(zip(zip(begin, end, strict=True), corners.ravel().tolist(), strict=True))
+        self._near: dict[int, int] = dict(zip(begin, end, strict=True))
 
     def corners(self) -> IntArray:
         """Give (T, 3) the corners of the triangles."""
@@ -106,7 +136,8 @@ class _Flips:
     def insert(self, a: int, b: int, number: int) -> None:
         """Make the segment from a to b an edge, or the edges of a chain where it passes through points."""
         waiting = [(a, b)]
-        while waiting:
+        while waiting and self.left >= 0:
+            self.left -= 1
             a, b = waiting.pop()
             if (a, b) in self._apex or (b, a) in self._apex:
                 self._parts.setdefault((min(a, b), max(a, b)), number)
@@ -118,11 +149,53 @@ class _Flips:
             self._flip(a, b, crossed)
             self._parts[min(a, b), max(a, b)] = number
 
+    def restore(self) -> None:
+        """Turn edges, but those on segments, until none has the opposite corner in the circle of a triangle (Lawson).
+
+        Beside an edge of new triangles alone there can be one.
+        """
+        while self._suspect and self.left >= 0:
+            left, right = self._suspect.pop()
+            ahead, behind = self._apex.get((left, right), -1), self._apex.get((right, left), -1)
+            if ahead < 0 or behind < 0 or (min(left, right), max(left, right)) in self._parts:
+                continue
+            if not self._sees_too_much(left, right, ahead, behind):
+                continue
+            if self._side(behind, ahead, left) <= 0 or self._side(behind, ahead, right) >= 0:
+                continue
+            self.left -= 1
+            self._turn(left, right, ahead, behind)
+
+    def _sees_too_much(self, left: int, right: int, ahead: int, behind: int) -> bool:
+        """Tell whether the two angles that see an edge are more than a half turn, as in :func:`delaunay`."""
+        (px, py), (qx, qy) = self._at[left], self._at[right]
+        (ux, uy), (vx, vy) = self._at[ahead], self._at[behind]
+        a, b, c, d = px - ux, py - uy, qx - ux, qy - uy
+        e, f, g, h = px - vx, py - vy, qx - vx, qy - vy
+        total = abs(a * d - b * c) * (e * g + f * h) + (a * c + b * d) * abs(e * h - f * g)
+        if total >= 0:
+            return False
+        size = math.hypot(a, b) * math.hypot(c, d) * math.hypot(e, f) * math.hypot(g, h)
+        return total < -SURE * size
+
+    def _turn(self, left: int, right: int, ahead: int, behind: int) -> None:
+        """Take the other diagonal of the two triangles at an edge."""
+        del self._apex[left, right], self._apex[right, left]
+        self._put(behind, right, ahead)
+        self._put(ahead, left, behind)
+        self._suspect += [(behind, right), (right, ahead), (ahead, left), (left, behind), (ahead, behind)]
+
     def _put(self, a: int, b: int, c: int) -> None:
         self._apex[a, b], self._apex[b, c], self._apex[c, a] = c, a, b
         self._near[a], self._near[b], self._near[c] = b, c, a
 
     def _side(self, a: int, b: int, c: int) -> int:
+        """Tell the side as :func:`side` does, which is asked where rounding might."""
+        (ax, ay), (bx, by), (cx, cy) = self._at[a], self._at[b], self._at[c]
+        left, right = (ax - cx) * (by - cy), (ay - cy) * (bx - cx)
+        det = left - right
+        if abs(det) >= BOUND * (abs(left) + abs(right)):
+            return (det > 0) - (det < 0)
         p = self._points
         return int(side(p[a : a + 1], p[b : b + 1], p[c : c + 1])[0])
 
@@ -161,16 +234,15 @@ class _Flips:
 
     def _flip(self, a: int, b: int, crossed: deque[Edge]) -> None:
         """Turn the edges crossed until none crosses the segment; one whose two triangles form a hollow waits."""
-        while crossed:
+        while crossed and self.left >= 0:
+            self.left -= 1
             left, right = crossed.popleft()
             ahead, behind = self._apex[left, right], self._apex[right, left]
             hollow = self._side(behind, ahead, left) <= 0 or self._side(behind, ahead, right) >= 0
             if hollow:
                 crossed.append((left, right))
                 continue
-            del self._apex[left, right], self._apex[right, left]
-            self._put(behind, right, ahead)
-            self._put(ahead, left, behind)
+            self._turn(left, right, ahead, behind)
             if {ahead, behind} == {a, b} or a in (ahead, behind) or b in (ahead, behind):
                 continue
             one, other = self._side(a, b, behind), self._side(a, b, ahead)

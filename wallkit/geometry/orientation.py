@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 
-_BOUND = (3 + 16 * 2.0**-53) * 2.0**-53
+BOUND = (3 + 16 * 2.0**-53) * 2.0**-53
+"""Of |l| + |r|: a determinant l - r that is beyond has the right sign."""
 _SPLITTER = 2.0**27 + 1
 
 
@@ -25,7 +26,7 @@ def side(a: FloatArray, b: FloatArray, c: FloatArray) -> NDArray[np.int8]:
     right = (a[:, 1] - c[:, 1]) * (b[:, 0] - c[:, 0])
     det = left - right
     sign = np.sign(det).astype(np.int8)
-    unsure = np.flatnonzero(np.abs(det) < _BOUND * (np.abs(left) + np.abs(right)))
+    unsure = np.flatnonzero(np.abs(det) < BOUND * (np.abs(left) + np.abs(right)))
     if len(unsure):
         sign[unsure] = _closer(a[unsure], b[unsure], c[unsure])
     return sign

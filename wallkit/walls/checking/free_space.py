@@ -1,14 +1,13 @@
 """Free space: the rooms between walls, the gaps that lead from one to another, and how wide these are.
 
 Triangles between wall vertices, wall edges among them (triangulation.py), are walked by a disc of radius r from
-edge to edge: it gets over an edge that is longer than 2 r. What is narrow between a vertex and the middle of a wall is
-an edge, too, since the foot there is made a vertex (narrows.py). So widths are distances between given vertices and
-edges, not samples, and gaps between lines are exact to rounding.
+triangle to triangle: it gets over an edge that is longer than 2 r. What is narrow between a vertex and the middle of a
+wall is an edge, too, since the foot there is made a vertex (narrow_places.py). So widths are distances between given
+vertices and edges, not samples, and gaps between lines are exact to rounding.
 
-A circle in each triangle stands for the room it has; a disc gets there over an edge that is longer than its
-diameter. Uniting edges and circles from the widest way down (a maximum spanning tree) tells how rooms hang
-together: where two parts meet for the first time is the narrowest place of the widest way between them. The part
-with the smaller roomiest circle is a room behind a gap.
+Uniting triangles, and a circle in each for the room it has, from the widest way down tells how rooms hang together
+(widest_ways.py): where two parts meet for the first time is the narrowest place of the widest way between them. The
+part with the smaller roomiest circle is a room behind a gap.
 """
 
 from __future__ import annotations
@@ -22,14 +21,17 @@ from numpy.typing import NDArray
 
 from wallkit.arguments import ABOVE_0, number, of_type
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.conforming_delaunay import SHORTEST, Triangulation, triangulate
+from wallkit.geometry.triangulation import Triangulation, triangulate
 from wallkit.walls.as_shapely import straightened
+from wallkit.walls.checking.climbing import Segments, climb
 from wallkit.walls.checking.exact_widths import exact_edges, nearest_pair
 from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.narrow_places import with_feet
 from wallkit.walls.checking.parts import Parts
-from wallkit.walls.checking.room_circles import larger_circles
+from wallkit.walls.checking.room_circles import largest_circles, triangles_at
 from wallkit.walls.checking.self_check import diagonal
+from wallkit.walls.checking.triangle_circles import triangle_circles
+from wallkit.walls.checking.widest_ways import Room, Ways, WaysOut, unite, ways_out
 from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.noding import MOST_CROSSINGS, noded
@@ -37,6 +39,8 @@ from wallkit.walls.walls import Walls, WallsError
 
 MOST_EDGES = 200_000
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
+_SEAM = 4e-7  # of the diagonal: what is narrower is closed, but for rounding
+_TOO_SMALL = 1.5  # times the radius of a circle in a triangle, a larger one may be found above it
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
 
@@ -125,8 +129,9 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     if mesh is None:
         return FreeSpace([], np.empty((0, 3)), False)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
-    found = _rooms(mesh, narrow, least)
-    seam = 4 * SHORTEST * diagonal(vertices)
+    circles = _circles(mesh, least)
+    found = _rooms(mesh, circles, narrow, least)
+    seam = _SEAM * diagonal(vertices)
     solids = Solids.of(walls, edges)
     sealed = [(*gap.room, gap.room_radius) for gap in found.gaps if gap.width <= seam]  # closed, but for rounding
     found = replace(
@@ -139,7 +144,7 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     chosen = _where_free(found, solids, True)
     if not len(chosen.gaps) and not len(chosen.closed_rooms):
         chosen = replace(_where_free(found, solids, False), inside=True)
-    chosen = _roomier(chosen, mesh)
+    chosen = _roomier(chosen, mesh, circles)
     return _sharpened(chosen, walls, vertices) if walls.has_arcs else chosen
 
 
@@ -152,16 +157,16 @@ def _where_free(found: FreeSpace, solids: Solids, free: bool) -> FreeSpace:
     return replace(found, gaps=kept, closed_rooms=found.closed_rooms[wanted[len(gaps) :]])
 
 
-def _roomier(found: FreeSpace, mesh: Triangulation) -> FreeSpace:
+def _roomier(found: FreeSpace, mesh: Triangulation, circles: _Circles) -> FreeSpace:
     """Give each room its largest circle."""
     rooms = np.array([(*gap.room, gap.room_radius, gap.width) for gap in found.gaps]).reshape(-1, 4)
     rooms = np.concatenate([rooms, np.column_stack([found.closed_rooms, np.zeros(len(found.closed_rooms))])])
-    circles = larger_circles(mesh, rooms[:, :2], rooms[:, 2], rooms[:, 3])
+    largest = largest_circles(mesh, circles.walls, circles.radius, circles.place, rooms)
     gaps = [
         replace(gap, room=(x, y), room_radius=radius)
-        for gap, (x, y, radius) in zip(found.gaps, circles.tolist(), strict=False)
+        for gap, (x, y, radius) in zip(found.gaps, largest.tolist(), strict=False)
     ]
-    return replace(found, gaps=gaps, closed_rooms=circles[len(gaps) :])
+    return replace(found, gaps=gaps, closed_rooms=largest[len(gaps) :])
 
 
 def _sharpened(found: FreeSpace, walls: Walls, vertices: FloatArray) -> FreeSpace:
@@ -212,195 +217,82 @@ def _noded(edges: Edges) -> tuple[FloatArray, FloatArray] | None:
 
 
 @dataclass(slots=True)
-class _Turns:
-    """Ways from one edge of a triangle to another, how wide, and the two ends of the narrowest spot.
+class _Circles:
+    """Circles in triangles: walls with their tree, (T,) radii and (T, 2) centres."""
 
-    Nodes are edges by number, and behind them (number of edges + triangle) the circles of triangles.
+    walls: Segments
+    radius: FloatArray
+    place: FloatArray
+
+    def climb(self, mesh: Triangulation, triangles: IntArray) -> None:
+        """Put the summits above the circles of some triangles where they belong, if they are larger than what is."""
+        place, radius = climb(self.walls, self.place[triangles])
+        at = triangles_at(mesh, place)
+        order = np.argsort(radius, kind="stable")
+        order = order[at[order] >= 0]
+        framed = (mesh.corners[at[order]] >= len(mesh.points) - 4).any(axis=1)  # a climb out of everything
+        order = order[~framed & (radius[order] > self.radius[at[order]])]
+        self.radius[at[order]], self.place[at[order]] = radius[order], place[order]  # the last is the largest
+
+
+def _circles(mesh: Triangulation, least: float) -> _Circles:
+    p, q = (mesh.points[mesh.ends[mesh.wall, k]] for k in (0, 1))
+    walls = Segments.of(p, q)
+    return _Circles(walls, *triangle_circles(mesh, walls, least))
+
+
+def _rooms(mesh: Triangulation, circles: _Circles, narrow: float, least: float) -> FreeSpace:
+    """Find rooms, and the narrowest place on the way to a roomier one.
+
+    What may be a room is found first, by circles that may be too small by a third; then by those at the summits.
     """
-
-    one: IntArray
-    two: IntArray
-    width: FloatArray
-    corner: IntArray
-    far: FloatArray
-
-
-def _turns(mesh: Triangulation) -> _Turns:
-    """The ways from one edge of a triangle to another, both no walls: as wide as the shorter is long."""
-    one, two = mesh.edge.ravel(), np.roll(mesh.edge, -1, axis=1).ravel()
-    free = ~mesh.wall[one] & ~mesh.wall[two]
-    one, two = one[free], two[free]
-    length = np.hypot(*(mesh.points[mesh.ends[:, 1]] - mesh.points[mesh.ends[:, 0]]).T)
-    shorter = np.where(length[one] < length[two], one, two)
-    return _Turns(one, two, length[shorter], mesh.ends[shorter, 0], mesh.points[mesh.ends[shorter, 1]])
+    count = len(mesh.corners)
+    joined = unite(mesh, Ways.of(mesh, circles.radius), circles.radius, _TOO_SMALL * narrow, least)
+    nodes = [room.node for room in joined.rooms] + joined.closed
+    circles.climb(mesh, np.array(nodes, dtype=np.int64) - count)
+    if joined.rooms:
+        ways = Ways.of(mesh, circles.radius)
+        joined = unite(mesh, ways, circles.radius, narrow, least)
+    closed = np.array(joined.closed, dtype=np.int64) - count
+    rooms = np.column_stack([circles.place[closed], circles.radius[closed]])
+    if not joined.rooms:
+        return FreeSpace([], rooms)
+    out = ways_out(mesh, ways, joined.used)
+    gaps = [_gap(mesh, ways, out, room, circles) for room in joined.rooms]
+    return FreeSpace(sorted(gaps, key=lambda gap: gap.width), rooms)
 
 
-def _centres(mesh: Triangulation) -> FloatArray:
-    """Two candidates for each triangle, (2, T, 2): the centre of the circle around it, if inside, and the one in it."""
-    p, q, r = (mesh.points[mesh.corners[:, k]] for k in range(3))
-    u, v = q - p, r - p
-    double = 2 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
-    uu, vv, ww = (u * u).sum(axis=1), (v * v).sum(axis=1), ((r - q) ** 2).sum(axis=1)
-    sides = np.sqrt(np.stack([ww, vv, uu], axis=1))
-    inner = (sides[:, :1] * p + sides[:, 1:2] * q + sides[:, 2:] * r) / np.maximum(sides.sum(axis=1), 1e-300)[:, None]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        around = p + np.stack([v[:, 1] * uu - u[:, 1] * vv, u[:, 0] * vv - v[:, 0] * uu], axis=1) / double[:, None]
-    largest = np.sort(np.stack([uu, vv, ww], axis=1), axis=1)
-    acute = (largest[:, 2] <= (largest[:, 0] + largest[:, 1]) * (1 + 1e-9)) & np.isfinite(around).all(axis=1)
-    return np.stack([np.where(acute[:, None], around, inner), inner])
-
-
-def _rooms(mesh: Triangulation, narrow: float, least: float) -> FreeSpace:
-    """Unite edges and circles from the widest way down; note a gap where a room joins something roomier."""
-    edge_count, count = len(mesh.ends), len(mesh.ends) + len(mesh.corners)
-    circle, centre = _circles(mesh)
-    turns = _with_circles(mesh, _turns(mesh), circle)
-    place = np.concatenate([mesh.points[mesh.ends].mean(axis=1), centre])
-    size = np.concatenate([np.where(mesh.outer, np.inf, 0.0), circle])
-    tree = _spanning_tree(count, turns)
-    outside = int(np.flatnonzero(mesh.outer)[0])
-    parts = np.arange(count)
-    parts[:edge_count][mesh.outer] = outside
-    parent, roomy = parts.tolist(), size.tolist()  # of a part's root: the size of its roomiest circle
-    best = list(range(count))  # of a part's root: the node with that circle
-    notes: list[tuple[int, int, bool]] = []  # way; best node of the smaller room; the larger is the outside
-    order = tree[np.argsort(-turns.width[tree], kind="stable")]
-    columns = (order, turns.one[order], turns.two[order], turns.width[order])
-    for turn, one, two, width in zip(*(column.tolist() for column in columns), strict=True):
-        one, two = _find(parent, one), _find(parent, two)
-        if one == two:
-            continue
-        if roomy[one] < roomy[two]:
-            one, two = two, one
-        if 2 * narrow * roomy[two] >= width > 0 and roomy[two] > least:
-            notes.append((turn, best[two], math.isinf(roomy[one])))
-        parent[two] = one
-    roots = sorted({_find(parent, edge) for edge in np.flatnonzero(~mesh.wall).tolist()})
-    closed = np.array([best[root] for root in roots if least < roomy[root] < math.inf], dtype=np.int64)
-    gaps = sorted(_gaps(mesh, turns, tree, notes, size, place, outside), key=lambda gap: gap.width)
-    return FreeSpace(gaps, np.column_stack([place[closed], size[closed]]))
-
-
-def _gaps(
-    mesh: Triangulation,
-    turns: _Turns,
-    tree: IntArray,
-    notes: list[tuple[int, int, bool]],
-    size: FloatArray,
-    place: FloatArray,
-    outside: int,
-) -> list[Gap]:
-    """Tell each noted turn as a gap, with the way from its room to the outside along the tree."""
-    before, narrowest, step = _ways_out(len(place), turns, tree, np.flatnonzero(mesh.outer), outside)
-    gaps = []
-    for turn, room, to_outside in notes:
-        way, passed = [room], False
-        while before[way[-1]] >= 0 and not (passed and _clear(place, way, turns, turn)):
-            passed = passed or step[way[-1]] == turn
-            way.append(int(before[way[-1]]))
-        a, b = mesh.points[turns.corner[turn]], turns.far[turn]
-        corners = place[way] if passed else np.stack([place[room], (a + b) / 2])
-        gaps.append(
-            Gap(
-                width=float(turns.width[turn]),
-                a=(float(a[0]), float(a[1])),
-                b=(float(b[0]), float(b[1])),
-                room=(float(place[room, 0]), float(place[room, 1])),
-                room_radius=float(size[room]),
-                outside=to_outside,
-                escape=float(narrowest[room]),
-                path=corners,
-            )
-        )
-    return gaps
-
-
-def _clear(place: FloatArray, way: list[int], turns: _Turns, turn: int) -> bool:
-    """The way has left the gap behind by three times its width."""
-    off = place[way[-1]] - place[turns.one[turn]]
-    return bool(np.hypot(off[0], off[1]) > 3 * turns.width[turn])
-
-
-def _ways_out(
-    nodes: int, turns: _Turns, tree: IntArray, outer: IntArray, outside: int
-) -> tuple[IntArray, FloatArray, IntArray]:
-    """For each edge: the next edge on the way out (-1 without), the narrowest turn on all of it, the next turn."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import breadth_first_order
-
-    others = outer[outer != outside]
-    one = np.concatenate([turns.one[tree], np.full(len(others), outside)])
-    two = np.concatenate([turns.two[tree], others])
-    label = np.concatenate([tree + 1, np.full(len(others), len(turns.one) + 1)]).astype(np.float64)
-    graph = coo_matrix((label, (one, two)), shape=(nodes, nodes)).tocsr()
-    graph = graph.maximum(graph.T)
-    order, before = breadth_first_order(graph, outside, directed=False)
-    before = np.where(before < 0, -1, before).astype(np.int64)
-    step = np.full(nodes, -1, dtype=np.int64)
-    reached = order[1:]
-    step[reached] = np.asarray(graph[reached, before[reached]]).ravel().astype(np.int64) - 1
-    widths = np.concatenate([turns.width, [np.inf]])
-    narrowest = [0.0] * nodes
-    narrowest[outside] = math.inf
-    for node, last, width in zip(
-        reached.tolist(), before[reached].tolist(), widths[step[reached]].tolist(), strict=True
-    ):
-        narrowest[node] = min(narrowest[last], width)
-    return before, np.array(narrowest), step
-
-
-def _find(parent: list[int], node: int) -> int:
-    """The representative of a node, with the path halved on the way."""
-    while parent[node] != node:
-        parent[node] = parent[parent[node]]
-        node = parent[node]
-    return node
-
-
-def _circles(mesh: Triangulation) -> tuple[FloatArray, FloatArray]:
-    """Radius and centre of the roomier of each triangle's two circles, (T,) and (T, 2); 0 beside the frame."""
-    walls = mesh.ends[mesh.wall]
-    tree = shapely.STRtree(shapely.linestrings(np.stack([mesh.points[walls[:, 0]], mesh.points[walls[:, 1]]], axis=1)))
-    rows = np.flatnonzero((mesh.corners < len(mesh.points) - 4).all(axis=1))
-    size, place = np.zeros(len(mesh.corners)), mesh.points[mesh.corners].mean(axis=1)
-    for centre in _centres(mesh):
-        # no farther from walls than from the corners, which are on walls: most of the second ones are no better
-        nearest = np.min([np.hypot(*(centre[rows] - mesh.points[mesh.corners[rows, k]]).T) for k in range(3)], axis=0)
-        rows = rows[nearest > size[rows]]
-        points = shapely.points(centre[rows])
-        (source, _), distance = tree.query_nearest(points, return_distance=True, all_matches=False)
-        larger = distance > size[rows[source]]
-        size[rows[source[larger]]] = distance[larger]
-        place[rows[source[larger]]] = centre[rows[source[larger]]]
-    return size, place
-
-
-def _with_circles(mesh: Triangulation, turns: _Turns, size: FloatArray) -> _Turns:
-    """Add the ways from edges that are no walls to the circles of their triangles."""
-    triangle, edge = np.repeat(np.arange(len(mesh.corners)), 3), mesh.edge.ravel()
-    free = ~mesh.wall[edge] & (size[triangle] > 0)
-    triangle, edge = triangle[free], edge[free]
-    a, b = mesh.points[mesh.ends[edge, 0]], mesh.points[mesh.ends[edge, 1]]
-    both = np.concatenate
-    return _Turns(
-        both([turns.one, edge]),
-        both([turns.two, len(mesh.ends) + triangle]),
-        both([turns.width, np.minimum(np.hypot(*(b - a).T), 2 * size[triangle])]),
-        both([turns.corner, mesh.ends[edge, 0]]),
-        both([turns.far, b]),
+def _gap(mesh: Triangulation, ways: Ways, out: WaysOut, room: Room, circles: _Circles) -> Gap:
+    """Tell a room's way out as a gap."""
+    triangle = room.node - len(mesh.corners)
+    x, y = circles.place[triangle].tolist()
+    edge = int(ways.edge[room.way])
+    edge = edge if edge >= 0 else int(mesh.edge[triangle][mesh.length[mesh.edge[triangle]].argmax()])
+    a, b = mesh.points[mesh.ends[edge]].tolist()
+    return Gap(
+        width=float(ways.width[room.way]),
+        a=(a[0], a[1]),
+        b=(b[0], b[1]),
+        room=(x, y),
+        room_radius=float(circles.radius[triangle]),
+        outside=room.outside,
+        escape=out.narrowest[room.node],
+        path=_path(mesh, ways, out, room, circles.place[triangle], edge),
     )
 
 
-def _spanning_tree(nodes: int, turns: _Turns) -> IntArray:
-    """The turns of a maximum spanning forest."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import minimum_spanning_tree
-
-    order = np.argsort(-turns.width, kind="stable")
-    key = np.minimum(turns.one, turns.two)[order] * nodes + np.maximum(turns.one, turns.two)[order]
-    order = order[np.sort(np.unique(key, return_index=True)[1])]  # the widest turn between two edges
-    rank = np.arange(1, len(order) + 1, dtype=np.float64)
-    graph = coo_matrix((rank, (turns.one[order], turns.two[order])), shape=(nodes, nodes)).tocsr()
-    tree = minimum_spanning_tree(graph)
-    chosen: IntArray = order[tree.data.astype(np.int64) - 1]
-    return chosen
+def _path(mesh: Triangulation, ways: Ways, out: WaysOut, room: Room, start: FloatArray, edge: int) -> FloatArray:
+    """The way from a room through the middles of edges, until the gap is left behind by three times its width."""
+    middle = mesh.points[mesh.ends[edge]].mean(axis=0)
+    path, passed, node = [start], False, room.node
+    while out.before[node] >= 0:
+        way = out.step[node]
+        passed, node = passed or way == room.way, out.before[node]
+        if ways.edge[way] >= 0:
+            path.append(mesh.points[mesh.ends[ways.edge[way]]].mean(axis=0))
+            if passed and math.hypot(*(path[-1] - middle)) > 3 * ways.width[room.way]:
+                return np.array(path)
+    if not passed:
+        return np.array([start, middle])
+    outer = mesh.edge[node][mesh.outer[mesh.edge[node]]]
+    return np.array([*path, mesh.points[mesh.ends[outer[0]]].mean(axis=0)])

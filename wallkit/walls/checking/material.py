@@ -12,7 +12,7 @@ from wallkit.walls.edge_tree import Edges
 from wallkit.walls.solid import walls_around
 from wallkit.walls.walls import Walls
 
-_POINTS = 2_000
+_PAIRS = 4_000_000  # of points and edges, looked at together
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,15 +47,16 @@ class Solids:
     def contain(self, points: FloatArray) -> NDArray[np.bool_]:
         """Tell which of (n, 2) points lie in material."""
         result = np.empty(len(points), dtype=np.bool_)
-        for begin in range(0, len(points), _POINTS):  # in portions, which bounds the memory for pairs
-            some = points[begin : begin + _POINTS]
+        portion = max(_PAIRS // max(len(self.edges), 1), 1)
+        for begin in range(0, len(points), portion):
+            some = points[begin : begin + portion]
             source, wall = walls_around(self.edges, some)
             level = np.bincount(source, self.sign[wall], len(some))
             order = np.lexsort((self.size[wall], source))
             outermost = np.full(len(some), -1)
             outermost[source[order]] = wall[order]  # the last written is the largest
             beyond = np.where(outermost >= 0, self.sign[outermost] < 0, self.around)
-            result[begin : begin + _POINTS] = np.where(level == 0, beyond, level > 0)
+            result[begin : begin + portion] = np.where(level == 0, beyond, level > 0)
         return result
 
     def innermost(self, points: FloatArray) -> IntArray:

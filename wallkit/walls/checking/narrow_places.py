@@ -8,10 +8,11 @@ disc gets through is told by lengths of edges alone (H. Edelsbrunner, The union 
 from __future__ import annotations
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.conforming_delaunay import Triangulation, cut_further
+from wallkit.geometry.triangulation import Triangulation, cut_further
 
 _DEEPEST = 40  # edges looked over: with more between two walls, their vertices are as dense as feet would be
 
@@ -70,11 +71,11 @@ def _reach(mesh: Triangulation) -> FloatArray:
 
 def _empty(mesh: Triangulation, vertex: FloatArray, foot: FloatArray) -> NDArray[np.bool_]:
     """Whether no vertex is in the circles from vertices to their feet."""
-    from scipy.spatial import cKDTree
-
     if not len(foot):
         return np.zeros(0, dtype=np.bool_)
-    nearest, _ = cKDTree(mesh.points).query((vertex + foot) / 2)
+    tree = shapely.STRtree(shapely.points(mesh.points))
+    middles = shapely.points((vertex + foot) / 2)
+    nearest = tree.query_nearest(middles, return_distance=True, all_matches=False)[1]
     half = np.hypot(*(vertex - foot).T) / 2
     empty: NDArray[np.bool_] = (half > 0) & (nearest >= half * (1 - 1e-9))
     return empty

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.conforming_delaunay import Triangulation
+from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.checking.room_circles import joined, triangles_at
 
 
@@ -34,8 +34,7 @@ class Parts:
     @classmethod
     def of(cls, mesh: Triangulation, least: float) -> Parts:
         """Find the parts; openings up to ``least`` wide count as closed."""
-        length = np.hypot(*(mesh.points[mesh.ends[:, 1]] - mesh.points[mesh.ends[:, 0]]).T)
-        part = joined(mesh, ~mesh.wall & (length > least))
+        part = joined(mesh, ~mesh.wall & (mesh.length > least))
         corners = mesh.points[mesh.corners]
         u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         size = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2

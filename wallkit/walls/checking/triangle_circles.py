@@ -1,0 +1,65 @@
+"""The room in each triangle of free space: a circle around a place in it, as far as the nearest wall."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.triangulation import Triangulation
+from wallkit.walls.checking.climbing import Segments
+
+
+def triangle_circles(mesh: Triangulation, walls: Segments, least: float) -> tuple[FloatArray, FloatArray]:
+    """Give radius and centre of the roomier of two circles of each triangle, (T,) and (T, 2).
+
+    The centres are that of the circle through the corners, if it is inside, and that of the inscribed one. The radius
+    is 0 where the circle is not asked for: beside the frame, where it is no larger than ``least``, and where a disc as
+    large as it could be gets over an edge into a triangle with a larger one, which is the room then.
+    """
+    size, place = np.zeros(len(mesh.corners)), mesh.points[mesh.corners].mean(axis=1)
+    centres = _centres(mesh)
+    most = np.stack([_to_corners(mesh, centre) for centre in centres])
+    bound: FloatArray = np.where((mesh.corners < len(mesh.points) - 4).all(axis=1), most.max(axis=0), 0.0)
+    known = bound.copy()
+    asked = np.zeros(len(bound), dtype=np.bool_)
+    asked[bound <= least] = True
+    while True:  # a circle that comes out smaller than it could be is no larger one to its neighbours
+        rows = np.flatnonzero(~asked & ~_beside_larger(mesh, bound, known))
+        if not len(rows):
+            return size, place
+        asked[rows] = True
+        for centre, limit in zip(centres, most, strict=True):
+            some = rows[limit[rows] > size[rows]]
+            distance, _ = walls.nearest(centre[some])
+            some, distance = some[distance > size[some]], distance[distance > size[some]]
+            size[some], place[some] = distance, centre[some]
+        known[rows] = size[rows]
+
+
+def _beside_larger(mesh: Triangulation, bound: FloatArray, known: FloatArray) -> NDArray[np.bool_]:
+    """Tell from which triangles a disc as large as their bound gets over an edge to a larger circle: (T,)."""
+    passes = ~mesh.wall[mesh.edge] & (mesh.length[mesh.edge] > 2 * bound[:, None]) & (mesh.neighbours >= 0)
+    larger: NDArray[np.bool_] = (passes & (known[mesh.neighbours] > bound[:, None])).sum(axis=1) > 0
+    return larger
+
+
+def _to_corners(mesh: Triangulation, centre: FloatArray) -> FloatArray:
+    """How far places in triangles are from the nearest corner, which is on a wall: (T,)."""
+    nearest: FloatArray = np.min([np.hypot(*(centre - mesh.points[mesh.corners[:, k]]).T) for k in range(3)], axis=0)
+    return nearest
+
+
+def _centres(mesh: Triangulation) -> FloatArray:
+    """Two candidates for each triangle, (2, T, 2): the centre of the circle around it, if inside, and the one in it."""
+    p, q, r = (mesh.points[mesh.corners[:, k]] for k in range(3))
+    u, v = q - p, r - p
+    double = 2 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+    uu, vv, ww = (u * u).sum(axis=1), (v * v).sum(axis=1), ((r - q) ** 2).sum(axis=1)
+    sides = np.sqrt(np.stack([ww, vv, uu], axis=1))
+    inner = (sides[:, :1] * p + sides[:, 1:2] * q + sides[:, 2:] * r) / np.maximum(sides.sum(axis=1), 1e-300)[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        around = p + np.stack([v[:, 1] * uu - u[:, 1] * vv, u[:, 0] * vv - v[:, 0] * uu], axis=1) / double[:, None]
+    largest = np.sort(np.stack([uu, vv, ww], axis=1), axis=1)
+    acute = (largest[:, 2] <= (largest[:, 0] + largest[:, 1]) * (1 + 1e-9)) & np.isfinite(around).all(axis=1)
+    return np.stack([np.where(acute[:, None], around, inner), inner])
