@@ -150,7 +150,8 @@ def result_of(numba_type: Any) -> Any:
     if isinstance(numba_type, types.Boolean | types.Number):
         return "bool" if isinstance(numba_type, types.Boolean) else numba_type.name
     if isinstance(numba_type, types.BaseAnonymousTuple):
-        return [result_of(part) for part in tuple(numba_type)]  # type: ignore[arg-type]
+        parts: Any = numba_type
+        return [result_of(part) for part in parts]
     raise TypeError(f"kernels return numbers, tuples of them, or nothing, not {numba_type}")
 
 
