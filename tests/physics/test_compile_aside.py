@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from wallkit import Balls, Scene, Walls, simulate, survey
+from wallkit import Balls, Scene, Walls, aim, simulate, survey
 from wallkit.kernels import compile_aside
 from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.jit import NotCompiledError, compile_for, compiled, kernel, never_compiling
@@ -111,7 +111,6 @@ def test_after_warm_nothing_of_that_kind_is_compiled(said, tmp_path):
     other = Scene(Walls.from_polylines([[(0, 0), (9, 0), (0, 9)]]), Balls(np.ones((300, 2)), np.ones((300, 2)), 0.1))
     with never_compiling():
         assert survey(other, bounces=3).bounces.sum() == 900
-        assert (
-            len(simulate(replace(other, balls=Balls([[1, 1]], [[1, 0]], 0.1)), bounces=3, mode="compiled").contacts)
-            == 3
-        )
+        one = replace(other, balls=Balls([[1, 1]], [[1, 0]], 0.1))
+        assert len(simulate(one, bounces=3, mode="compiled").contacts) == 3
+        assert len(aim(one, (1, 1), (3, 2, 0.2), bounces=1, radius=0.1)) > 0

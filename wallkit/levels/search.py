@@ -120,7 +120,14 @@ class Shooter:
 
     def machine_code_at_hand(self) -> bool:
         """Tell whether shots can be flown at once; where not, the kernel is being compiled aside from now on."""
-        return at_hand(compile_for, shoot, *kinds_of(self._arguments(np.ones((1, 2)))[0]))
+        return at_hand(compile_for, shoot, *self._kinds())
+
+    def warm(self) -> None:
+        """Compile the kernel of shots, or load it."""
+        compile_for(shoot, *self._kinds())
+
+    def _kinds(self) -> tuple[Any, ...]:
+        return kinds_of(self._arguments(np.ones((1, 2)))[0])
 
     def _arguments(self, velocities: FloatArray) -> tuple[tuple[Any, ...], Shots]:
         """Give what the kernel is called with for shots, and where it writes them."""
