@@ -9,10 +9,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from wallkit import Balls, Scene, Walls, simulate, survey
+from wallkit import Balls, Scene, Walls, aim, simulate, survey
 from wallkit.kernels import compile_aside
 from wallkit.kernels.compile_aside import at_hand
-from wallkit.kernels.jit import NotCompiledError, compile_for, compiled, kernel, never_compiling, types_of
+from wallkit.kernels.jit import NotCompiledError, compile_for, compiled, kernel, never_compiling
+from wallkit.kernels.signatures import kinds_of
 
 ROOM = [[(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)]]
 
@@ -38,9 +39,10 @@ def in_a_fresh_process(code, cache):
 ASIDE = """
 import json, os
 from wallkit.kernels import compile_aside
-from wallkit.kernels.jit import compile_for, compiled, never_compiling, types_of
+from wallkit.kernels.jit import compile_for, compiled, never_compiling
+from wallkit.kernels.signatures import kinds_of
 from tests.physics.test_compile_aside import half
-wanted = compile_for, half, *types_of((3,))
+wanted = compile_for, half, *kinds_of((3,))
 first = compile_aside.at_hand(*wanted)
 process = compile_aside._processes[wanted]
 code = None if process is None else process.wait()
@@ -59,12 +61,12 @@ def test_where_no_cache_can_be_written_the_call_itself_compiles(tmp_path, monkey
     nowhere = tmp_path / "file"
     nowhere.write_text("no folder")
     monkeypatch.setenv("WALLKIT_CACHE_DIR", str(nowhere))
-    assert at_hand(compile_for, half, *types_of((np.float32(3),)))
+    assert at_hand(compile_for, half, *kinds_of((np.float32(3),)))
 
 
 def test_a_process_that_cannot_start_is_none(monkeypatch):
     monkeypatch.setattr(compile_aside.sys, "executable", "/no/such/python")
-    assert at_hand(compile_for, half, *types_of((np.int8(3),)))
+    assert at_hand(compile_for, half, *kinds_of((np.int8(3),)))
 
 
 def test_never_compiling_refuses_this_thread_alone():
@@ -106,7 +108,9 @@ def test_after_warm_nothing_of_that_kind_is_compiled(said, tmp_path):
     drawing.write_text(f'<svg xmlns="http://www.w3.org/2000/svg">{path}</svg>')
     code, out, _ = said("warm", str(drawing))
     assert (code, out.splitlines()[0].split(" ... ")[0]) == (0, str(drawing))
-    other = Scene(Walls.from_polylines([[(0, 0), (9, 0), (0, 9)]]), Balls(np.ones((300, 2)), np.ones((300, 2))))
+    other = Scene(Walls.from_polylines([[(0, 0), (9, 0), (0, 9)]]), Balls(np.ones((300, 2)), np.ones((300, 2)), 0.1))
     with never_compiling():
         assert survey(other, bounces=3).bounces.sum() == 900
-        assert len(simulate(replace(other, balls=Balls([[1, 1]], [[1, 0]])), bounces=3, mode="compiled").contacts) == 3
+        one = replace(other, balls=Balls([[1, 1]], [[1, 0]], 0.1))
+        assert len(simulate(one, bounces=3, mode="compiled").contacts) == 3
+        assert len(aim(one, (1, 1), (3, 2, 0.2), bounces=1, radius=0.1)) > 0

@@ -18,9 +18,10 @@ def warm(
         list[str] | None, typer.Argument(metavar="[FILE]...", help="Drawings, walls or scenes; the samples if none.")
     ] = None,
 ) -> None:
-    """Compile what simulations of such levels need and keep it on disk: for images, CI and the first lesson."""
+    """Compile what flights and aims in such levels need and keep it on disk: for images, CI and the first lesson."""
     from wallkit.cli.scene_input import opened
     from wallkit.kernels.jit import cache_folder
+    from wallkit.levels.aim import warm_aim
     from wallkit.scene.samples import samples
     from wallkit.scene.wishes import Wishes
     from wallkit.simulation.warming import warm as warm_scene
@@ -30,5 +31,7 @@ def warm(
         typer.echo(f"{file} ... ", nl=False)
         began = time.perf_counter()
         warm_scene(scene)
+        if not scene.meeting:
+            warm_aim(scene)
         typer.echo(f"{time.perf_counter() - began:.1f} s" if len(scene.balls) else "no ball, nothing to compile")
     typer.echo(f"compiled code is kept in {cache_folder()}")

@@ -19,6 +19,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from wallkit.kernels import intrinsics
+from wallkit.kernels.machine_code import Code, file_of, loaded, read, write
+from wallkit.kernels.signatures import Kind, numba_type, result_of, taken
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -27,6 +29,8 @@ KEPT = 4
 
 _marked: list[Callable[..., Any]] = []
 _rare: list[Callable[..., Any]] = []
+_compiling, _loading = threading.Lock(), threading.Lock()
+_refusing = threading.local()
 
 
 def kernel(function: Function) -> Function:
@@ -41,42 +45,77 @@ def rare_kernel(function: Function) -> Function:
     return function
 
 
+class MachineCode:
+    """The machine-code twin of a kernel: the first call with arguments of new kinds compiles, or loads from disk."""
+
+    def __init__(self, entry: Callable[..., Any]) -> None:
+        self._entry = entry
+        self._ready: dict[tuple[Kind, ...], Callable[..., Any]] = {}
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call it, without the interpreter's lock; kernels take what lies in memory as they find it."""
+        kinds, words = taken(arguments)
+        return (self._ready.get(kinds) or self.make_ready(kinds))(words)
+
+    def make_ready(self, kinds: tuple[Kind, ...]) -> Callable[..., Any]:
+        """Compile for arguments of these kinds, or load what was; give what takes their words.
+
+        Raises:
+            NotCompiledError: where nothing may be compiled, see :func:`never_compiling`.
+        """
+        file = file_of(cache_folder(), self._entry, kinds)
+        if (code := read(file)) is not None:
+            return self._load(code, kinds)
+        if getattr(_refusing, "now", False):
+            raise NotCompiledError
+        with _compiling:
+            if kinds not in self._ready:  # no other thread has compiled it meanwhile
+                if (code := read(file)) is None:
+                    code = _compile(self._entry, kinds)
+                    write(file, code)
+                self._load(code, kinds)
+            return self._ready[kinds]
+
+    def _load(self, code: Code, kinds: tuple[Kind, ...]) -> Callable[..., Any]:
+        with _loading:
+            if kinds not in self._ready:
+                self._ready[kinds] = loaded(code, kinds)
+            return self._ready[kinds]
+
+
 @cache
 def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     """Give the machine-code twin of a kernel; the first call of a new signature compiles, or loads from disk.
 
-    Numba's cache notices an edited entry point, but not an edited kernel that it calls from another file, so
-    the cache lives in a folder named by a digest of all kernel sources. ``WALLKIT_CACHE_DIR`` moves it; where
-    no folder can be written, compiled code lasts as long as the process.
+    Machine code lies in a folder named by a digest of all kernel sources, for a kernel changes with those that it
+    calls. ``WALLKIT_CACHE_DIR`` moves it; where no folder can be written, compiled code lasts as long as the process.
+    With ``NUMBA_DISABLE_JIT`` set there is none, and the kernel itself is given back.
     """
+    return entry if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0") else MachineCode(entry)
+
+
+def _compile(entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Code:
+    """Let Numba compile a kernel: its function alone, without what would call it from Python."""
     import numba  # no kernel allocates, so none counts references (_nrt): that alone is a factor of two
-    from numba import config
     from numba.extending import register_jitable
 
     _register_all(register_jitable)
     intrinsics.register()
-    options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False}
-    theirs = getattr(config, "CACHE_DIR", "")
-    setattr(config, "CACHE_DIR", str(cache_folder()))  # noqa: B010 - numba makes its settings at run time
-    try:
-        return numba.njit(cache=True, **options)(entry)  # type: ignore[no-any-return]
-    except RuntimeError:  # numba's word for "no folder can be written"
-        return numba.njit(**options)(entry)  # type: ignore[no-any-return]
-    finally:
-        setattr(config, "CACHE_DIR", theirs)  # noqa: B010
+    dispatcher: Any = numba.njit(nogil=True, error_model="numpy", **BARE)(entry)
+    types = tuple(map(numba_type, kinds))
+    dispatcher.compile(types)
+    made = dispatcher.overloads[types]
+    return Code(made.fndesc.llvm_func_name, result_of(made.signature.return_type), made.library._get_compiled_object())
 
 
-def compile_for(entry: Callable[..., Any], *types: Any) -> None:
-    """Compile a kernel for Numba's types of its arguments, or take it from the disk."""
-    machine_code: Any = compiled(entry)
-    machine_code.compile(types)
+BARE: dict[str, Any] = {"_nrt": False, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+"""Kernels allocate nothing, so that none counts references, and are called by other kernels or by their address."""
 
 
-def types_of(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Give Numba's types of a kernel's arguments."""
-    from numba import typeof
-
-    return tuple(typeof(argument) for argument in arguments)
+def compile_for(entry: Callable[..., Any], *kinds: Kind) -> None:
+    """Compile a kernel for arguments of some kinds, or take it from the disk."""
+    if isinstance(twin := compiled(entry), MachineCode):
+        twin.make_ready(kinds)
 
 
 class NotCompiledError(Exception):
@@ -90,41 +129,36 @@ def never_compiling() -> Iterator[None]:
     Raises:
         NotCompiledError: one would have to be compiled.
     """
-    from numba.core import event
-
-    here = threading.get_ident()
-
-    class Refusal(event.Listener):
-        """Numba looks on the disk first, and says that it compiles just before it does."""
-
-        def on_start(self, event: Any) -> None:
-            if threading.get_ident() == here:
-                raise NotCompiledError
-
-        def on_end(self, event: Any) -> None:
-            """Nothing of ours ever ends."""
-
-    with event.install_listener("numba:compile", Refusal()):
+    before = getattr(_refusing, "now", False)
+    _refusing.now = True
+    try:
         yield
+    finally:
+        _refusing.now = before
 
 
 def _register_all(register: Callable[..., Any]) -> None:
     """Tell Numba of the kernels marked since the last time: some modules are imported after the first compiling."""
     while _marked:
-        register(forceinline=True, _nrt=False)(_marked.pop())
+        register(forceinline=True, **BARE)(_marked.pop())
     while _rare:
-        register(_nrt=False)(_rare.pop())
+        register(**BARE)(_rare.pop())
 
 
 def cache_folder() -> Path:
     """Give the folder of the machine code of these very kernels."""
+    own = _cache_home() / f"kernels-{_sources()}"
+    _clear_older(own)
+    return own
+
+
+@cache
+def _sources() -> str:
     digest = hashlib.sha256()
     folder = Path(__file__).parent
     for path in sorted(folder.rglob("*.py")):  # kernels live in subfolders too
         digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes())
-    own = _cache_home() / f"kernels-{digest.hexdigest()[:16]}"
-    _clear_older(own)
-    return own
+    return digest.hexdigest()[:16]
 
 
 @cache

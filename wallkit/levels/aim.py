@@ -13,7 +13,7 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.levels.obstacles import obstacles_of
 from wallkit.levels.search import APART, FINEST, Searched, Shooter, search
 from wallkit.levels.targets import Disc, target_of
-from wallkit.levels.unfolding import Unfolded, unfold, unfolding_at_hand
+from wallkit.levels.unfolding import Unfolded, unfold, unfolding_at_hand, warm_unfolding
 from wallkit.levels.windows import NONE, Windows, merged
 from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.scene.start_overlaps import check_starts
@@ -104,6 +104,21 @@ def machine_code_at_hand(scene: Scene, start: Place, target: Disc, radius: float
     if not unfolds or not obstacles_of(alone.walls, radius).twice.all():
         ready = Shooter.of(alone, start, target, 1, radius, SPEED).machine_code_at_hand() and ready
     return ready
+
+
+def warm_aim(scene: Scene) -> None:
+    """Compile the kernels that ``aim`` uses in scenes like this one; those on the disk are loaded.
+
+    Args:
+        scene: one with a ball at least, which is what is aimed with; nothing is done without.
+    """
+    if not len(scene.balls):
+        return
+    (x, y), radius = scene.balls.position[0].tolist(), float(scene.balls.radius[0])
+    alone = replace(scene, balls=Balls([(x, y)], [(SPEED, 0.0)], radius), sensors=None)
+    if _unfolds(alone):
+        warm_unfolding()
+    Shooter.of(alone, (x, y), (x, y, 1.0), 1, radius, SPEED).warm()
 
 
 def _pair(value: Sequence[float], name: str) -> tuple[float, float]:

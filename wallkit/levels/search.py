@@ -15,8 +15,9 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.beams.rays import NEVER, Scratch, Shots, shoot
 from wallkit.kernels.beams.wedges import Target
 from wallkit.kernels.compile_aside import at_hand
-from wallkit.kernels.jit import compile_for, compiled, types_of
+from wallkit.kernels.jit import compile_for, compiled
 from wallkit.kernels.records import LOG_STRIDE, NO_HIT
+from wallkit.kernels.signatures import kinds_of
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.sensors import modelled_sensors
@@ -119,7 +120,14 @@ class Shooter:
 
     def machine_code_at_hand(self) -> bool:
         """Tell whether shots can be flown at once; where not, the kernel is being compiled aside from now on."""
-        return at_hand(compile_for, shoot, *types_of(self._arguments(np.ones((1, 2)))[0]))
+        return at_hand(compile_for, shoot, *self._kinds())
+
+    def warm(self) -> None:
+        """Compile the kernel of shots, or load it."""
+        compile_for(shoot, *self._kinds())
+
+    def _kinds(self) -> tuple[Any, ...]:
+        return kinds_of(self._arguments(np.ones((1, 2)))[0])
 
     def _arguments(self, velocities: FloatArray) -> tuple[tuple[Any, ...], Shots]:
         """Give what the kernel is called with for shots, and where it writes them."""

@@ -15,7 +15,8 @@ from wallkit.geometry.orientation import side
 from wallkit.kernels.beams.beams import DONE, split_beams
 from wallkit.kernels.beams.wedges import EVENTS, EXIT, FRAME, NUMBERS, OPEN, SEARCH, Found, Room, Target
 from wallkit.kernels.compile_aside import at_hand
-from wallkit.kernels.jit import compile_for, compiled, types_of
+from wallkit.kernels.jit import compile_for, compiled
+from wallkit.kernels.signatures import kinds_of
 from wallkit.levels.obstacles import Obstacles
 from wallkit.scene.scene import SceneError
 
@@ -105,10 +106,19 @@ def unfold(
 
 def unfolding_at_hand() -> bool:
     """Tell whether beams can be followed at once; where not, the kernel is being compiled aside from now on."""
+    return at_hand(compile_for, split_beams, *_kinds())
+
+
+def warm_unfolding() -> None:
+    """Compile the kernel that follows beams, or load it."""
+    compile_for(split_beams, *_kinds())
+
+
+def _kinds() -> tuple[Any, ...]:
     none, numbers = np.zeros(3), np.zeros(3, dtype=np.int64)
     room = Room(none, none, numbers, numbers, np.zeros((1, 4)))
     arguments = room, Target(0.0, 0.0, 1.0), 1, _found(room, [], 1), 1
-    return at_hand(compile_for, split_beams, *types_of(arguments))
+    return kinds_of(arguments)
 
 
 def _twice(array: Any) -> Any:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.compile_aside import at_hand
-from wallkit.kernels.jit import compile_for, compiled, types_of
+from wallkit.kernels.jit import compile_for, compiled
 from wallkit.kernels.meeting.cell_list import row_and_column
 from wallkit.kernels.meeting.meet import begin, lay_out, meet
 from wallkit.kernels.meeting.records import (
@@ -43,6 +43,7 @@ from wallkit.kernels.meeting.records import (
 )
 from wallkit.kernels.meeting.wall_contacts import states_at
 from wallkit.kernels.records import AT_REST, LOG_STRIDE, STATE, STATE_SIZE, TIME_REACHED, Counts, in_lists
+from wallkit.kernels.signatures import kinds_of
 from wallkit.scene.scene import Scene
 from wallkit.simulation.aligned_arrays import on_cache_lines
 from wallkit.simulation.damping import damping_of
@@ -122,7 +123,7 @@ class Meeting:
             (states_at, (model, model.gravity, discs, 0.0, states, endings)),
             (lay_out, (discs,)),
         ]
-        return at_hand(compile_each, *((entry, types_of(arguments)) for entry, arguments in called))
+        return at_hand(compile_each, *((entry, kinds_of(arguments)) for entry, arguments in called))
 
     def _made(self, scene: Scene, start: Counts, per_disc: float) -> Discs:
         from wallkit.simulation.simulate import initial_states

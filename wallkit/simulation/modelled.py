@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.records import CELL, Model, in_lists
+from wallkit.kernels.signatures import Told
 from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.simulation.build_grid import build_grid
 from wallkit.simulation.damping import damping_of, slowing_of
@@ -71,6 +72,7 @@ class Modelled:
         self.origin = local_origin(scene.walls.vertices) if origin is None else origin
         self.model = self._made(scene, index, machine_code, fine)
         self._lists: Model | None = None
+        self._told: Told | None = None
 
     def _made(self, scene: Scene, index: str, machine_code: bool, fine: bool) -> Model:
         walls, radius = scene.walls, float(self.radii.max(initial=0.0))
@@ -146,7 +148,7 @@ class Modelled:
         edges, corners = len(self.model.edge_wall), len(self.model.corner_wall)
         other = copy(self)
         other.model = self.model._replace(edge_tally=np.arange(edges), corner_tally=np.arange(edges, edges + corners))
-        other.tallies, other._lists = edges + corners, None
+        other.tallies, other._lists, other._told = edges + corners, None, None
         return other
 
     @property
@@ -155,6 +157,13 @@ class Modelled:
         if self._lists is None:
             self._lists = in_lists(self.model)
         return self._lists
+
+    @property
+    def told(self) -> Told:
+        """The model as an argument of compiled kernels that are called once a contact."""
+        if self._told is None:
+            self._told = Told(self.model)
+        return self._told
 
     def index_of_edge(self, scene: Scene) -> tuple[IntArray, IntArray]:
         """Give wall and edge within the wall of each edge overall."""

@@ -16,7 +16,7 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.flight.flight import FALLING_TOLERANCE, TOLERANCE, fly, fly_all
 from wallkit.kernels.flight.resting import side_of
-from wallkit.kernels.jit import compile_for, compiled, types_of
+from wallkit.kernels.jit import compile_for, compiled
 from wallkit.kernels.records import (
     COUNT,
     LOG,
@@ -29,6 +29,7 @@ from wallkit.kernels.records import (
     STATE_SIZE,
     Counts,
 )
+from wallkit.kernels.signatures import kinds_of
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.scene.start_overlaps import check_apart, check_starts, settled
 from wallkit.simulation.modelled import Modelled
@@ -175,7 +176,7 @@ class Flights:
     ) -> tuple[Any, ...]:
         """Give what the compiled kernel is called with for one ball."""
         model, room = self.modelled.model, len(log) // LOG_STRIDE
-        return model, model.gravity, np.array([radius]), states, counts, until, limit, self.hits, log, room
+        return self.modelled.told, model.gravity, np.array([radius]), states, counts, until, limit, self.hits, log, room
 
     def machine_code_at_hand(self) -> bool:
         """Tell whether a compiled flight would begin at once; where not, it is being compiled from now on."""
@@ -183,7 +184,7 @@ class Flights:
             return True
         state, counts, log = np.zeros((1, STATE_SIZE)), np.array([START], dtype=np.int64), np.empty(LOG_STRIDE)
         arguments = self._arguments(0.0, state, counts, math.inf, 1, log)
-        return at_hand(compile_for, fly_all, *types_of(arguments))
+        return at_hand(compile_for, fly_all, *kinds_of(arguments))
 
     def next_contact(self, ball: int) -> FloatArray | None:
         """Fly a ball on to its next contact, (LOG_STRIDE,); None if it has none."""

@@ -1,0 +1,121 @@
+"""Machine code from the disk: the kinds of arguments that it is found by, and calls without Numba."""
+
+import json
+import os
+import subprocess
+import sys
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from wallkit.kernels.jit import compiled, kernel
+from wallkit.kernels.machine_code import file_of, read
+from wallkit.kernels.signatures import Told, kinds_of, numba_type
+
+RECORD = np.dtype([("a", np.float64), ("b", np.uint32)], align=True)
+
+
+class Pair(NamedTuple):
+    left: object
+    right: object
+
+
+ARGUMENTS = [
+    3,
+    2.5,
+    True,
+    None,
+    np.int16(-3),
+    np.float32(1.5),
+    np.uint32(7),
+    np.arange(6.0),
+    np.arange(6.0)[::2],
+    np.zeros((2, 3), dtype=np.int64),
+    np.asfortranarray(np.zeros((2, 3))),
+    np.zeros(0, dtype=np.uint8),
+    np.zeros(3, dtype=RECORD),
+    (1, 2.0, (3,)),
+    Pair(np.zeros(2), None),
+]
+
+
+@pytest.mark.parametrize("argument", ARGUMENTS, ids=lambda argument: type(argument).__name__)
+def test_kinds_are_those_that_numba_tells(argument):
+    import numba
+
+    assert numba_type(kinds_of((argument,))[0]) == numba.typeof(argument)
+
+
+def test_an_array_that_cannot_be_written_to_is_of_the_same_kind():
+    frozen = np.zeros(3)
+    frozen.flags.writeable = False
+    assert kinds_of((frozen,)) == kinds_of((np.zeros(3),))
+
+
+@kernel
+def looked_up(pair, table, row, scale, flag, none):
+    """What each kind of argument comes to: taken apart, read and written."""
+    found = pair.left[1] * scale + table[0, 1] + row[2].a
+    pair.left[0] = found
+    return found, len(table), flag and none is None
+
+
+def test_arguments_of_each_kind_arrive_and_results_come_back():
+    def arguments():
+        table = np.arange(12.0).reshape(3, 4)[:, ::2].T[:, 1:]  # neither C's order nor Fortran's
+        row = np.zeros(3, dtype=RECORD).view(np.recarray)
+        row["a"] = (1.0, 2.0, 4.0)
+        return Pair(np.array([0.0, 3.0]), None), table, row, 2.0, True, None
+
+    plain, machine, told = arguments(), arguments(), arguments()
+    expected = looked_up(*plain)
+    assert compiled(looked_up)(*machine) == expected
+    assert compiled(looked_up)(Told(told[0]), *told[1:]) == expected
+    assert plain[0].left[0] == machine[0].left[0] == told[0].left[0]
+
+
+def test_what_no_kernel_takes_is_refused():
+    with pytest.raises(TypeError, match="not a str"):
+        compiled(looked_up)("text")
+
+
+@kernel
+def doubled(x):
+    return 2 * x
+
+
+@pytest.mark.parametrize("damage", [lambda told: told[:-40], lambda told: b"", lambda told: b"{}\n" + told])
+def test_a_damaged_file_is_compiled_anew(damage, tmp_path, monkeypatch):
+    from wallkit.kernels.jit import MachineCode, cache_folder
+
+    monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
+    assert MachineCode(doubled)(3) == 6
+    file = file_of(cache_folder(), doubled, kinds_of((3,)))
+    good = file.read_bytes()
+    file.write_bytes(damage(good))
+    assert read(file) is None
+    assert MachineCode(doubled)(3) == 6
+    assert read(file) is not None
+    assert [path.name for path in file.parent.iterdir()] == [file.name]
+
+
+AGAIN = """
+import json, sys
+import numpy as np
+from wallkit import Balls, Scene, Walls, survey
+walls = Walls.from_polylines([[(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)]])
+scene = Scene(walls, Balls(np.full((300, 2), 9.0), np.arange(600.0).reshape(300, 2), radius=1.0))
+print(json.dumps([survey(scene, bounces=5).position.tobytes().hex(), "numba" in sys.modules]))
+"""
+
+
+def test_once_compiled_a_survey_needs_no_numba(tmp_path):
+    path = os.pathsep.join(filter(None, sys.path))
+    env = {**os.environ, "WALLKIT_CACHE_DIR": str(tmp_path), "PYTHONPATH": path}
+    first, again = (
+        json.loads(subprocess.run([sys.executable, "-c", AGAIN], env=env, capture_output=True, check=True).stdout)
+        for _ in range(2)
+    )
+    assert first == [again[0], True]
+    assert again[1] is False

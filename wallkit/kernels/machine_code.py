@@ -1,0 +1,117 @@
+"""Machine code on the disk: written once a kernel was compiled, loaded by LLVM alone and called by its address.
+
+Neither needs Numba, of which the import and the loading of its own caches take longer than many a survey.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import hashlib
+import json
+import os
+import threading
+import zlib
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from wallkit.kernels.signatures import Kind, result_from, result_type, word_types
+
+FINE = (0, -2)
+"""What a kernel's call returns when nothing was raised: it has a result, or it has none."""
+SILENT = ("NUMBA_CACHE_DIR", "NUMBA_NUM_THREADS")
+"""Settings of Numba that make no difference to machine code."""
+
+
+class Code(NamedTuple):
+    """Machine code of a kernel for arguments of some kinds.
+
+    Attributes:
+        symbol: name of its function.
+        result: kind of what it returns, see ``signatures.result_of``.
+        image: the object file, as bytes.
+    """
+
+    symbol: str
+    result: Any
+    image: bytes
+
+
+def file_of(folder: Path, entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Path:
+    """Name the file of a kernel's machine code for this processor."""
+    digest = hashlib.sha256(f"{_processor()}{kinds!r}".encode()).hexdigest()
+    return folder / f"{entry.__module__.rpartition('.')[2]}.{entry.__qualname__}-{digest[:24]}.code"
+
+
+@cache
+def _processor() -> str:
+    """Describe what machine code is made for: the processor, and what may have been set for Numba."""
+    import llvmlite
+    from llvmlite import binding
+
+    told = [
+        f"{name}={value}"
+        for name, value in sorted(os.environ.items())
+        if name.startswith("NUMBA_") and name not in SILENT
+    ]
+    with contextlib.suppress(RuntimeError):  # LLVM does not know what this processor has
+        told.append(binding.get_host_cpu_features().flatten())
+    return "\n".join([llvmlite.__version__, binding.get_process_triple(), binding.get_host_cpu_name(), *told])
+
+
+def read(file: Path) -> Code | None:
+    """Read machine code: None where there is none, or not the whole of it."""
+    try:
+        told, _, image = file.read_bytes().partition(b"\n")
+        symbol, result, check = json.loads(told)
+    except (OSError, ValueError):
+        return None
+    return Code(symbol, result, image) if zlib.crc32(image) == check else None
+
+
+def write(file: Path, code: Code) -> None:
+    """Write machine code, as a whole or not at all; where nothing can be written it is not."""
+    told = json.dumps([code.symbol, code.result, zlib.crc32(code.image)])
+    part = file.with_name(f"{file.name}.{os.getpid()}-{threading.get_ident()}")
+    with contextlib.suppress(OSError):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            part.write_bytes(told.encode() + b"\n" + code.image)
+            part.replace(file)
+        finally:
+            part.unlink(missing_ok=True)
+
+
+def loaded(code: Code, kinds: tuple[Kind, ...]) -> Callable[..., Any]:
+    """Load machine code: what takes the words of arguments of these kinds, and gives back what the kernel returns."""
+    engine = _engine()
+    from llvmlite import binding
+
+    engine.add_object_file(binding.ObjectFileRef.from_data(code.image))
+    engine.finalize_object()
+    pointer, returned = ctypes.c_void_p, result_type(code.result)
+    prototype: Any = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, pointer, *word_types(kinds))
+    function = prototype(engine.get_function_address(code.symbol))
+    by_reference, kind = ctypes.byref, code.result
+
+    def call(words: list[Any]) -> Any:
+        room, error = returned(), pointer()
+        status = function(by_reference(room), by_reference(error), *words)
+        if status not in FINE:
+            raise RuntimeError(f"a kernel ended with status {status}: {code.symbol}")
+        return result_from(kind, room)
+
+    return call
+
+
+@cache
+def _engine() -> Any:
+    """Give LLVM's home of machine code: for this process, for good."""
+    from llvmlite import binding
+
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    machine = binding.Target.from_triple(binding.get_process_triple()).create_target_machine(jit=True)
+    return binding.create_mcjit_compiler(binding.parse_assembly(""), machine)

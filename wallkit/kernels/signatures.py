@@ -1,0 +1,176 @@
+"""What kind each argument of a kernel is, and the machine words that it is handed over as.
+
+Both are told without Numba, whose import takes longer than a short survey: machine code that lies on the disk is found
+by the kinds, and called with the words. The words are those of Numba's own calls: an array is eight or more of them,
+a tuple those of its items, None one that nobody looks at.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+
+C_ORDER, F_ORDER, ALIGNED = 0x1, 0x2, 0x100
+"""Of ``ndarray.flags.num``, as NumPy's C interface numbers them."""
+INTEGER, FLOATING, TRUTH = np.dtype(np.int64), np.dtype(np.float64), np.dtype(np.bool_)
+Kind = Any
+"""None; a dtype, of a number; ("record", dtype); ("array", dtype, dimensions, order, aligned); (class, *kinds), of a
+tuple. It can be hashed and sent, and its ``repr`` is the same in each process. Whether an array may be written to makes
+no difference: one that may not is only given to kernels that read it, which need not be compiled twice."""
+
+
+class Told:
+    """An argument whose kind and words were told before, for calls that take less time than telling them.
+
+    Attributes:
+        value: the argument; what it holds of arrays must stay as it is.
+    """
+
+    __slots__ = ("kind", "value", "words")
+
+    def __init__(self, value: tuple[Any, ...]) -> None:
+        self.value, self.words = value, list[Any]()
+        self.kind = _tuple_of(value, self.words)
+
+
+def kinds_of(arguments: tuple[Any, ...]) -> tuple[Kind, ...]:
+    """Give the kinds of a kernel's arguments."""
+    return _tuple_of(arguments, [])[1:]
+
+
+def taken(arguments: tuple[Any, ...]) -> tuple[tuple[Kind, ...], list[Any]]:
+    """Give the kinds of arguments, and their words; the arguments must outlive these.
+
+    Raises:
+        TypeError: one is nothing that kernels take.
+    """
+    words: list[Any] = []
+    return _tuple_of(arguments, words)[1:], words
+
+
+def _tuple_of(values: tuple[Any, ...], words: list[Any]) -> tuple[Any, ...]:
+    kinds: list[Kind] = [type(values)]
+    for value in values:
+        of = type(value)
+        if of is np.ndarray:
+            kinds.append(_array(value, words))
+        elif of is float:
+            kinds.append(FLOATING)
+            words.append(value)
+        elif of is int:
+            kinds.append(INTEGER)
+            words.append(value)
+        elif of is Told:
+            kinds.append(value.kind)
+            words += value.words
+        elif value is None:
+            kinds.append(None)
+            words.append(None)
+        elif isinstance(value, tuple):
+            kinds.append(_tuple_of(value, words))
+        else:
+            kinds.append(_other(value, words))
+    return tuple(kinds)
+
+
+def _array(array: Any, words: list[Any]) -> Kind:
+    """Two owners, which nobody looks at; how many items, of how many bytes; where they lie; shape and strides."""
+    flags = array.flags.num
+    order = "C" if flags & C_ORDER else "F" if flags & F_ORDER else "A"
+    words += (None, None, array.size, array.itemsize, array.ctypes.data, *array.shape, *array.strides)
+    return "array", array.dtype, array.ndim, order, bool(flags & ALIGNED)
+
+
+def _other(value: Any, words: list[Any]) -> Kind:
+    if isinstance(value, np.void):  # a record: where it lies
+        words.append(value.__array_interface__["data"][0])
+        return "record", value.dtype
+    if isinstance(value, np.ndarray):
+        return _array(value, words)
+    if isinstance(value, np.number | np.bool_):
+        words.append(value.item())
+        return value.dtype
+    for python, kind in ((bool, TRUTH), (int, INTEGER), (float, FLOATING)):
+        if isinstance(value, python):
+            words.append(python(value))
+            return kind
+    raise TypeError(f"kernels take numbers, arrays, tuples and None, not a {type(value).__qualname__}")
+
+
+def word_types(kinds: tuple[Kind, ...]) -> list[Any]:
+    """Give the types of C that the words of these kinds have."""
+    found: list[Any] = []
+    for kind in kinds:
+        if isinstance(kind, np.dtype):
+            found.append(number_type(kind))
+        elif kind is None or kind[0] == "record":
+            found.append(ctypes.c_void_p)
+        elif kind[0] == "array":
+            found += [ctypes.c_void_p] * 2 + [ctypes.c_int64] * 2 + [ctypes.c_void_p] + [ctypes.c_int64] * 2 * kind[2]
+        else:
+            found += word_types(kind[1:])
+    return found
+
+
+def number_type(dtype: np.dtype[Any]) -> Any:
+    """Give the type of C that a number has."""
+    return ctypes.c_bool if dtype == TRUTH else np.ctypeslib.as_ctypes_type(dtype)
+
+
+def numba_type(kind: Kind) -> Any:
+    """Give Numba's type of a kind."""
+    from numba import types
+    from numba.np.numpy_support import from_dtype
+
+    if kind is None:
+        return types.none
+    if isinstance(kind, np.dtype):
+        return from_dtype(kind)
+    if kind[0] == "record":
+        return from_dtype(kind[1])
+    if kind[0] == "array":
+        _, dtype, dimensions, order, aligned = kind
+        return types.Array(from_dtype(dtype), dimensions, order, aligned=aligned)
+    return types.BaseTuple.from_types(tuple(map(numba_type, kind[1:])), kind[0])
+
+
+def result_of(numba_type: Any) -> Any:
+    """Give the kind of what a kernel returns, of Numba's type: None, a number's name, or a list of such.
+
+    Raises:
+        TypeError: it is nothing that kernels return.
+    """
+    from numba import types
+
+    numba_type = types.unliteral(numba_type)
+    if numba_type is types.none:
+        return None
+    if isinstance(numba_type, types.Boolean | types.Number):
+        return "bool" if isinstance(numba_type, types.Boolean) else numba_type.name
+    if isinstance(numba_type, types.BaseAnonymousTuple):
+        parts: Any = numba_type
+        return [result_of(part) for part in parts]
+    raise TypeError(f"kernels return numbers, tuples of them, or nothing, not {numba_type}")
+
+
+def result_type(kind: Any) -> Any:
+    """Give the type of C of a kernel's result."""
+    if kind is None:
+        return ctypes.c_void_p
+    if isinstance(kind, str):
+        return number_type(np.dtype(kind))
+    fields = [(f"part{number}", result_type(part)) for number, part in enumerate(kind)]
+    return type("Result", (ctypes.Structure,), {"_fields_": fields})
+
+
+def result_from(kind: Any, returned: Any) -> Any:
+    """Give what a kernel returned, as Python has it."""
+    if kind is None:
+        return None
+    if isinstance(kind, str):
+        return returned.value if isinstance(returned, ctypes._SimpleCData) else returned
+    return tuple(
+        result_from(part, getattr(returned, name)) for part, (name, _) in zip(kind, returned._fields_, strict=True)
+    )
