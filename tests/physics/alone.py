@@ -1,8 +1,10 @@
 """Surveys of balls that fly together, held against the same balls flown alone, or without an index."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from wallkit import Balls, Scene, survey
+from wallkit import Balls, survey
 from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.prepared import PreparedScene, prepare
 
@@ -29,7 +31,7 @@ def assert_as_alone(scene, few, **limits):
     for first in range(0, len(position), few):
         part = slice(first, first + few)
         balls = Balls(position[part], velocity[part], radius[part])
-        alone = survey(prepare(Scene(scene.walls, balls), check=False), **limits)
+        alone = survey(prepare(replace(scene, balls=balls), check=False), **limits)
         hits = hits + alone.hits
         for name in ("bounces", "position", "velocity", "time", "ending"):
             np.testing.assert_array_equal(getattr(together, name)[part], getattr(alone, name), err_msg=name)

@@ -8,7 +8,7 @@ from alone import assert_as_alone
 
 from wallkit import Balls, Ending, Scene, Walls
 from wallkit.accuracy import scenes
-from wallkit.kernels.batches.lockstep import LANES
+from wallkit.kernels.batches.lockstep_lanes import LANES
 from wallkit.simulation.prepared import prepare
 from wallkit.simulation.survey_backends import WORTH_LOCKSTEP, suits_lockstep
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
-from wallkit.kernels.batches.lockstep import Outcome
+from wallkit.kernels.batches.lockstep_lanes import Outcome
 from wallkit.kernels.flight.flight import end_all
 from wallkit.kernels.flight.watch import OTHER, REGULAR, REPEATS, ROWS, SLOW, Watch, fly_watched
 from wallkit.kernels.jit import compiled

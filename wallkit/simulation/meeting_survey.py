@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wallkit.kernels.batches.lockstep import Outcome
+from wallkit.kernels.batches.lockstep_lanes import Outcome
 from wallkit.simulation.meeting import Meeting
 from wallkit.simulation.meeting_run import ends, fly_points, simulate_meeting
 from wallkit.simulation.prepared import PreparedScene

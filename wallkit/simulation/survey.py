@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from wallkit.arguments import flag, of_type, whole_number
 from wallkit.geometry.arrays import FloatArray
-from wallkit.kernels.batches.lockstep import Outcome
+from wallkit.kernels.batches.lockstep_lanes import Outcome
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.simulation.meeting_rules import refuse_meeting
 from wallkit.simulation.meeting_survey import fly_together, survey_each

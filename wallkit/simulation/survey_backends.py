@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.batches.ball_queue import Queue
-from wallkit.kernels.batches.lockstep import LANES, MOST_EDGES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start, fly_in_step
+from wallkit.kernels.batches.lockstep import MOST_EDGES, fly_in_step
+from wallkit.kernels.batches.lockstep_lanes import LANES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start
 from wallkit.kernels.batches.wave import MET, WAVES, WaveScratch, fly_wave
 from wallkit.kernels.batches.wave_columns import COUNTS, FLOATS, INTEGERS, LISTED, MOVER
 from wallkit.kernels.batches.wave_columns import LANES as WAVE
@@ -53,7 +54,7 @@ def _fly_in_step(ready: PreparedScene, until: float, limit: int, outcome: Outcom
     def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
         scratch = _scratch(len(model.ids))
         return lambda stop: compiled(fly_in_step)(
-            model, radius, start, queue, stop, until, limit, hits, outcome, scratch
+            model, model.gravity, radius, start, queue, stop, until, limit, hits, outcome, scratch
         )
 
     with _from_one_counter(ready, batches) as work:
@@ -124,6 +125,9 @@ def _scratch(rows: int) -> Scratch:
         ended=np.empty(LANES + 1, dtype=np.uint32),
         met=np.empty(LANES, dtype=np.uint32),
         rows=np.zeros((rows, ROW_SIZE)),
+        state=np.zeros(STATE_SIZE),
+        counts=np.zeros(len(START), dtype=np.int64),
+        log=np.empty(0),
     )
 
 
@@ -194,8 +198,8 @@ def suits_wave(model: Model, radii: FloatArray) -> bool:
 
 
 def suits_lockstep(model: Model, radii: FloatArray) -> bool:
-    """Few lines and corners, one radius, and nothing else that acts."""
-    features = (model.grid, model.arcs, model.gravity, model.damping, model.restitution, model.one_sided)
+    """Few lines and corners, and one radius; drag under gravity alone bends paths too much."""
+    features = (model.grid, model.arcs, model.drag)
     lines, corners = int(model.cells[0]["arcs"]), int(model.cells[0]["end"] - model.cells[0]["corners"])
     few = lines <= MOST_EDGES and corners <= 2 * MOST_EDGES
     if len(radii) < WORTH_LOCKSTEP or not few:

@@ -38,14 +38,21 @@ def free_time(damping, energy, span):
     """Free time of a ball of squared speed ``energy`` in a span of time, which may be inf."""
     if damping is None:
         return span
-    stop, whole = stopping(damping, energy)
-    if span >= stop:
-        return whole
     if damping[1] > 0.0:
+        stop, whole = stopping(damping, energy)
+        if span >= stop:
+            return whole
         # The way in T is u (1 - e^(-c T)) / c.
         return min(-math.expm1(-damping[1] * span) / damping[1], whole)
+    return free_time_rolling(damping, energy, span)
+
+
+@kernel
+def free_time_rolling(damping, energy, span):
+    """``free_time`` of a ball that rolling friction slows down."""
+    stop = math.sqrt(energy) / damping[0]
     # The way in T is u T - a T^2 / 2 = u T (1 - T / 2 stop).
-    return span * (1.0 - 0.5 * (span / stop))
+    return 0.5 * stop if span >= stop else span * (1.0 - 0.5 * (span / stop))
 
 
 @kernel
@@ -57,10 +64,17 @@ def slowed(damping, energy, t, most):
         # c t = 1 - e^(-c T), so T = -ln(1 - c t) / c, and e^(-c T) = 1 - c t of the speed is left.
         part = damping[1] * t
         return min(-math.log1p(-part) / damping[1], most), 1.0 - part
-    stop, _whole = stopping(damping, energy)
+    return slowed_rolling(damping, energy, t, most)
+
+
+@kernel
+def slowed_rolling(damping, energy, t, most):
+    """``slowed`` of a ball that rolling friction slows down."""
+    stop = math.sqrt(energy) / damping[0]
     # u'^2 = u^2 - 2 a u t, and the way u t at the mean speed (u + u') / 2 takes 2 t / (1 + k), k = u' / u.
     kept = math.sqrt(1.0 - 2.0 * t / stop)
-    return min(2.0 * t / (1.0 + kept), most), kept
+    taken = 2.0 * t / (1.0 + kept)
+    return taken if taken < most else most, kept
 
 
 @kernel

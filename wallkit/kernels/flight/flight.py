@@ -45,6 +45,7 @@ TOLERANCE = 2.0**-47
 FALLING_TOLERANCE = 2.0**-41
 """The same under gravity: |v| t and g t^2 / 2 come to eight times the extent each before they cancel (up and down
 again in a room), and times are roots of polynomials: eight times eight as much."""
+FALLING_OVER = FALLING_TOLERANCE / TOLERANCE
 HOLDS = (JOINING, PASSING, SLIDING, LEAVING, STARTING)
 """How a ball is held that a wall, not a flight, moves on: see ``resting.keep``."""
 

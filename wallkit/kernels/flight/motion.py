@@ -29,16 +29,28 @@ def reflect(restitution, wall, nx, ny, twice, vx, vy, energy):
     normal = vx * nx + vy * ny
     factor = normal * twice
     if restitution is None:
-        return _with_energy(vx - factor * nx, vy - factor * ny, energy)
+        return with_energy(vx - factor * nx, vy - factor * ny, energy)
     e = restitution[2 * wall]
     f = restitution[2 * wall + 1]
     before = energy
     # The normal part of v is (v.n) n / n.n, its square (v.n)^2 / n.n = factor normal / 2.
-    energy = f * f * energy + (e * e - f * f) * (0.5 * factor * normal)
+    energy = squared_after(e, f, energy, 0.5 * factor * normal)
     if energy < NEARLY_ALL * before:
         return _what_is_left(e, f, nx, ny, twice, vx, vy, normal)
+    return bounced(e, f, nx, ny, factor, vx, vy, energy)
+
+
+@kernel
+def squared_after(e, f, square, across):
+    """Squared speed after a bounce, where ``across`` is the square of the normal part before: see ``reflect``."""
+    return f * f * square + (e * e - f * f) * across
+
+
+@kernel
+def bounced(e, f, nx, ny, factor, vx, vy, energy):
+    """Turn a velocity as ``reflect`` says, where it keeps the squared speed ``energy``: factor = 2 (v.n) / (n.n)."""
     part = 0.5 * (f + e) * factor
-    return _with_energy(f * vx - part * nx, f * vy - part * ny, energy)
+    return with_energy(f * vx - part * nx, f * vy - part * ny, energy)
 
 
 @rare_kernel
@@ -57,7 +69,7 @@ def _what_is_left(e, f, nx, ny, twice, vx, vy, normal):
 
 
 @kernel
-def _with_energy(vx, vy, energy):
+def with_energy(vx, vy, energy):
     """Scale v to the squared speed ``energy``, which it has but for rounding: one Newton step of 1 / sqrt."""
     if energy <= 0.0:
         return 0.0, 0.0, 0.0

@@ -1,0 +1,108 @@
+"""What lockstep knows of its balls: one flat array, LANES for each number, so that nothing may alias.
+
+Each name is where its numbers begin. Scenes that lack what acts leave the later ones alone.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from wallkit.kernels.jit import kernel
+from wallkit.kernels.records import NO_HIT
+
+LANES = 128
+(
+    X, Y, VX, VY, TIME, LOST, ENERGY, TOLERANCE, LAST, BOUNCES, STILL, BEST, ROW, ASK, ENDING, NX, NY, TWICE,
+    FROM_X, FROM_Y, FROM_VX, FROM_VY, E, F, PASSED, KEPT, BEFORE, HOLD, HELD, SIDE, AX, AY,
+    FAR, LEFT_X, RIGHT_X, LOW_Y, HIGH_Y, QX, QY, RX, RY, MOST,
+) = (LANES * number for number in range(42))  # fmt: skip
+"""Of a ball: its state (see ``STATE`` and ``COUNT``), what it has found so far and when, what it has still to ask, and
+the record of what it meets: normal, 2 / (n.n), restitution. Where it is slowed down, what the flight takes and the part
+of the speed that is kept; under gravity, what it met before, how it is held, the start of the line that it meets, and
+whether it may meet the far side of a line; of a falling disc, the hull of its flight (see ``gravity_impact.hull_of``):
+its box, its points but the first, and the squared reach."""
+ROOM, REACH = FROM_X, FROM_Y
+"""Of discs; points alone need to know where they came from."""
+PLAIN = 22 * LANES
+"""Numbers where nothing acts."""
+SCRATCH = 42 * LANES
+ROW_SIZE = 8
+"""Normal of a line or place of a corner, 2 / (n.n), count of bounces (``Model.edge_tally``), normal and tangential
+restitution, start of a line: a row for each of ``model.ids``. Lanes name features so."""
+NONE = float(NO_HIT)
+ALONE = -2.0
+"""In place of an ending: what happens to the ball is asked of ``flight.fly``."""
+MANY = 2.0**20
+"""Added to ASK by each corner that may be met, with its row: ASK is below twice this if it is only one."""
+
+
+class Start(NamedTuple):
+    """The balls of a survey at time 0, in the scene's coordinates.
+
+    Position and velocity (n, 2); the origin (x0, y0) of the local coordinates, and their extent (see ``Model``); the
+    box (x_min, y_min, x_max, y_max) of the walls.
+    """
+
+    position: Any
+    velocity: Any
+    origin: Any
+    extent: float
+    box: Any
+
+
+class Outcome(NamedTuple):
+    """Where each ball ended, in the scene's coordinates: see ``wallkit.simulation.survey.SurveyTotals``."""
+
+    position: Any
+    velocity: Any
+    time: Any
+    bounces: Any
+    ending: Any
+
+
+class Scratch(NamedTuple):
+    """Memory to work in: contents do not matter. Integers are unsigned: no look whether they count from the end."""
+
+    lanes: Any
+    """SCRATCH floats."""
+    balls: Any
+    """LANES integers: the ball of each lane."""
+    ended: Any
+    """LANES + 1 integers."""
+    met: Any
+    """LANES integers: the row of what the ball of each lane meets."""
+    rows: Any
+    """(1 + lines + corners, ROW_SIZE) floats; numbers, whatever they are."""
+    state: Any
+    """STATE_SIZE floats."""
+    counts: Any
+    """As many signed integers as ``Counts`` has."""
+    log: Any
+    """No floats."""
+
+
+@kernel
+def feature_of(model, row):
+    """Feature that a row stands for, see ``NO_HIT``."""
+    k = int(row)
+    if k < 0:
+        return NO_HIT
+    return int(model.ids[k]) if k < model.cells[0].corners else -2 - int(model.ids[k])
+
+
+@kernel
+def row_of(model, feature):
+    """Row of a feature, or the number in place of one."""
+    lines = model.cells[0].corners
+    for k in range(model.cells[0].end):
+        if (model.ids[k] if k < lines else -2 - model.ids[k]) == feature:
+            return float(k)
+    return float(feature)
+
+
+@kernel
+def is_one_way(one_sided, wall):
+    """Tell whether a wall is solid from its outward side alone."""
+    if one_sided is None:
+        return False
+    return one_sided[wall] != 0
