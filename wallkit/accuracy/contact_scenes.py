@@ -114,3 +114,43 @@ def _room(random: np.random.Generator) -> Drawn:
     far = random.uniform(4.0, 9.0, count)
     points = far[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     return _drawn([(points, True, np.where(random.random(count) < 0.5, random.uniform(-0.15, 0.4, count), 0.0))])
+
+
+HARD = ("gap", "flat", "graze", "room")
+
+
+def hard_scene(seed: int) -> tuple[str, Scene, float]:
+    """Make one scene that is hard for the horizon: (its kind, the scene with one ball, the time until which to run it).
+
+    Gaps hardly wider than the disc, sides that are nearly straight arcs, pillars that are grazed, rooms of lines and
+    arcs; restitution 0.9 to 1, long enough for errors to grow.
+
+    Args:
+        seed: any whole number; the same one makes the same scene.
+    """
+    random = np.random.default_rng([seed, 1])
+    kind = HARD[int(random.integers(len(HARD)))]
+    radius = float(random.choice([0.0, 0.2, 0.5]))
+    parts = [_room(random)]
+    if kind == "flat":
+        outline, closed, bulges = parts[0]
+        parts = [(outline, closed, [10.0 ** random.uniform(-9.0, -2.0, len(bulges[0])) * random.choice([-1.0, 1.0])])]
+    elif kind == "gap":
+        radius = float(random.choice([0.2, 0.5]))
+        wide = radius * (1.0 + 10.0 ** random.uniform(-6.0, -1.0))
+        sides = [np.array([(side * wide, -2.0), (side * wide * random.uniform(1.0, 1.5), 0.0)]) for side in (-1.0, 1.0)]
+        parts.append((sides, [False, False], [np.zeros(2), np.zeros(2)]))
+    elif kind == "graze":
+        round_ = 0.4 * np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
+        for middle in random.uniform(-2.5, 2.5, (3, 2)):
+            parts.append(([middle + round_], [True], [np.full(4, math.tan(math.pi / 8))]))
+    walls = Walls.from_polylines(
+        [outline for part in parts for outline in part[0]],
+        closed=[closed for part in parts for closed in part[1]],
+        bulges=[bulge for part in parts for bulge in part[2]],
+        material=Material(float(random.choice([1.0, 1.0, 0.95, 0.9])), 1.0),
+    )
+    turn = random.uniform(0.0, math.tau)
+    velocity = random.uniform(2.0, 10.0) * np.array([math.cos(turn), math.sin(turn)])
+    place = np.array([0.0, 1.5]) if kind == "gap" else random.uniform(-1.0, 1.0, 2)
+    return kind, Scene(walls, Balls([place], [velocity], radius), gravity=(0.0, -PULL)), 12.0

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.accuracy.contact_guides import Barrier, minus
-from wallkit.accuracy.reference import Real, Reference, Vector, _Arc, _bounding_circles, _dot, _Line
+from wallkit.accuracy.reference import Real, Reference, Vector, _Arc, _dot, _Line
 
 
 class Search:
@@ -17,11 +17,23 @@ class Search:
     def __init__(self, reference: Reference, barriers: list[Barrier], gravity: Vector, same: Real) -> None:
         self.reference, self.mp, self.barriers, self.gravity = reference, reference.mp, barriers, gravity
         self.same = same
-        centres, reaches = _bounding_circles(reference.scene.walls, reference.obstacles)
-        own = [barrier.obstacle for barrier in barriers]
-        reach = reaches[own] + float(barriers[0].radius if barriers else 0.0) + 1e-9 * float(reference.size)
-        self.low, self.high = centres[own] - reach[:, None], centres[own] + reach[:, None]
+        circles = np.array([self._around(barrier) for barrier in barriers]).reshape(-1, 3)
+        reach = circles[:, 2:] + 1e-9 * float(reference.size)
+        self.low, self.high = circles[:, :2] - reach, circles[:, :2] + reach
         self.guess = 0.05
+
+    def _around(self, barrier: Barrier) -> tuple[float, float, float]:
+        """A circle (x, y, radius) that holds a barrier's section: over its chord, if it is at most half a circle."""
+        obstacle, walls = self.reference.obstacles[barrier.obstacle], self.reference.scene.walls
+        x, y = barrier.anchor
+        if obstacle.edge >= 0:
+            edge = int(walls.edge_offsets[obstacle.wall]) + obstacle.edge
+            start = walls.edge_starts[edge]
+            a, b = walls.vertices[start], walls.vertices[walls.edge_ends[edge]]
+            if abs(walls.bulges[start]) <= 1.0:
+                half = 0.5 * float(np.hypot(*(b - a)))
+                return float(a[0] + b[0]) / 2, float(a[1] + b[1]) / 2, half + float(barrier.radius)
+        return float(x), float(y), float(barrier.reach)
 
     def first(
         self, position: Vector, velocity: Vector, touching: dict[int, Barrier], span: Real
