@@ -214,7 +214,7 @@ def _pass_on(model, gravity, radius, held, side, last, x, y, vx, vy, tolerance):
         if (pressed > level and flat) or plumb:
             return other, PASSING, next_side, held, NO_HIT
         if pressed <= level and abs(rise) < SMOOTH_JOINT:
-            return other, LEAVING, next_side, other, NO_HIT
+            return other, LEAVING, next_side, held, NO_HIT  # it is in touch with both
     if not free and rise > 0.0:
         return held, SLIDING, side, last, other
     if radius == 0.0:
