@@ -112,14 +112,15 @@ class Search:
                 gap[2] = 0 * gap[2]
         return gap
 
-    def on_section(self, barrier: Barrier, place: Vector) -> bool:
-        """Tell whether a centre at the barrier is beside the edge, between its ends."""
+    def on_section(self, barrier: Barrier, place: Vector, beyond: Real = 0) -> bool:
+        """Tell whether a centre at the barrier is beside the edge, between its ends or a length beyond them."""
         shape: Any = self.reference.obstacles[barrier.obstacle].shape
         if isinstance(shape, _Line):
-            return bool(0 <= _dot(minus(place, shape.start), shape.along) <= shape.length2)
+            slack = beyond * self.mp.sqrt(shape.length2)
+            return bool(-slack <= _dot(minus(place, shape.start), shape.along) <= shape.length2 + slack)
         if isinstance(shape, _Arc):
             d = minus(place, shape.centre)
-            return bool(_dot(d, shape.middle) >= shape.cos_half * self.mp.sqrt(_dot(d, d)))
+            return bool(_dot(d, shape.middle) >= shape.cos_half * self.mp.sqrt(_dot(d, d)) - beyond)
         return True
 
     def near(self, place: Vector, distance: Real) -> list[Barrier]:
@@ -129,6 +130,6 @@ class Search:
             gap = barrier.gap(place)
             if barrier.bend:
                 gap /= 2 * barrier.reach
-            if abs(gap) <= distance and self.on_section(barrier, place):
+            if abs(gap) <= distance and self.on_section(barrier, place, distance):
                 found.append(barrier)
         return found

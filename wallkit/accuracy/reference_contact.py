@@ -76,6 +76,7 @@ class ContactReference:
         self.joints = Joints(reference, self.barriers)
         self.search = Search(reference, self.barriers, self.gravity, self.tiny * self.size)
         self.touching: dict[int, Barrier] = {}
+        self.sides: dict[int, Barrier] = {}  # of obstacles off which the ball has bounced
         self.now = mp.mpf(0)
         self.held: Barrier | None = None
         self.rests = False
@@ -156,6 +157,7 @@ class ContactReference:
 
     def _bounce(self, barrier: Barrier) -> None:
         obstacle = self.reference.obstacles[barrier.obstacle]
+        self.sides[barrier.obstacle] = barrier
         normal = barrier.normal_at(self.mp, self.position)
         self.velocity = _reflect(self.velocity, normal, obstacle.restitution, obstacle.tangential)
         self._note("bounce", barrier)
@@ -187,9 +189,10 @@ class ContactReference:
         touched = {barrier.obstacle for barrier in self.touching.values()}
         near = self.search.near(self.position, 100 * self.low)
         for barrier in sorted(near, key=lambda barrier: barrier.gap(self.position), reverse=True):
-            if barrier.obstacle not in touched:  # a point is on the side where the gap is above 0
+            if barrier.obstacle not in touched:  # on the side off which it bounced, else where the gap is above 0
                 touched.add(barrier.obstacle)
-                self.touching[barrier.number] = barrier
+                own = self.sides.get(barrier.obstacle, barrier)
+                self.touching[own.number] = own
 
     def _holding(self) -> Barrier | None:
         """What presses the ball, or is along gravity; between two, that along which it moves away from the other."""
