@@ -19,6 +19,11 @@ three times that.
 Without gravity rolling friction and drag leave the path as it is: the errors are those of the same ball without them.
 Under gravity drag k takes t to the free time f = (1 - e^(-k t)) / k, and dv to dv e^(-k t); what is g above is g - k v.
 
+A ball that keeps to a line is pulled along it; along a circle its error is that of a pendulum (see ``glide_errors``),
+and its velocity before a bounce, and the g before it, are those on the circle. Where it runs off an edge, a neighbour
+that is there later by dt falls later: dv' = dv + (g before - g after) dt. Where endless bounces take what speed it has
+along the wall, it sets out from there later by dT, what they take longer in all: dv' = -a dT (see ``contact``).
+
 Where the first order ends, trust ends: when the error reaches the distance by which the path passed a corner
 (points: the distance of a hit from a corner that turns), or the depth of a grazing hit.
 """
@@ -33,15 +38,16 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import circles
-from wallkit.kernels.flight.error_growth import carry, stretch
+from wallkit.kernels.flight.error_growth import BOUNCES, LEAVES, PASSES, SLIDES, STOPS, carry, stretch
 from wallkit.kernels.jit import compiled
 from wallkit.scene.scene import Scene
 from wallkit.simulation.damping import damping_of, on_a_free_clock, slowing_of
+from wallkit.simulation.glide_errors import COLUMNS, glides_of
 from wallkit.simulation.gliding import pull_along
 from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, FlightTable, near_misses
 
 ErrorSource = Literal["rounding", "drawing"]
-Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, float]
+Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, float, FloatArray]
 RMS_ROUNDING = 0.6 * 2.0**-53
 VERTEX, ENTER = (
     1,
@@ -171,17 +177,23 @@ def _course(scene: Scene, own: Any, ball: int) -> Course:
     table = np.array([(m.tangential_restitution, m.restitution) for m in materials]).reshape(-1, 2)
     path = np.stack([own[name].astype(np.float64) for name in ("time", "vx", "vy", "nx", "ny", "kind")], axis=1)
     path[:, 5] = np.maximum(path[:, 5] - 1.0, 0.0)  # edge and vertex are bounces; slide and leave are not
+    slides = path[:, 5] == SLIDES
+    stands = (own["vx"] == 0.0) & (own["vy"] == 0.0)
+    before = np.concatenate([[LEAVES], path[:-1, 5]])
+    path[slides & (before == SLIDES) & ~stands, 5] = PASSES
     begin, start = (np.atleast_2d(np.asarray(part))[ball] for part in (scene.balls.position, scene.balls.velocity))
     if (damping := damping_of(scene)) is not None:
         path[:, 0], path[:, 1:3] = on_a_free_clock(damping, np.concatenate([begin, start]), own)
     gravity = np.asarray(scene.gravity if scene.gravity is not None else (0.0, 0.0), dtype=np.float64)
     pull = np.tile(gravity, (len(own) + 1, 1))
-    slides = path[:, 5] == 1.0
     slowing = slowing_of(scene)
     for row in np.flatnonzero(slides).tolist():
         pull[row + 1] = pull_along(gravity, slowing, path[row, 1:3], path[row, 3:5])
-    drag = slowing.drag or 0.0
-    return start, np.ascontiguousarray(path), bends(scene, own, ball), table[own["wall"]], pull, drag
+    keep = table[own["wall"]]
+    stopped = slides & stands & (before == BOUNCES) & (keep < 1.0).all(axis=1) & (np.diff(path[:, 0], prepend=0.0) > 0)
+    path[stopped, 5] = STOPS
+    glides = glides_of(scene, own, gravity) if slides.any() else np.full((len(own), COLUMNS), math.nan)
+    return start, np.ascontiguousarray(path), bends(scene, own, ball), keep, pull, slowing.drag or 0.0, glides
 
 
 def _roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
@@ -193,7 +205,7 @@ def _roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
     """
     from wallkit.simulation.modelled import local_origin
 
-    _, path, bend, keep, _, _ = course
+    _, path, bend, keep, _, _, _ = course
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
     places = np.concatenate([begin[None], np.stack([own["x"], own["y"]], axis=1)]) - local_origin(scene.walls.vertices)
     place = RMS_ROUNDING * np.hypot(*places[1:].T)
@@ -211,13 +223,14 @@ def _falling_roundings(course: Course, places: FloatArray) -> tuple[FloatArray, 
     p + v t + g t^2 / 2 is summed up of larger parts, each of which is rounded, as are v + g t and the squared speed,
     v^2 - 2 g.p at the start plus 2 g.p here: half of its error, over v^2, is that of the speed.
     """
-    start, path, _, _, pull, _ = course
+    start, path, _, _, pull, _, glides = course
     time, force = np.diff(path[:, 0], prepend=0.0), np.hypot(*pull[:-1].T)
     before = np.hypot(*np.concatenate([start[None], path[:-1, 1:3]]).T)
     after = np.hypot(path[:, 1], path[:, 2])
     after = np.where(after > 1e-70, after, 1.0)  # below all speeds that are modelled it rests, and nothing follows
     far = np.hypot(*places.T)
-    place = np.sqrt(far[1:] ** 2 + far[:-1] ** 2 + (before * time) ** 2 + (force * time**2 / 2) ** 2)
+    force = np.where(np.isnan(glides[:, 0]), force, 0.0)  # along a circle it comes back, and no part is that large
+    place = np.sqrt(far[1:] ** 2 + far[:-1] ** 2 + (np.maximum(before, after) * time) ** 2 + (force * time**2 / 2) ** 2)
     height = (pull[:-1] * places[1:]).sum(axis=1)
     speed = np.hypot(np.hypot(1.0, force * time / after), height / after / after)
     return RMS_ROUNDING * place, RMS_ROUNDING * speed
@@ -281,10 +294,12 @@ def _first_doubt(scene: Scene, own: Any, ball: int, worst: FloatArray) -> tuple[
 
 
 def _flights(scene: Scene, own: Any, ball: int) -> FlightTable:
-    first, path, _, _, pull, drag = _course(scene, own, ball)
+    first, path, _, _, pull, drag, _ = _course(scene, own, ball)
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
     ends = np.stack([own["x"], own["y"]], axis=1)
-    slides = np.concatenate([[False], path[:-1, 5] == 1.0])  # a ball that slides misses nothing
+    slides = np.concatenate(
+        [[False], np.isin(path[:-1, 5], (SLIDES, PASSES, STOPS))]
+    )  # a ball that slides misses nothing
     return FlightTable(
         start=np.concatenate([begin[None], ends[:-1]]),
         end=ends,
@@ -295,11 +310,23 @@ def _flights(scene: Scene, own: Any, ball: int) -> FlightTable:
     )
 
 
+def _velocities_before(course: Course) -> FloatArray:
+    """(n, 2) velocity just before each contact; one that restitution 0 leaves tells no angle any more."""
+    start, path, _, _, pull, drag, glides = course
+    time = np.diff(path[:, 0], prepend=0.0)
+    left, free = np.ones(len(path)), time
+    if drag > 0.0:
+        left, free = np.exp(-drag * time), -np.expm1(-drag * time) / drag
+    flown = np.concatenate([start[None], path[:-1, 1:3]]) * left[:, None] + pull[:-1] * free[:, None]
+    return np.where(np.isnan(glides[:, :1]), flown, glides[:, :2])
+
+
 def grazing_depths(scene: Scene, own: Any, ball: int) -> FloatArray:
     """(n,) by how much a neighbour may be off before it misses the convex thing that was hit: rho (1 - sin)."""
-    bent = bends(scene, own, ball)
-    speed = np.hypot(own["vx"], own["vy"])
-    cosine = np.divide(own["vx"] * own["nx"] + own["vy"] * own["ny"], speed, out=np.ones(len(own)), where=speed > 0)
+    bent, course = bends(scene, own, ball), _course(scene, own, ball)
+    velocity = _velocities_before(course)
+    speed, normal = np.hypot(velocity[:, 0], velocity[:, 1]), course[1][:, 3:5]
+    cosine = np.divide((velocity * normal).sum(axis=1), speed, out=np.ones(len(own)), where=speed > 0)
     lost = cosine**2 / (1 + np.sqrt(np.maximum(0.0, 1 - cosine**2)))
     depth: FloatArray = np.divide(lost, bent, out=np.full(len(own), np.inf), where=(bent > 0) & (own["kind"] <= VERTEX))
     return depth

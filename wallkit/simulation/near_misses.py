@@ -87,6 +87,9 @@ def _near_corners(scene: Scene, flights: FlightTable, radius: float, reach: floa
     # A disc rolls from an edge on to its corner without a jump: only a corner passed in full flight decides.
     # For a point the hit itself counts; where it started is the last flight's end and was judged there.
     decides = (along > 0) & ((along < 1) | (radius == 0)) & (clear - radius <= reach)
+    # A disc that pivoted on a corner, or bounced off it, begins at its radius from there, and was judged there.
+    off = flights.start[found] - corners[corner]
+    decides &= np.hypot(off[:, 0], off[:, 1]) - radius > reach
     return found[decides], np.maximum(0.0, clear[decides] - radius), NEAR_CORNER
 
 

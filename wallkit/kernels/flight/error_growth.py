@@ -8,6 +8,9 @@ from typing import Any
 from wallkit.kernels.impact.drag_motion import eased
 from wallkit.kernels.jit import kernel
 
+BOUNCES, SLIDES, LEAVES, PASSES, STOPS = 0.0, 1.0, 2.0, 3.0, 4.0
+"""What a contact is to an error. Who passes slides on from another edge; who stops has been stopped by bounces."""
+
 
 @kernel
 def derivative(
@@ -56,20 +59,40 @@ def derivative(
 
 
 @kernel
-def contact(vx: float, vy: float, path: Any, bend: Any, keep: Any, pull: Any, drag: float, i: int) -> Any:
-    """Give the derivative at contact i, whatever it is: S, A, B and M as of :func:`derivative`.
+def contact(
+    vx: float, vy: float, ax: float, ay: float, path: Any, bend: Any, keep: Any, pull: Any, drag: float, i: int
+) -> Any:
+    """Give the derivative at contact i, before which v and its change in time are known: S, A, B and M.
 
-    Where a ball begins to slide, or leaves the wall, no neighbour touches earlier or later: it keeps what its
-    place and velocity have along the wall, or everything.
+    They are those of :func:`derivative` at a bounce. A ball that begins to slide keeps what its error has along the
+    wall; where endless bounces stop it (see ``wallkit.simulation.horizon``), it goes on later by dT, so with -a dT. One
+    that runs off an edge by dt = -(dx.v) / v^2 later falls so much later: its velocity differs by the jump of the
+    acceleration times dt.
     """
-    nx, ny = path[i, 3], path[i, 4]
-    if path[i, 5] == 0.0:
-        g = (pull[i, 0] - drag * vx, pull[i, 1] - drag * vy)
-        h = (pull[i + 1, 0] - drag * path[i, 1], pull[i + 1, 1] - drag * path[i, 2])
-        return derivative(vx, vy, path[i, 1], path[i, 2], nx, ny, (keep[i, 0], keep[i, 1]), bend[i], g, h)
-    share = 1.0 if path[i, 5] == 1.0 else 0.0
-    along = (1.0 - share * nx * nx, -share * nx * ny, -share * nx * ny, 1.0 - share * ny * ny)
-    return along, along, (0.0, 0.0, 0.0, 0.0), along
+    nx, ny, ux, uy = path[i, 3], path[i, 4], path[i, 1], path[i, 2]
+    hx, hy = pull[i + 1, 0] - drag * ux, pull[i + 1, 1] - drag * uy
+    if path[i, 5] == BOUNCES:
+        return derivative(vx, vy, ux, uy, nx, ny, (keep[i, 0], keep[i, 1]), bend[i], (ax, ay), (hx, hy))
+    one, none = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0, 0.0)
+    if path[i, 5] == LEAVES:
+        square = vx * vx + vy * vy
+        jx, jy = (0.0, 0.0) if square == 0.0 else ((hx - ax) / square, (hy - ay) / square)
+        return one, one, (jx * vx, jx * vy, jy * vx, jy * vy), one
+    along = (1.0 - nx * nx, -nx * ny, -nx * ny, 1.0 - ny * ny)
+    if path[i, 5] == PASSES:  # from edge to edge: that place is where it is
+        return none, along, none, along
+    if path[i, 5] == STOPS:
+        # The last bounce leaves at w, dt = -dx.n / w late and faster by dw = dv.n - p dt; its series takes T = 2 w /
+        # p (1 - e), so dT = dt + T dw / w. Here, T later, dx.n has T dv.n more.
+        T, e = path[i, 0] - path[i - 1, 0], keep[i, 1]
+        w = path[i - 1, 1] * nx + path[i - 1, 2] * ny
+        part = 1.0 - 2.0 / (1.0 - e)
+        d, m = -part / w, T * (1.0 + part) / w
+        px, py = along[0] * hx + along[1] * hy, along[2] * hx + along[3] * hy
+        return along, along, (-px * d * nx, -px * d * ny, -py * d * nx, -py * d * ny), (
+            -px * m * nx, -px * m * ny, -py * m * nx, -py * m * ny
+        )  # fmt: skip
+    return along, along, none, along
 
 
 @kernel
@@ -125,16 +148,40 @@ def _flown(xx, xv, vv, t, left, drag):
 
 
 @kernel
-def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, fresh: Any, variance: Any) -> None:
+def _glided(xx: Any, xv: Any, vv: Any, g: Any) -> Any:
+    """Carry the covariances along a circle, as those of (xi, eta): see ``wallkit.simulation.glide_errors``."""
+    px, py, tx, ty, k = g[4], g[5], g[6], g[7], g[12]
+    # Var(xi, eta) from the components along p; then M Var M^T.
+    c11 = px * (xx[0] * px + xx[1] * py) + py * (xx[2] * px + xx[3] * py)
+    c12 = px * (xv[0] * px + xv[1] * py) + py * (xv[2] * px + xv[3] * py)
+    c22 = px * (vv[0] * px + vv[1] * py) + py * (vv[2] * px + vv[3] * py)
+    m = (g[8], g[9], g[10], g[11])
+    d11, d12, _d21, d22 = _times_turned(_times(m, (c11, c12, c12, c22)), m)
+    # dx = xi t and dv = eta t + k xi e, e = (ty, -tx).
+    tt, te, ee = (
+        (tx * tx, tx * ty, tx * ty, ty * ty),
+        (tx * ty, -tx * tx, ty * ty, -tx * ty),
+        (ty * ty, -tx * ty, -tx * ty, tx * tx),
+    )
+    both = _plus(te, (te[0], te[2], te[1], te[3]))
+    xv = _plus(_scaled(tt, d12), _scaled(te, k * d11))
+    return _scaled(tt, d11), xv, _plus(_plus(_scaled(tt, d22), _scaled(both, k * d12)), _scaled(ee, k * k * d11))
+
+
+@kernel
+def carry(
+    start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, glides: Any, fresh: Any, variance: Any
+) -> None:
     """Fill ``variance`` with that of the place of each contact.
 
     Args:
         start: (2,) velocity at time 0.
-        path: (n, 6) time, velocity after, normal of each contact, and 0 a bounce, 1 begins to slide, 2 leaves.
+        path: (n, 6) time, velocity after, normal of each contact, and what it is: ``BOUNCES`` and so on.
         bend: (n,) curvature.
         keep: (n, 2) tangential and normal restitution.
         pull: (n + 1, 2) acceleration before each contact and after the last, drag aside.
         drag: rate under gravity, or 0.
+        glides: (n, 13) of ``wallkit.simulation.glide_errors``, of not-a-number where the ball came no circle along.
         fresh: (n, 4) new at each contact: displacement of the wall, turn of its normal, rounding of the place,
             and of the velocity relative to the speed.
         variance: (n,), filled; left as it is after the first that exceeds 1e300.
@@ -147,13 +194,18 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, f
         t = path[i, 0] - now
         now = path[i, 0]
         left, t = _eased(drag, t)
-        xx, xv, vv = _flown(xx, xv, vv, t, left, drag)
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
+        ax, ay = pull[i, 0] - drag * vx, pull[i, 1] - drag * vy
+        if glides[i, 0] == glides[i, 0]:
+            xx, xv, vv = _glided(xx, xv, vv, glides[i])
+            vx, vy, ax, ay = glides[i, 0], glides[i, 1], glides[i, 2], glides[i, 3]
+        else:
+            xx, xv, vv = _flown(xx, xv, vv, t, left, drag)
         ux, uy, nx, ny = path[i, 1], path[i, 2], path[i, 3], path[i, 4]
         across = vx * nx + vy * ny
-        if path[i, 5] == 0.0 and not across < 0:
+        if path[i, 5] == BOUNCES and not across < 0:
             break  # not a bounce that a neighbour shares: it began in contact
-        S, A, B, M = contact(vx, vy, path, bend, keep, pull, drag, i)
+        S, A, B, M = contact(vx, vy, ax, ay, path, bend, keep, pull, drag, i)
         place = _times_turned(_times(S, xx), S)
         variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]  # the trace of S Var(x) S^T, and rounding
         if not variance[i] < 1e300:
@@ -164,12 +216,18 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, f
         vv = _plus(_times_turned(turned, B), _times_turned(_plus(_times(B, xv), _times(M, vv)), M))
         xv = _plus(_times_turned(_times(A, xx), B), _times_turned(_times(A, xv), M))
         xx = _times_turned(_times(A, xx), A)
-        if path[i, 5] != 0.0:
-            continue  # nothing is turned, and the rounding of the place is less than that of the bounces before
+        rounded = fresh[i, 2] * fresh[i, 2]
+        if path[i, 5] != BOUNCES:  # nothing is turned
+            along = (ny * ny * rounded, -nx * ny * rounded, -nx * ny * rounded, nx * nx * rounded)
+            rounded = fresh[i, 3] * fresh[i, 3]
+            xx, vv = (
+                _plus(xx, along),
+                _plus(vv, (rounded * ux * ux, rounded * ux * uy, rounded * ux * uy, rounded * uy * uy)),
+            )
+            continue
         # New here: the wall moved by `shift` along n moves the state by (v - v') shift / (v.n) ...
         shift, turn = fresh[i, 0] / across, fresh[i, 1] * (keep[i, 0] + keep[i, 1])
         p, q = (vx - ux) * shift, (vy - uy) * shift
-        rounded = fresh[i, 2] * fresh[i, 2]
         xx = _plus(xx, (p * p + rounded, p * q, p * q, q * q + rounded))
         # ... its normal turned by `turn` turns v', with dn = (ny, -nx) turn; and the state is rounded
         slip = vx * ny - vy * nx
@@ -179,7 +237,9 @@ def carry(start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, f
 
 
 @kernel
-def stretch(start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, error: Any, logs: Any) -> None:
+def stretch(
+    start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, glides: Any, error: Any, logs: Any
+) -> None:
     """Carry one small error (dx, dv) along and fill ``logs`` with the logarithm of its growth at each bounce."""
     ux, uy = start[0], start[1]
     x, y, vx_, vy_ = error[0], error[1], error[2], error[3]
@@ -188,10 +248,19 @@ def stretch(start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float,
         t = path[i, 0] - now
         now = path[i, 0]
         left, t = _eased(drag, t)
-        x, y, vx_, vy_ = x + vx_ * t, y + vy_ * t, vx_ * left, vy_ * left
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
+        ax, ay = pull[i, 0] - drag * vx, pull[i, 1] - drag * vy
+        if glides[i, 0] == glides[i, 0]:
+            vx, vy, ax, ay = glides[i, 0], glides[i, 1], glides[i, 2], glides[i, 3]
+            px, py, tx, ty = glides[i, 4], glides[i, 5], glides[i, 6], glides[i, 7]
+            xi, eta = x * px + y * py, vx_ * px + vy_ * py
+            xi, eta = glides[i, 8] * xi + glides[i, 9] * eta, glides[i, 10] * xi + glides[i, 11] * eta
+            k = glides[i, 12] * xi
+            x, y, vx_, vy_ = xi * tx, xi * ty, eta * tx + k * ty, eta * ty - k * tx
+        else:
+            x, y, vx_, vy_ = x + vx_ * t, y + vy_ * t, vx_ * left, vy_ * left
         ux, uy = path[i, 1], path[i, 2]
-        _, A, B, M = contact(vx, vy, path, bend, keep, pull, drag, i)
+        _, A, B, M = contact(vx, vy, ax, ay, path, bend, keep, pull, drag, i)
         vx_, vy_, x, y = (
             B[0] * x + B[1] * y + M[0] * vx_ + M[1] * vy_,
             B[2] * x + B[3] * y + M[2] * vx_ + M[3] * vy_,

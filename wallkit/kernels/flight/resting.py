@@ -16,9 +16,10 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.flight.contact_state import reach, stretch
+from wallkit.kernels.flight.contact_state import stretch
 from wallkit.kernels.flight.gravity import LEVEL, kept_energy
-from wallkit.kernels.flight.guide import STRAIGHT, ahead_of, guide, off_guide, outside, press
+from wallkit.kernels.flight.guide import STRAIGHT, ahead_of, guide, outside, press
+from wallkit.kernels.flight.last_bounces import join
 from wallkit.kernels.flight.obstacles import SMOOTH_JOINT, following, one_sided, side_after
 from wallkit.kernels.flight.pendulum import period
 from wallkit.kernels.flight.point_in_corner import came_from, touching
@@ -78,7 +79,7 @@ def keep(
     if hold == LEAVING:
         return x, y, vx, vy, 0.0, energy, last, held, LEFT, side, 0, changes, LEAVE, NO_HIT, RUNNING
     if hold in (JOINING, PASSING):
-        x, y, vx, vy, time, hold = _join(
+        x, y, vx, vy, time, hold = join(
             model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of, tolerance
         )
         energy = kept_energy(gravity, x, y, vx, vy)
@@ -178,52 +179,6 @@ def _whole_swings(model, gravity, radius, held, side, x, y, span):
     return math.floor(span / whole) * whole if whole < span else 0.0
 
 
-@kernel
-def _join(model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of, tolerance):
-    """Put a ball on its guide, and its velocity along it; take its last, endless bounces at once.
-
-    With f = 1 its way along the wall in them is that of sliding, so it slides at once, but where it stands, and comes
-    to rest when they are over. With f < 1 they stop it. Where a is the pull along, u its speed along after the bounce
-    and t = 2 w / p the time to the next, the times to come are t e^k and u_(k+1) = f (u_k + a t e^k), so that after
-    t / (1 - e) it has come by
-
-        S = t (u + e f a t / (1 - e^2)) / (1 - e f) + a t^2 / (2 (1 - e^2)).
-
-    Where something stands in that way, it comes there with what is left of u.
-    """
-    rho, away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
-    off = off_guide(model, model.arcs, held, side, radius, x, y)
-    x, y = x - off * nx, y - off * ny
-    # Apart into w, off the wall, and u along it, to the left of the normal.
-    w, u = vx * nx + vy * ny, vy * nx - vx * ny
-    vx, vy = -u * ny, u * nx
-    e, f = _kept(model, model.restitution, held)
-    pull = gravity[1] * nx - gravity[0] * ny
-    stands = u == 0.0 and abs(pull) <= LEVEL * (abs(gravity[0]) + abs(gravity[1]))
-    if hold == PASSING or e >= 1.0 or (f >= 1.0 and not stands):
-        return x, y, vx, vy, 0.0, SLIDING
-    # Up and down again under p takes 2 w / p, and each bounce e times as long as the one before:
-    # t (1 + e + e^2 + ...) = t / (1 - e).
-    t = 2.0 * abs(w) / press(gravity, rho, away, nx, ny, u * u)
-    if stands:
-        return x, y, vx, vy, t / (1.0 - e), SLIDING
-    way = t * (u + e * f * pull * t / (1.0 - e * e)) / (1.0 - e * f) + 0.5 * pull * t * t / (1.0 - e * e)
-    time = t / (1.0 - e)
-    x, y, done = reach(model, gravity, radius, held, side, last, x, y, way, start_of, tolerance)
-    _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
-    left = (1.0 - done) * u
-    return x, y, -left * ny, left * nx, done * time, SLIDING
-
-
-@kernel
-def _kept(model, restitution, feature):
-    """Restitution along the normal, and along the wall, of a feature."""
-    if restitution is None:
-        return 1.0, 1.0
-    wall = model.edge_wall[feature] if feature >= 0 else model.corner_wall[-2 - feature]
-    return restitution[2 * wall], restitution[2 * wall + 1]
-
-
 @rare_kernel
 def _pass_on(model, gravity, radius, held, side, last, x, y, vx, vy, tolerance):
     """Take a ball on at the end of an edge, or of a vertex: (held, hold, side, last, feature off which it bounces)."""
@@ -259,7 +214,7 @@ def _pass_on(model, gravity, radius, held, side, last, x, y, vx, vy, tolerance):
         if (pressed > level and flat) or plumb:
             return other, PASSING, next_side, held, NO_HIT
         if pressed <= level and abs(rise) < SMOOTH_JOINT:
-            return other, LEAVING, next_side, other, NO_HIT
+            return other, LEAVING, next_side, held, NO_HIT  # it is in touch with both
     if not free and rise > 0.0:
         return held, SLIDING, side, last, other
     if radius == 0.0:

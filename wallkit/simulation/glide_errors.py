@@ -1,0 +1,90 @@
+"""How a small error is carried along a circle to which a ball keeps: the derivative of a pendulum.
+
+With the direction e from the circle's middle, the unit t a quarter to the left of it, and the speed v along t, an error
+is a way xi = rho da along t and a change eta of v, that is dx = xi t and dv = eta t - (v xi / rho) e, for t turns with
+the place. After a time it is M (xi, eta), M the derivative of the closed motion by its start (the solution of
+xi'' = -(g.e / rho) xi, the variational equation). That is taken as the difference of two such motions that start apart
+by 2 h: off by h^2, parts in 10^10, which is far nearer than any promise needs, through turns and whole periods alike.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wallkit.geometry.arrays import FloatArray
+from wallkit.scene.scene import Scene
+from wallkit.simulation.damping import Slowing, slowing_of
+from wallkit.simulation.gliding import glide, guides
+
+APART = 2.0**-17
+"""h: in radians, and in parts of sqrt(g rho)."""
+COLUMNS = 13
+"""Velocity and its change in time at the end, t at the start and at the end, M by rows, and -v / rho at the end."""
+
+
+def glides_of(scene: Scene, own: NDArray[Any], gravity: FloatArray) -> FloatArray:
+    """(n, COLUMNS) what :func:`wallkit.kernels.flight.error_growth.carry` needs of the way to each contact.
+
+    Args:
+        scene: what was run.
+        own: (n,) contacts of one ball, in order.
+        gravity: (2,).
+
+    Returns:
+        Not-a-number in rows to which the ball came no circle along.
+    """
+    found = np.full((len(own), COLUMNS), math.nan)
+    slowing, bent = slowing_of(scene), guides(scene.walls, own)
+    for row in np.flatnonzero(bent[:-1]).tolist() if len(own) else ():
+        span = float(own["time"][row + 1] - own["time"][row])
+        found[row + 1] = _Glide.of(own[row], float(bent[row]), gravity, slowing).row(span)
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class _Glide:
+    """A ball at the start of its way along a circle: radius, signed as of ``guides``, e, t, v and the place."""
+
+    bent: float
+    out: FloatArray
+    ahead: FloatArray
+    speed: float
+    place: FloatArray
+    gravity: FloatArray
+    slowing: Slowing
+
+    @staticmethod
+    def of(contact: Any, bent: float, gravity: FloatArray, slowing: Slowing) -> _Glide:
+        out = np.array([contact["nx"], contact["ny"]]) * math.copysign(1.0, bent)
+        ahead = np.array([-out[1], out[0]])
+        speed = float(contact["vx"] * ahead[0] + contact["vy"] * ahead[1])
+        return _Glide(bent, out, ahead, speed, np.array([contact["x"], contact["y"]]), gravity, slowing)
+
+    def after(self, span: float, turn: float = 0.0, more: float = 0.0) -> tuple[FloatArray, FloatArray, float]:
+        """Directions e and t and the speed after a time, from a start turned by an angle and quicker by ``more``."""
+        c, s, rho = math.cos(turn), math.sin(turn), abs(self.bent)
+        e, t = c * self.out + s * self.ahead, c * self.ahead - s * self.out
+        state = np.concatenate([self.place + rho * (e - self.out), (self.speed + more) * t])
+        there = glide(self.gravity, self.slowing, state, math.copysign(1.0, self.bent) * e, self.bent, span)
+        e = (there[:2] - self.place) / rho + self.out
+        t = np.array([-e[1], e[0]])
+        return e, t, float(there[2:4] @ t)
+
+    def row(self, span: float) -> list[float]:
+        """Give the columns of :func:`glides_of`."""
+        rho = abs(self.bent)
+        quick = APART * math.sqrt(float(np.hypot(*self.gravity)) * rho)
+        e, t, then = self.after(span)
+        columns = []
+        for turn, more, step in ((APART, 0.0, rho * APART), (0.0, quick, quick)):
+            (one, _t, fast), (other, _t, slow) = self.after(span, turn, more), self.after(span, -turn, -more)
+            angle = math.atan2(other[0] * one[1] - other[1] * one[0], float(other @ one))
+            columns.append((0.5 * rho * angle / step, 0.5 * (fast - slow) / step))
+        (a, c), (b, d) = columns
+        changes = float(self.gravity @ t) * t - then * then / rho * e
+        return [*(then * t), *changes, *self.ahead, *t, a, b, c, d, -then / rho]
