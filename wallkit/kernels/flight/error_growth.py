@@ -169,6 +169,16 @@ def _glided(xx: Any, xv: Any, vv: Any, g: Any) -> Any:
 
 
 @kernel
+def _met(xx: Any, xv: Any, vv: Any, A: Any, B: Any, M: Any) -> tuple[Any, Any, Any]:
+    """Carry covariances through a contact: dx' = A dx and dv' = B dx + M dv."""
+    back = (xv[0], xv[2], xv[1], xv[3])
+    turned = _plus(_times(B, xx), _times(M, back))
+    new_vv = _plus(_times_turned(turned, B), _times_turned(_plus(_times(B, xv), _times(M, vv)), M))
+    new_xv = _plus(_times_turned(_times(A, xx), B), _times_turned(_times(A, xv), M))
+    return _times_turned(_times(A, xx), A), new_xv, new_vv
+
+
+@kernel
 def carry(
     start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, glides: Any, fresh: Any, variance: Any
 ) -> None:
@@ -210,12 +220,7 @@ def carry(
         variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]  # the trace of S Var(x) S^T, and rounding
         if not variance[i] < 1e300:
             break
-        # dx' = A dx and dv' = B dx + M dv.
-        back = (xv[0], xv[2], xv[1], xv[3])
-        turned = _plus(_times(B, xx), _times(M, back))
-        vv = _plus(_times_turned(turned, B), _times_turned(_plus(_times(B, xv), _times(M, vv)), M))
-        xv = _plus(_times_turned(_times(A, xx), B), _times_turned(_times(A, xv), M))
-        xx = _times_turned(_times(A, xx), A)
+        xx, xv, vv = _met(xx, xv, vv, A, B, M)
         rounded = fresh[i, 2] * fresh[i, 2]
         if path[i, 5] != BOUNCES:  # nothing is turned
             along = (ny * ny * rounded, -nx * ny * rounded, -nx * ny * rounded, nx * nx * rounded)
