@@ -1,13 +1,17 @@
 """Fly balls through random closed drawings of lines and arcs until a number of bounces is reached; report any loss.
 
-    python benchmarks/soak.py 1000000000
+    python benchmarks/soak.py 1e9
+    python benchmarks/soak.py 1e9 --falling
 
 Each drawing is a star-shaped ring, every second one with some edges bowed into arcs; points and discs take turns. A
-ball is lost if it ends outside its ring by more than the rounding of coordinates, or leaves the scene.
+ball is lost if it ends outside its ring by more than the rounding of coordinates, or leaves the scene. With
+``--falling`` balls fall, walls take from them what they like (restitution 0 to 1, along the wall too), half of the
+drawings have rolling friction or drag, and balls slide, glide, pivot and rest; their energy must never grow.
 """
 
 from __future__ import annotations
 
+import argparse
 import math
 import sys
 import time
@@ -19,6 +23,8 @@ import wallkit
 from wallkit.simulation.run import Ending
 
 BALLS, BOUNCES = 400, 25_000
+PULL = (0.0, -30.0)
+LAST = 5_000.0  # seconds that a falling ball flies at most: one that only glides meets nothing
 
 
 def ring(rng, bowed):
@@ -47,8 +53,23 @@ def outline(points, bulges, pieces=400):
     return shapely.Polygon(path), missed
 
 
-def fly(rng, number):
-    """Fly one drawing: (bounces, lost, drift of the speed, balls that ended in an ambiguous corner)."""
+def acting(rng):
+    """What walls take and what acts on falling balls: (material, keywords of a scene)."""
+    keep = float(rng.choice([1.0, 1.0, 1.0, 0.8, 0.5, 0.0, rng.random()]))
+    along = float(rng.choice([1.0, 1.0, 0.6]))
+    slows = rng.choice(["nothing", "nothing", "rolling_friction", "drag"])
+    slowing = {} if slows == "nothing" else {str(slows): 0.5 if slows == "rolling_friction" else 0.001}
+    return wallkit.Material(keep, along), {"gravity": PULL, **slowing}
+
+
+def energies(position, velocity, acts):
+    """Of each ball, per mass: kinetic and, where it falls, potential."""
+    pull = np.array(acts.get("gravity", (0.0, 0.0)))
+    return (velocity**2).sum(axis=1) / 2 - position @ pull
+
+
+def fly(rng, number, falling):
+    """Fly one drawing: (bounces, lost, drift of the energy, balls that ended in an ambiguous corner)."""
     points, bulges = ring(rng, bowed=number % 2 == 1)
     radius = float(rng.choice([0.0, 0.3, 1.5])) if number % 4 < 2 else 0.0
     region, missed = outline(points, bulges)
@@ -59,27 +80,35 @@ def fly(rng, number):
     position = tries[shapely.contains_xy(free, tries[:, 0], tries[:, 1])][:BALLS]
     angle = rng.uniform(0, 2 * np.pi, len(position))
     velocity = 50.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    walls = wallkit.Walls.from_polylines([points], bulges=[bulges])
-    totals = wallkit.survey(wallkit.Scene(walls, wallkit.Balls(position, velocity, radius)), bounces=BOUNCES)
+    material, acts = acting(rng) if falling else (wallkit.Material(), {})
+    walls = wallkit.Walls.from_polylines([points], bulges=[bulges], material=material)
+    scene = wallkit.Scene(walls, wallkit.Balls(position, velocity, radius), **acts)
+    totals = wallkit.survey(scene, LAST if falling else None, BOUNCES)
     outside = shapely.distance(region, shapely.points(totals.position)) > missed + 1e-10
     lost = int(np.count_nonzero(outside | (totals.ending == Ending.LEFT_SCENE)))
-    drift = np.abs(np.hypot(*totals.velocity.T) / np.hypot(*velocity.T) - 1).max(initial=0.0)
+    grown = energies(totals.position, totals.velocity, acts) - energies(position, velocity, acts)
+    drift = (grown if falling else np.abs(grown)).max(initial=0.0) / 1250.0  # of the speed at the start
     return int(totals.bounces.sum()), lost, float(drift), int((totals.ending == Ending.AMBIGUOUS_CORNER).sum())
 
 
 def main():
-    wanted = int(float(sys.argv[1])) if len(sys.argv) > 1 else 10_000_000
-    rng = np.random.default_rng(2026)
+    options = argparse.ArgumentParser(description="Look for lost balls.")
+    options.add_argument("bounces", nargs="?", type=float, default=1e7)
+    options.add_argument("--falling", action="store_true")
+    options.add_argument("--seed", type=int, default=2026)
+    given = options.parse_args()
+    wanted = int(given.bounces)
+    rng = np.random.default_rng(given.seed)
     bounces = lost = corners = number = 0
     drift, began, told = 0.0, time.time(), 0.0
     while bounces < wanted:
-        more, gone, drifted, ambiguous = fly(rng, number)
+        more, gone, drifted, ambiguous = fly(rng, number, given.falling)
         bounces, lost, corners, number = bounces + more, lost + gone, corners + ambiguous, number + 1
         drift = max(drift, drifted)
         if time.time() - told > 20 or bounces >= wanted:
             told = time.time()
             print(
-                f"{number} drawings, {bounces:,} bounces, {lost} balls lost, drift of the speed {drift:.2g}, "
+                f"{number} drawings, {bounces:,} bounces, {lost} balls lost, drift of the energy {drift:.2g}, "
                 f"{corners} ambiguous corners, {told - began:.0f} s",
                 flush=True,
             )
