@@ -38,6 +38,7 @@ LOOKS = {
     "pymunk": Look("#1f242c", "#e8ebf0", "plus"),
     "Box2D 2.3": Look("#7a6a3a", "#cdbb7a", "star"),
     "billiards": Look("#5d6675", "#9aa4b5", "ring"),
+    "pooltool": Look("#8a2be2", "#c79bff", "frame"),
 }
 _OTHER = Look("#5d6675", "#9aa4b5", "ring")
 
@@ -229,12 +230,14 @@ def _marker(shape: str, x: float, y: float) -> str:
         plus = f"M{x - r:.1f} {y:.1f}h{2 * r:.1f}M{x:.1f} {y - r:.1f}v{2 * r:.1f}"
         return f'<path class="hollow" d="{ {"cross": cross, "plus": plus, "star": cross + plus}[shape] }"/>'
     corners = {
+        "frame": ((-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)),
         "square": ((-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)),
         "diamond": ((0, -1.2), (1.2, 0), (0, 1.2), (-1.2, 0)),
         "triangle": ((0, -1.15), (1.05, 0.8), (-1.05, 0.8)),
         "triangle-down": ((0, 1.15), (1.05, -0.8), (-1.05, -0.8)),
     }[shape]
-    return f'<path class="mark" d="M{"L".join(f"{x + r * a:.1f} {y + r * b:.1f}" for a, b in corners)}Z"/>'
+    kind = "hollow" if shape == "frame" else "mark"
+    return f'<path class="{kind}" d="M{"L".join(f"{x + r * a:.1f} {y + r * b:.1f}" for a, b in corners)}Z"/>'
 
 
 _MEANINGS = {
@@ -247,6 +250,7 @@ _MEANINGS = {
     "pymunk": "pymunk: smaller steps take more time",
     "Box2D 2.3": "Box2D 2.3: smaller steps take more time",
     "billiards": "billiards (Python, event-driven)",
+    "pooltool": "pooltool (event-driven): friction towards 0",
 }
 
 
@@ -262,7 +266,7 @@ def _legend(series: Sequence[str], table: _Table) -> str:
         words = _MEANINGS.get(name, name)
         if not name:
             mark = f'<circle class="escaped" cx="{left + 14:g}" cy="{top:g}" r="8"/>'
-            words = "the ball was outside the room at some time"
+            words = "a ball was outside the room at some time"
         parts.append(
             f'<g class="{_class(name)}">{mark}</g>'
             f'<text class="ink" x="{left + 38:g}" y="{top + 4:g}" font-size="12">{escape(words)}</text>'
