@@ -119,6 +119,12 @@ def test_the_break_is_sure_and_its_twentieth_meeting_stands_alone():
     assert _taken(events, 39) == met
 
 
+def test_a_picture_says_after_what_the_error_is_taken(box, the_break):
+    assert "after 3 bounces (units)" in work_precision_svg([box])
+    assert "after 20 contacts of balls (units)" in work_precision_svg([the_break])
+    assert "after 3 bounces, or 20 contacts of balls (units)" in work_precision_svg([box, the_break])
+
+
 def test_a_scene_file_in_which_balls_meet_is_the_first_ball_alone():
     subject = of_scene("mine", replace(scenes.break_of_fifteen(), ball_restitution=0.9))
     assert not subject.lines(1.0).meeting

@@ -101,6 +101,7 @@ class Contest:
         size: the larger side of the scene.
         radius: of the (first) ball.
         points: the results, series by series.
+        balls: how many there are; more than one of them meet.
     """
 
     name: str
@@ -109,6 +110,7 @@ class Contest:
     size: float
     radius: float
     points: list[Point] = field(default_factory=list)
+    balls: int = 1
 
     def series(self) -> dict[str, list[Point]]:
         """Give the points by series, in order."""
@@ -204,7 +206,8 @@ def contest(subject: Subject, effort: Effort, progress: Callable[[str], None] | 
     times, places = _between(events, truth)
     taken = _taken(events, len(times))
     area = _room(truth)
-    result = Contest(subject.name, subject.story, len(times), size, float(truth.balls.radius[0]))
+    radius, balls = float(truth.balls.radius[0]), len(truth.balls)
+    result = Contest(subject.name, subject.story, len(times), size, radius, balls=balls)
     for contestant in contestants(subject, effort, size):
         if progress:
             progress(f"{contestant.series}, {contestant.setting}")

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
-from wallkit.accuracy.contest import BOUNCES, Contest, Point
+from wallkit.accuracy import tables
+from wallkit.accuracy.contest import Contest, Point
 from wallkit.view.theme import Theme, colour
 
 WIDTH = 1180.0
@@ -56,7 +57,7 @@ def work_precision_svg(contests: Sequence[Contest], foot: str = "") -> str:
     below = _TOP + table.height(entries=len(present) + 1)
     height = below + (_FOOT if foot else 0.0)
     axes = _Axes.around([point for found in contests for point in found.points], table.panel)
-    parts = [_heading()]
+    parts = [_heading(tables.when(contests))]
     for index, found in enumerate(contests):
         parts.append(_panel(found, axes, *table.corner(index), labelled=index % table.columns == 0))
     parts.append(_legend(present, table))
@@ -143,12 +144,11 @@ def _shown(error: float) -> float:
     return min(max(error, 1e-15), 1e4)  # a logarithmic axis has no place for 0
 
 
-def _heading() -> str:
+def _heading(after: str) -> str:
     return (
         f'<text class="ink" x="{_LEFT - 50:g}" y="36" font-size="22" font-weight="600">Speed against error</text>'
         f'<text class="note" x="{_LEFT - 50:g}" y="60" font-size="13">Across: how far the ball is from where it really '
-        f"is after {BOUNCES} bounces (units of the scene). Up: processor seconds for one second of the ball's flight. "
-        "Lower left is better.</text>"
+        f"is after {after} (units). Up: processor seconds for one second of flight. Lower left is better.</text>"
     )
 
 
