@@ -3,6 +3,7 @@
 import json
 import re
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,8 +12,10 @@ from typer.testing import CliRunner
 from wallkit import Balls, Material, Scene, SceneError, Walls
 from wallkit.accuracy import engines, scenes, tables
 from wallkit.accuracy.cases import Case, Verdict
-from wallkit.accuracy.contest import METHODS, Contest, Effort, Point, Subject, contest
+from wallkit.accuracy.contest import MEETINGS, METHODS, Contest, Effort, Point, Subject, _taken, contest
 from wallkit.accuracy.own import flattened, of_scene
+from wallkit.accuracy.pool_engine import FRICTIONS, pooltool_engines
+from wallkit.accuracy.reference_pairs import sure_meetings
 from wallkit.accuracy.report import Report, machine
 from wallkit.cli.app import _register_commands, app
 from wallkit.view.report_page import report_html
@@ -44,14 +47,14 @@ def test_the_exact_ways_are_exact_and_the_others_are_not(box):
 
 def test_an_engine_that_escapes_is_seen():
     gone = engines.Contestant(
-        "gone", "", 0.0, lambda times, _: engines.Flown(times[:, None] * [1e3, 0], np.ones(2), 1.0)
+        "gone", "", 0.0, lambda times, _: engines.Flown(times[:, None, None] * [1e3, 0], np.ones((1, 2)), 1.0)
     )
     from wallkit.accuracy import contest as module
 
     truth = Subject.of(scenes.built_in()[0]).truth(400.0)
     times = np.arange(1.0, 8.0)
-    places = np.full((7, 2), 100.0)
-    point = module._judged(gone, gone.fly(times, 1), places, 400.0, module._room(truth), truth)
+    places = np.full((7, 1, 2), 100.0)
+    point = module._judged(gone, gone.fly(times, 1), places, 400.0, module._room(truth), truth, taken=2)
     assert point.escaped
     assert point.wrong == 1
     assert point.error == pytest.approx(np.hypot(2900.0, 100.0))
@@ -62,6 +65,70 @@ def test_a_slow_contestant_stops_at_the_limit_of_steps():
     flown = engines.stepped(scene, "exact", 1e-9).fly(np.array([1.0, 2.0]), 1)
     assert len(flown.position) == 0
     assert np.isnan(flown.seconds)
+
+
+@pytest.fixture(scope="module")
+def the_break():
+    """Forty contacts, of which the twentieth of two balls is the one at which the error is taken."""
+    return contest(Subject.of_the_break(), Effort(bounces=40, runs=1, steps=(1 / 240,), fine_steps=()))
+
+
+def test_balls_that_meet_are_judged_all_of_them(the_break):
+    by_series = {name: points[0] for name, points in the_break.series().items()}
+    # coordinates up to 254 and ten contacts a ball at most, each of which multiplies an error by a few: 2e-13 measured
+    assert by_series["exact, lines"].error < 1e-11
+    assert by_series["step, exact"].error < 1e-11
+    assert by_series["exact, lines"].wrong is None
+    assert by_series["step, exact"].wrong is None
+    assert by_series["exact, lines"].reached == 40
+    assert abs(by_series["exact, lines"].drift) < 1e-14
+    assert set(by_series) <= {"exact, lines", "step, exact", "pymunk", "billiards", "pooltool"}
+
+
+def test_an_engine_of_one_frame_for_ten_contacts_is_elsewhere(the_break):
+    pytest.importorskip("pymunk")
+    # the first eleven contacts of the rack take 3.2 ms, less than one frame of 1/240 s
+    (point,) = the_break.series()["pymunk"]
+    assert point.error > 1.0
+    assert point.wrong is not None
+
+
+def test_friction_brought_down_brings_pooltool_to_the_reference(the_break):
+    pytest.importorskip("pooltool")
+    points = the_break.series()["pooltool"]
+    assert [point.value for point in points] == list(FRICTIONS)
+    errors = np.array([point.error for point in points])
+    # what friction takes is in proportion to it, until the 1e-9 m are left by which pooltool moves balls at a contact
+    assert errors[1:3] / errors[:2] == pytest.approx(0.01, rel=0.2)
+    assert errors[3] < 1e-6
+
+
+def test_pooltool_is_asked_for_equal_balls_on_a_rectangle_alone():
+    table = scenes.break_of_fifteen()
+    assert len(list(pooltool_engines(table))) == len(FRICTIONS)
+    assert not list(pooltool_engines(replace(table, walls=scenes.star())))
+    balls = Balls(table.balls.position, table.balls.velocity, table.balls.radius, np.arange(1.0, 17.0))
+    assert not list(pooltool_engines(replace(table, balls=balls)))
+
+
+def test_the_break_is_sure_and_its_twentieth_meeting_stands_alone():
+    truth = scenes.break_of_fifteen()
+    events = sure_meetings(truth, 40, digits=16)
+    met = [index for index, event in enumerate(events) if event.other >= 0][MEETINGS - 1]
+    assert events[met + 1].time - events[met].time > 0.05  # longer than any time step of the report
+    assert _taken(events, 39) == met
+
+
+def test_a_picture_says_after_what_the_error_is_taken(box, the_break):
+    assert "after 3 bounces (units)" in work_precision_svg([box])
+    assert "after 20 contacts of balls (units)" in work_precision_svg([the_break])
+    assert "after 3 bounces, or 20 contacts of balls (units)" in work_precision_svg([box, the_break])
+
+
+def test_a_scene_file_in_which_balls_meet_is_the_first_ball_alone():
+    subject = of_scene("mine", replace(scenes.break_of_fifteen(), ball_restitution=0.9))
+    assert not subject.lines(1.0).meeting
+    assert engines.lossless(subject.lines(1.0))
 
 
 def test_the_best_is_the_fastest_of_the_least_wrong():

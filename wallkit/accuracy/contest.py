@@ -1,10 +1,10 @@
-"""Work against precision: every contestant flies the same ball, and is held against a far tighter reference."""
+"""Work against precision: every contestant flies the same balls, and is held against a far tighter reference."""
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -12,13 +12,15 @@ import numpy as np
 
 from wallkit.accuracy import engines
 from wallkit.accuracy.reference import Event, PrecisionError, Reference, sure_events
-from wallkit.accuracy.scenes import BuiltIn
+from wallkit.accuracy.reference_pairs import Meeting, PairsReference, sure_meetings
+from wallkit.accuracy.scenes import BuiltIn, break_of_fifteen, built_in
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import edge_points
 from wallkit.scene.scene import Scene
 from wallkit.simulation.ways import WRONG
 
 BOUNCES = 3  # the error is taken after so many: few enough that chaos has not yet mixed everything up
+MEETINGS = 20  # the same where balls meet: contacts of two of them
 METHODS = ("exact", "stop", "full-step", "reflect-in-place")
 
 
@@ -33,6 +35,7 @@ class Effort:
         steps: time steps of what is stepped.
         tolerances: of what is drawn as lines or arcs, as parts of the scene's size.
         finer: more of them for arcs, of which it takes so few.
+        fine_steps: more time steps for engines where balls meet, many of them within one of the others.
         digits: of the reference to begin with; it adds more by itself until nothing changes.
         fixed: take the digits as they are.
     """
@@ -43,11 +46,20 @@ class Effort:
     steps: tuple[float, ...] = (1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 1000, 1 / 5000)
     tolerances: tuple[float, ...] = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
     finer: tuple[float, ...] = (1e-9,)
+    fine_steps: tuple[float, ...] = (1 / 20_000, 1 / 100_000)
     digits: int = 32
     fixed: bool = False
 
 
-QUICK = Effort(bounces=20, runs=2, draws=3, steps=(1 / 60, 1 / 240, 1 / 1000), tolerances=(1e-3, 1e-5, 1e-7), finer=())
+QUICK = Effort(
+    bounces=20,
+    runs=2,
+    draws=3,
+    steps=(1 / 60, 1 / 240, 1 / 1000),
+    tolerances=(1e-3, 1e-5, 1e-7),
+    finer=(),
+    fine_steps=(),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,12 +69,13 @@ class Point:
     Attributes:
         series: who.
         setting: with what, for people.
-        value: the same as a number: a time step or a tolerance.
-        error: distance from the reference after :data:`BOUNCES` bounces, in the scene's units.
+        value: the same as a number: a time step, a tolerance or a friction.
+        error: distance from the reference after :data:`BOUNCES` bounces, in the scene's units; where balls meet that
+            of the ball that is farthest off, after :data:`MEETINGS` contacts of two of them.
         seconds: of processor time per simulated second.
-        wrong: the first bounce after which the ball is somewhere else, or None.
+        wrong: the first bounce (where balls meet, contact of any of them) after which one is somewhere else, or None.
         drift: of the energy over the whole run, relative; NaN where it is not to be kept.
-        escaped: the ball was outside of its room at some time.
+        escaped: a ball was outside of its room at some time.
         reached: so many bounces were looked at; fewer than the reference has where that took too many steps.
     """
 
@@ -86,8 +99,9 @@ class Contest:
         story: what is hard about it.
         bounces: of the reference.
         size: the larger side of the scene.
-        radius: of the ball.
+        radius: of the (first) ball.
         points: the results, series by series.
+        balls: how many there are; more than one of them meet.
     """
 
     name: str
@@ -96,6 +110,7 @@ class Contest:
     size: float
     radius: float
     points: list[Point] = field(default_factory=list)
+    balls: int = 1
 
     def series(self) -> dict[str, list[Point]]:
         """Give the points by series, in order."""
@@ -136,9 +151,21 @@ class Subject:
         arcs = None if scene.arcs is None else lambda t: scene.scene(t)
         return cls(scene.name, scene.story, lambda t: scene.scene(t, lines=True), arcs, scene.fitted)
 
+    @classmethod
+    def of_the_break(cls) -> Subject:
+        """Take the balls that meet."""
+        story = f"16 balls; the farthest, after {MEETINGS} met"
+        return cls("break", story, lambda _: break_of_fifteen(), None, False)
+
     def truth(self, tolerance: float) -> Scene:
         """Give the scene that the others are held against."""
         return self.lines(tolerance) if self.arcs is None else self.arcs(tolerance)
+
+
+def subjects() -> dict[str, Subject]:
+    """Give the built-in scenes by name, in the report's order."""
+    found = {scene.name: Subject.of(scene) for scene in built_in()}
+    return found | {"break": Subject.of_the_break()}
 
 
 def contestants(subject: Subject, effort: Effort, size: float) -> Iterator[engines.Contestant]:
@@ -154,9 +181,9 @@ def contestants(subject: Subject, effort: Effort, size: float) -> Iterator[engin
             yield engines.exact(subject.arcs(part * size), "exact, arcs", f"within {part * size:.2g}", part * size)
         if not subject.swept:
             yield engines.exact(best, "exact, arcs", "as drawn", 0.0)
-    for way in METHODS:
+    for way in METHODS[:1] if best.meeting else METHODS:
         yield from (engines.stepped(best, way, dt) for dt in effort.steps)
-    yield from engines.others(fine, best, list(effort.steps))
+    yield from engines.others(fine, best, [*effort.steps, *(effort.fine_steps if best.meeting else ())])
 
 
 def contest(subject: Subject, effort: Effort, progress: Callable[[str], None] | None = None) -> Contest:
@@ -177,19 +204,25 @@ def contest(subject: Subject, effort: Effort, progress: Callable[[str], None] | 
         progress("reference")
     events = _reference(truth, effort)
     times, places = _between(events, truth)
+    taken = _taken(events, len(times))
     area = _room(truth)
-    radius = float(np.atleast_1d(np.asarray(truth.balls.radius, dtype=np.float64))[0])
-    result = Contest(subject.name, subject.story, len(times), size, radius)
+    radius, balls = float(truth.balls.radius[0]), len(truth.balls)
+    result = Contest(subject.name, subject.story, len(times), size, radius, balls=balls)
     for contestant in contestants(subject, effort, size):
         if progress:
             progress(f"{contestant.series}, {contestant.setting}")
-        result.points.append(_judged(contestant, contestant.fly(times, effort.runs), places, size, area, truth))
+        flown = contestant.fly(times, effort.runs)
+        result.points.append(_judged(contestant, flown, places, size, area, truth, taken))
     return result
 
 
-def _reference(truth: Scene, effort: Effort) -> list[Event]:
+def _reference(truth: Scene, effort: Effort) -> Sequence[Event | Meeting]:
     wanted = effort.bounces + 1
-    if effort.fixed:
+    events: Sequence[Event | Meeting]
+    if truth.meeting:
+        fixed = PairsReference(truth, effort.digits).run(wanted) if effort.fixed else None
+        events = fixed or sure_meetings(truth, wanted, digits=effort.digits)
+    elif effort.fixed:
         events = Reference(truth, effort.digits).run(wanted)
     else:
         events = sure_events(truth, wanted, digits=effort.digits)
@@ -198,31 +231,52 @@ def _reference(truth: Scene, effort: Effort) -> list[Event]:
     return events
 
 
-def _between(events: list[Event], truth: Scene) -> tuple[FloatArray, FloatArray]:
-    """Times in the middle of the flights after each bounce, and the exact places then (rounded to doubles)."""
+def _taken(events: Sequence[Event | Meeting], count: int) -> int:
+    """After which of the contacts the error is taken, from 0: the last where there are fewer."""
+    met = [index for index, event in enumerate(events) if isinstance(event, Meeting) and event.other >= 0]
+    index = met[:MEETINGS][-1] if met else BOUNCES - 1
+    return min(index, count - 1)
+
+
+def _between(events: Sequence[Event | Meeting], truth: Scene) -> tuple[FloatArray, FloatArray]:
+    """Times in the middle of the flights after each contact, and the exact places of all balls (m, n, 2), rounded."""
+    number = type(events[0].time)
+    balls, pull = truth.balls, truth.gravity or (0.0, 0.0)
+    states: list[Any] = [(number(0), *pair) for pair in zip(balls.position, balls.velocity, strict=True)]
     times, places = [], []
     for a, b in itertools.pairwise(events):
+        states[a.ball if isinstance(a, Meeting) else 0] = (a.time, a.position, a.velocity)
+        if isinstance(a, Meeting) and a.other >= 0:
+            states[a.other] = (a.time, a.other_position, a.other_velocity)
         time = float((a.time + b.time) / 2)
-        span = type(a.time)(time) - a.time
-        pull = truth.gravity or (0.0, 0.0)
+        spans = [number(time) - since for since, _, _ in states]
         times.append(time)
-        places.append([float(a.position[i] + a.velocity[i] * span + pull[i] * span * span / 2) for i in (0, 1)])
+        places.append([
+            [float(p[i] + v[i] * span + pull[i] * span * span / 2) for i in (0, 1)]
+            for span, (_, p, v) in zip(spans, states, strict=True)
+        ])  # fmt: skip
     return np.array(times), np.array(places)
 
 
 def _judged(
-    contestant: engines.Contestant, flown: engines.Flown, places: FloatArray, size: float, area: Any, truth: Scene
+    contestant: engines.Contestant,
+    flown: engines.Flown,
+    places: FloatArray,
+    size: float,
+    area: Any,
+    truth: Scene,
+    taken: int,
 ) -> Point:
     from shapely import contains_xy
 
     got = flown.position
-    off = np.hypot(*(got - places[: len(got)]).T) if len(got) else np.empty(0)
-    error = float(off[min(BOUNCES, len(places)) - 1]) if len(off) >= min(BOUNCES, len(places)) else math.nan
+    off = np.hypot(*np.moveaxis(got - places[: len(got)], -1, 0)).max(axis=1) if len(got) else np.empty(0)
+    error = float(off[taken]) if len(off) > taken else math.nan
     wrong = np.flatnonzero(~(off <= WRONG * size))
-    escaped = area is not None and bool(len(got)) and not bool(contains_xy(area, got[:, 0], got[:, 1]).all())
-    first = np.atleast_2d(np.asarray(truth.balls.velocity, dtype=np.float64))[0]
+    escaped = area is not None and bool(len(got)) and not bool(contains_xy(area, got[..., 0], got[..., 1]).all())
     kept = truth.gravity is None and engines.lossless(truth)
-    drift = float(flown.velocity @ flown.velocity / (first @ first) - 1) if kept else math.nan
+    mass = np.where(truth.balls.mass > 0.0, truth.balls.mass, 1.0)[:, None]  # one point has none
+    energy, first = (float((mass * velocity**2).sum()) for velocity in (flown.velocity, truth.balls.velocity))
     return Point(
         contestant.series,
         contestant.setting,
@@ -230,7 +284,7 @@ def _judged(
         error,
         flown.seconds,
         int(wrong[0]) + 1 if len(wrong) else None,
-        drift,
+        energy / first - 1 if kept else math.nan,
         escaped,
         len(got),
     )

@@ -1,11 +1,13 @@
 """Who is compared: the exact simulator, the ways of stepping, and other engines where they are installed.
 
-Each contestant flies one ball and says where it is at given times. Engines are set up as their manuals ask for a
-bouncing ball without losses: restitution 1, no friction, no damping, continuous collision where there is one.
+Each contestant flies the scene's balls, one or (where they meet) many, and says where they are at given times. Engines
+are set up as their manuals ask for balls that bounce without losses: restitution 1, no friction, no damping, continuous
+collision where there is one.
 """
 
 from __future__ import annotations
 
+import copy
 import importlib.util
 import math
 import time
@@ -29,8 +31,8 @@ class Flown:
     """What a contestant gave.
 
     Attributes:
-        position: (m, 2) centre at each time asked for; fewer rows when it was too slow to get there.
-        velocity: (2,) at the last of them.
+        position: (m, n, 2) centres at each time asked for; fewer rows when it was too slow to get there.
+        velocity: (n, 2) at the last of them.
         seconds: of processor time per simulated second (a busy machine does not change it).
     """
 
@@ -47,7 +49,7 @@ class Contestant:
         series: such as ``"pymunk"``.
         setting: what is swept, for people: ``"dt 1/60"``.
         value: the same as a number.
-        fly: flies the scene's first ball through rising times, ``runs`` times for the least time.
+        fly: flies the scene's balls through rising times, ``runs`` times for the least time.
     """
 
     series: str
@@ -60,21 +62,36 @@ def exact(scene: Scene, series: str, setting: str, value: float) -> Contestant:
     """Wrap the exact simulator, compiled; preparing the walls is not timed, as it is not for the others."""
 
     def fly(times: FloatArray, runs: int) -> Flown:
-        from wallkit.simulation.simulate import Flights, simulate
+        from wallkit.simulation.simulate import simulate
 
         run = simulate(scene, until=float(times[-1]), mode="compiled")
-        position = np.array([run.position(float(t))[0] for t in times])
-        least = math.inf
-        for _ in range(runs):
-            flights = Flights(scene, mode="compiled")
-            begin = time.process_time()
-            noted = sum(len(piece) for piece in flights.fly(0, math.inf, 20_000))
-            if noted == 0:
-                break
-            least = min(least, (time.process_time() - begin) / flights.final()["time"][0])
-        return Flown(position, run.velocity(float(times[-1]))[0], least)
+        timed = _together if scene.meeting else _alone
+        least = min(timed(scene, float(times[-1])) for _ in range(runs))
+        return Flown(run.position(times), run.velocity(float(times[-1])), least)
 
     return Contestant(series, setting, value, fly)
+
+
+def _alone(scene: Scene, _until: float) -> float:
+    """Seconds per simulated second of the first ball, over many bounces, since three of them take no time."""
+    from wallkit.simulation.simulate import Flights
+
+    flights = Flights(scene, mode="compiled")
+    begin = time.process_time()
+    noted = sum(len(piece) for piece in flights.fly(0, math.inf, 20_000))
+    return (time.process_time() - begin) / float(flights.final()["time"][0]) if noted else math.inf
+
+
+def _together(scene: Scene, until: float) -> float:
+    """Seconds per simulated second of balls that meet, over the time that the others fly too."""
+    from wallkit.simulation.meeting import Meeting
+    from wallkit.simulation.simulate import START
+
+    meeting = Meeting(scene, START, mode="compiled")
+    begin = time.process_time()
+    for _ in meeting.go(until, 2**31, most=1000):
+        pass
+    return (time.process_time() - begin) / until
 
 
 def stepped(scene: Scene, way: Any, dt: float) -> Contestant:
@@ -85,19 +102,32 @@ def stepped(scene: Scene, way: Any, dt: float) -> Contestant:
 
         def start() -> Stepper:
             world = World(scene, way, compile=True)
-            return Stepper(lambda: world.step(dt) is None, lambda: (world.position[0], world.velocity[0]))
+            ahead = (lambda rest: _ahead(world, rest)) if scene.meeting else None
+            return Stepper(lambda: world.step(dt) is None, lambda: (world.position, world.velocity), ahead)
 
         return _through(start, dt, times, runs, np.asarray(scene.gravity or (0.0, 0.0)))
 
     return Contestant(f"step, {way}", f"dt {_fraction(dt)}", dt, fly)
 
 
+def _ahead(world: Any, rest: float) -> FloatArray:
+    """Positions after a part of a frame, in which balls may meet; the world itself stays where it is."""
+    twin = copy.deepcopy(world)
+    twin.step(rest)
+    position: FloatArray = twin.position
+    return position
+
+
 @dataclass(frozen=True, slots=True)
 class Stepper:
-    """An engine that was set up: ``step`` moves on by its time step, ``state`` gives position and velocity."""
+    """An engine that was set up: ``step`` moves on by its time step, ``state`` gives positions and velocities.
+
+    Where it knows better than free flight, ``ahead`` gives positions after a part of a step.
+    """
 
     step: Callable[[], Any]
     state: Callable[[], tuple[Any, Any]]
+    ahead: Callable[[float], FloatArray] | None = None
 
 
 def _through(
@@ -107,7 +137,7 @@ def _through(
     counts = np.floor(times / dt).astype(int)
     counts = counts[counts <= MOST_STEPS]
     if not len(counts):
-        return Flown(np.empty((0, 2)), np.full(2, math.nan), math.nan)
+        return Flown(np.empty((0, 1, 2)), np.full((1, 2), math.nan), math.nan)
     least = math.inf
     places: list[FloatArray] = []
     for _ in range(runs):
@@ -119,9 +149,10 @@ def _through(
                 step()
             spent += time.process_time() - begin
             done = int(count)
-            position, velocity = (np.array(tuple(pair), dtype=float) for pair in engine.state())
+            position, velocity = (np.array(state, dtype=float) for state in engine.state())
             rest = times[index] - count * dt
-            places.append(position + rest * velocity + (0.0 if pull is None else 0.5 * rest * rest * pull))
+            free = position + rest * velocity + (0.0 if pull is None else 0.5 * rest * rest * pull)
+            places.append(free if engine.ahead is None else engine.ahead(rest))
         least = min(least, spent / (done * dt))
         if spent > 0.5:  # slow ones are timed well enough by one run
             break
@@ -135,19 +166,21 @@ def pymunk_engine(scene: Scene, dt: float) -> Contestant:
         import pymunk
 
         space = pymunk.Space()
-        position, velocity, radius = _ball(scene)
         for points, closed in _polylines(scene.walls):
             for before, a, b, after in _with_neighbours(points, closed):
                 line = pymunk.Segment(space.static_body, a, b, 0.0)
                 line.set_neighbors(before, after)  # its manual's way against ghost hits at joints
                 line.elasticity, line.friction = 1.0, 0.0
                 space.add(line)
-        body = pymunk.Body(1.0, math.inf)
-        body.position, body.velocity = tuple(position), tuple(velocity)
-        disc = pymunk.Circle(body, radius)
-        disc.elasticity, disc.friction = 1.0, 0.0
-        space.add(body, disc)
-        return Stepper(lambda: space.step(dt), lambda: (body.position, body.velocity))
+        bodies = []
+        for position, velocity, radius, mass in _balls(scene):
+            body = pymunk.Body(mass, math.inf)
+            body.position, body.velocity = position, velocity
+            disc = pymunk.Circle(body, radius)
+            disc.elasticity, disc.friction = 1.0, 0.0
+            space.add(body, disc)
+            bodies.append(body)
+        return Stepper(lambda: space.step(dt), lambda: ([b.position for b in bodies], [b.velocity for b in bodies]))
 
     return Contestant("pymunk", f"dt {_fraction(dt)}", dt, lambda times, runs: _through(start, dt, times, runs))
 
@@ -160,7 +193,7 @@ def box2d_engine(scene: Scene, dt: float) -> Contestant:
             warnings.simplefilter("ignore")  # its wrapper warns when loaded, and crashes where warnings are errors
             import Box2D
 
-        position, velocity, radius = _ball(scene)
+        ((position, velocity, radius, _mass),) = _balls(scene)
         world = Box2D.b2World(gravity=(0, 0), doSleep=False)
         ground = world.CreateStaticBody()
         for points, closed in _polylines(scene.walls):
@@ -168,10 +201,10 @@ def box2d_engine(scene: Scene, dt: float) -> Contestant:
             shape = {"vertices_loop": points} if closed else {"vertices_chain": points}
             chain = Box2D.b2ChainShape(**shape) if len(points) > 2 else Box2D.b2EdgeShape(vertices=points)
             ground.CreateFixture(shape=chain, friction=0.0, restitution=1.0)
-        body = world.CreateDynamicBody(position=tuple(position), bullet=True, fixedRotation=True, linearDamping=0.0)
+        body = world.CreateDynamicBody(position=position, bullet=True, fixedRotation=True, linearDamping=0.0)
         body.CreateCircleFixture(radius=radius, density=1.0, friction=0.0, restitution=1.0)
-        body.linearVelocity = tuple(velocity)
-        return Stepper(lambda: world.Step(dt, 8, 3), lambda: (body.position, body.linearVelocity))
+        body.linearVelocity = velocity
+        return Stepper(lambda: world.Step(dt, 8, 3), lambda: ([tuple(body.position)], [tuple(body.linearVelocity)]))
 
     return Contestant("Box2D 2.3", f"dt {_fraction(dt)}", dt, lambda times, runs: _through(start, dt, times, runs))
 
@@ -185,19 +218,19 @@ def billiards_engine(scene: Scene) -> Contestant | None:
     def fly(times: FloatArray, runs: int) -> Flown:
         import billiards
 
-        position, velocity, radius = _ball(scene)
-        least, places = math.inf, np.empty((0, 2))
+        least, places = math.inf, np.empty((0, 1, 2))
         for _ in range(runs):
             table = billiards.Billiard(obstacles=obstacles)
-            table.add_ball(position, velocity, radius)
+            for ball in _balls(scene):
+                table.add_ball(*ball)
             found, spent = [], 0.0
             for moment in times:
                 begin = time.process_time()
                 table.evolve(float(moment))
                 spent += time.process_time() - begin
-                found.append(table.balls_position[0].copy())
+                found.append(table.balls_position.copy())
             least, places = min(least, spent / float(times[-1])), np.array(found)
-        return Flown(places, table.balls_velocity[0].copy(), least)
+        return Flown(places, table.balls_velocity.copy(), least)
 
     return Contestant("billiards", "event-driven", 0.0, fly)
 
@@ -235,26 +268,35 @@ def others(lines: Scene, best: Scene, steps: list[float]) -> Iterator[Contestant
     """
     if lines.gravity is not None or not lossless(lines):
         return
-    disc = _ball(lines)[2] > 0
-    for name, make in (("pymunk", pymunk_engine), ("Box2D", box2d_engine)):
-        if disc and importlib.util.find_spec(name) is not None:
-            yield from (make(lines, dt) for dt in steps)
-    if importlib.util.find_spec("billiards") is not None:
-        contestant = billiards_engine(best)
-        if contestant is not None:
-            yield contestant
+    discs = bool((lines.balls.radius > 0).all())
+    if discs and _installed("pymunk"):
+        yield from (pymunk_engine(lines, dt) for dt in steps)
+    if discs and _installed("Box2D") and not lines.meeting:  # it moves nothing by more than 2 units a step: slow balls
+        yield from (box2d_engine(lines, dt) for dt in steps)
+    if _installed("billiards") and (contestant := billiards_engine(best)) is not None:
+        yield contestant
+    if lines.meeting and _installed("pooltool"):
+        from wallkit.accuracy.pool_engine import pooltool_engines
+
+        yield from pooltool_engines(lines)
+
+
+def _installed(name: str) -> bool:
+    return importlib.util.find_spec(name) is not None
 
 
 def lossless(scene: Scene) -> bool:
-    """No wall takes anything from the speed."""
-    return all(wall.restitution == 1 and wall.tangential_restitution == 1 for wall in scene.walls.materials)
+    """No wall, and no ball, takes anything from the speed."""
+    walls = all(wall.restitution == 1 and wall.tangential_restitution == 1 for wall in scene.walls.materials)
+    return walls and scene.ball_restitution == 1 and scene.ball_tangential_restitution == 1
 
 
-def _ball(scene: Scene) -> tuple[FloatArray, FloatArray, float]:
+def _balls(scene: Scene) -> list[tuple[Place, Place, float, float]]:
+    """Position, velocity, radius and mass of each ball, as other engines take them: a point weighs something there."""
     balls = scene.balls
-    position = np.atleast_2d(np.asarray(balls.position, dtype=np.float64))[0]
-    velocity = np.atleast_2d(np.asarray(balls.velocity, dtype=np.float64))[0]
-    return position, velocity, float(np.atleast_1d(np.asarray(balls.radius, dtype=np.float64))[0])
+    masses = np.where(balls.mass > 0.0, balls.mass, 1.0)
+    columns = (balls.position.tolist(), balls.velocity.tolist(), balls.radius.tolist(), masses.tolist())
+    return [((x, y), (vx, vy), radius, mass) for (x, y), (vx, vy), radius, mass in zip(*columns, strict=True)]
 
 
 def _polylines(walls: Walls) -> list[tuple[list[Place], bool]]:

@@ -15,8 +15,9 @@ from wallkit.walls import Walls
 
 
 def of_scene(name: str, scene: Scene) -> Subject:
-    """Take walls and the first ball as they are."""
-    scene = replace(scene, balls=first_ball(scene.balls))
+    """Take walls and the first ball as they are, alone."""
+    scene = replace(scene, balls=first_ball(scene.balls), meeting=False)
+    scene = replace(scene, ball_restitution=1.0, ball_tangential_restitution=1.0)
     arcs = (lambda _: scene) if scene.walls.has_arcs else None
 
     def lines(tolerance: float) -> Scene:

@@ -207,3 +207,38 @@ class PairsReference:
         for disc, part in ((one, other.mass / whole), (other, -one.mass / whole)):
             disc.velocity = (mean[0] + part * turned[0], mean[1] + part * turned[1])
         return Meeting(time, low, high, one.position, one.velocity, normal, -1, -1, other.position, other.velocity)
+
+
+def sure_meetings(scene: Scene, contacts: int, *, digits: int = 40, most: int = 10_000) -> list[Meeting]:
+    """Run with more and more digits until two runs agree to 1e-25 of the scene's size on all contacts.
+
+    Args:
+        scene: what :class:`PairsReference` takes.
+        contacts: how many.
+        digits: to begin with; doubled each time.
+        most: digits at which this gives up.
+
+    Raises:
+        PrecisionError: ``most`` digits do not suffice, or the scene has what is not known here.
+    """
+    coarse = PairsReference(scene, digits).run(contacts)
+    while digits < most:
+        digits *= 2
+        runner = PairsReference(scene, digits)
+        fine = runner.run(contacts)
+        if _agree(coarse, fine, 1e-25 * runner.walls.size):
+            return fine
+        coarse = fine
+    raise PrecisionError(
+        f"{contacts} contacts of this scene need more than {most} digits", code="precision", fix="ask for fewer"
+    )
+
+
+def _agree(coarse: list[Meeting], fine: list[Meeting], tolerance: float) -> bool:
+    if len(coarse) != len(fine):
+        return False
+    return all(
+        (a.ball, a.other, a.wall, a.edge) == (b.ball, b.other, b.wall, b.edge)
+        and all(abs(p - q) <= tolerance for p, q in zip(a.position, b.position, strict=True))
+        for a, b in zip(coarse, fine, strict=True)
+    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from wallkit.accuracy.contest import Contest, Point
+from wallkit.accuracy.contest import BOUNCES, MEETINGS, Contest, Point
 from wallkit.accuracy.costs import Cost
 from wallkit.accuracy.departure import Departure
 
@@ -19,6 +19,14 @@ COST_HEAD: Row = ("modelled", "a bounce", "more")
 def title(contest: Contest) -> str:
     """Name a scene, its ball and its size."""
     return f"{contest.name}: {contest.story} (r = {contest.radius:g}, size {contest.size:.4g})"
+
+
+def when(contests: Sequence[Contest]) -> str:
+    """Say after what the error is taken: of one ball, of balls that meet, or of both."""
+    one, met = f"{BOUNCES} bounces", f"{MEETINGS} contacts of balls"
+    if not any(contest.balls > 1 for contest in contests):
+        return one
+    return met if all(contest.balls > 1 for contest in contests) else f"{one}, or {met}"
 
 
 def point_row(point: Point) -> Row:

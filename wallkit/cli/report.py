@@ -103,18 +103,17 @@ def _effort(quick: bool, precision: int | None) -> Effort:
 
 
 def _built_in(names: list[str] | None, quick: bool) -> list[Subject]:
-    from wallkit.accuracy.contest import Subject
-    from wallkit.accuracy.scenes import built_in
+    from wallkit.accuracy.contest import subjects
     from wallkit.scene.wishes import UsageError
 
-    scenes = {scene.name: scene for scene in built_in()}
+    scenes = subjects()
     unknown = [name for name in names or [] if name not in scenes]
     if unknown:
         raise UsageError(
             f"there is no built-in scene {unknown[0]!r}", code="unknown-scene", fix=f"one of {', '.join(scenes)}"
         )
     chosen = names or (["box", "star", "curve", "sinai"] if quick else list(scenes))
-    return [Subject.of(scenes[name]) for name in chosen]
+    return [scenes[name] for name in chosen]
 
 
 def _of_file(file: str, importing: ImportOptions) -> Subject:

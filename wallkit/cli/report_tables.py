@@ -16,9 +16,8 @@ if TYPE_CHECKING:
 
 def lines(report: Report) -> list[str]:
     """Write the whole report for a terminal."""
-    from wallkit.accuracy.contest import BOUNCES
-
-    found = [f"Speed against error after {BOUNCES} bounces: of each series the setting with the least (--json: all)"]
+    after = tables.when(report.contests)
+    found = [f"Speed against error after {after}: of each series the setting with the least (--json: all)"]
     for contest in report.contests:
         found += ["", *_contest_lines(contest)]
     if report.departures:

@@ -203,7 +203,7 @@ class Meeting:
             self._since += made
             if self._count >= MANY and self._since > OFTEN * self._count:
                 self._bring_into_order()
-            rows = np.array(log).reshape(-1, ROW)[:made]
+            rows = np.array(log[: made * ROW]).reshape(-1, ROW)
             if clock is not None:
                 rows[:, [3, 4, 15, 16]] *= clock.kept(rows[:, 0])[:, None]
                 rows[:, 0] = clock.time(rows[:, 0])

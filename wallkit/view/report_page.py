@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from html import escape
 
 from wallkit.accuracy import tables
-from wallkit.accuracy.contest import BOUNCES, Contest
+from wallkit.accuracy.contest import Contest
 from wallkit.accuracy.report import Report
 from wallkit.view.theme import Theme, colour
 from wallkit.view.work_precision import work_precision_svg
@@ -16,8 +16,9 @@ def report_html(report: Report) -> str:
     """Write the page; it loads nothing and follows the reader's light or dark setting."""
     parts = [
         f"<figure>{work_precision_svg(report.contests)}</figure>",
-        f"<h2>Every figure</h2><p>Error: units of the scene, after {BOUNCES} bounces. s per s: processor seconds for a "
-        "second of flight. First wrong: the bounce after which the ball is somewhere else, by 1 % of the scene.</p>",
+        f"<h2>Every figure</h2><p>Error: units of the scene, after {tables.when(report.contests)}. s per s: processor "
+        "seconds for a second of flight. First wrong: the bounce after which a ball is somewhere else, by 1 % of the "
+        "scene.</p>",
         *(_contest(found, shown=len(report.contests) == 1) for found in report.contests),
     ]
     if report.departures:

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
-from wallkit.accuracy.contest import BOUNCES, Contest, Point
+from wallkit.accuracy import tables
+from wallkit.accuracy.contest import Contest, Point
 from wallkit.view.theme import Theme, colour
 
 WIDTH = 1180.0
@@ -38,6 +39,7 @@ LOOKS = {
     "pymunk": Look("#1f242c", "#e8ebf0", "plus"),
     "Box2D 2.3": Look("#7a6a3a", "#cdbb7a", "star"),
     "billiards": Look("#5d6675", "#9aa4b5", "ring"),
+    "pooltool": Look("#8a2be2", "#c79bff", "frame"),
 }
 _OTHER = Look("#5d6675", "#9aa4b5", "ring")
 
@@ -55,7 +57,7 @@ def work_precision_svg(contests: Sequence[Contest], foot: str = "") -> str:
     below = _TOP + table.height(entries=len(present) + 1)
     height = below + (_FOOT if foot else 0.0)
     axes = _Axes.around([point for found in contests for point in found.points], table.panel)
-    parts = [_heading()]
+    parts = [_heading(tables.when(contests))]
     for index, found in enumerate(contests):
         parts.append(_panel(found, axes, *table.corner(index), labelled=index % table.columns == 0))
     parts.append(_legend(present, table))
@@ -142,12 +144,11 @@ def _shown(error: float) -> float:
     return min(max(error, 1e-15), 1e4)  # a logarithmic axis has no place for 0
 
 
-def _heading() -> str:
+def _heading(after: str) -> str:
     return (
         f'<text class="ink" x="{_LEFT - 50:g}" y="36" font-size="22" font-weight="600">Speed against error</text>'
         f'<text class="note" x="{_LEFT - 50:g}" y="60" font-size="13">Across: how far the ball is from where it really '
-        f"is after {BOUNCES} bounces (units of the scene). Up: processor seconds for one second of the ball's flight. "
-        "Lower left is better.</text>"
+        f"is after {after} (units). Up: processor seconds for one second of flight. Lower left is better.</text>"
     )
 
 
@@ -229,12 +230,14 @@ def _marker(shape: str, x: float, y: float) -> str:
         plus = f"M{x - r:.1f} {y:.1f}h{2 * r:.1f}M{x:.1f} {y - r:.1f}v{2 * r:.1f}"
         return f'<path class="hollow" d="{ {"cross": cross, "plus": plus, "star": cross + plus}[shape] }"/>'
     corners = {
+        "frame": ((-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)),
         "square": ((-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)),
         "diamond": ((0, -1.2), (1.2, 0), (0, 1.2), (-1.2, 0)),
         "triangle": ((0, -1.15), (1.05, 0.8), (-1.05, 0.8)),
         "triangle-down": ((0, 1.15), (1.05, -0.8), (-1.05, -0.8)),
     }[shape]
-    return f'<path class="mark" d="M{"L".join(f"{x + r * a:.1f} {y + r * b:.1f}" for a, b in corners)}Z"/>'
+    kind = "hollow" if shape == "frame" else "mark"
+    return f'<path class="{kind}" d="M{"L".join(f"{x + r * a:.1f} {y + r * b:.1f}" for a, b in corners)}Z"/>'
 
 
 _MEANINGS = {
@@ -247,6 +250,7 @@ _MEANINGS = {
     "pymunk": "pymunk: smaller steps take more time",
     "Box2D 2.3": "Box2D 2.3: smaller steps take more time",
     "billiards": "billiards (Python, event-driven)",
+    "pooltool": "pooltool (event-driven): friction towards 0",
 }
 
 
@@ -262,7 +266,7 @@ def _legend(series: Sequence[str], table: _Table) -> str:
         words = _MEANINGS.get(name, name)
         if not name:
             mark = f'<circle class="escaped" cx="{left + 14:g}" cy="{top:g}" r="8"/>'
-            words = "the ball was outside the room at some time"
+            words = "a ball was outside the room at some time"
         parts.append(
             f'<g class="{_class(name)}">{mark}</g>'
             f'<text class="ink" x="{left + 38:g}" y="{top + 4:g}" font-size="12">{escape(words)}</text>'
