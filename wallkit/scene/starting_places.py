@@ -117,7 +117,8 @@ def _noded(walls: Walls) -> _Noded | None:
     edges, touches = _touching(walls)
     if not len(edges) or _too_many(touches):
         return None
-    return _Noded(edges, touches, shapely.linestrings(np.stack(noded(edges, touches), axis=1)))
+    pieces = noded(edges, touches)
+    return _Noded(edges, touches, shapely.linestrings(np.stack([pieces.a, pieces.b], axis=1)))
 
 
 def _bounded(noded: _Noded) -> Any:

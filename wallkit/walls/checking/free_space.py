@@ -27,6 +27,7 @@ from wallkit.walls.checking.climbing import Segments, climb
 from wallkit.walls.checking.exact_widths import exact_edges, nearest_pair
 from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.narrow_places import with_feet
+from wallkit.walls.checking.part_material import in_material
 from wallkit.walls.checking.parts import Parts
 from wallkit.walls.checking.room_circles import largest_circles, triangles_at
 from wallkit.walls.checking.self_check import diagonal
@@ -120,13 +121,13 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
     edges = Edges(vertices, offsets, walls.closed)
     nothing = not len(edges) or diagonal(vertices) == 0
-    pieces = None if nothing or len(edges) > MOST_EDGES else _noded(edges)
-    if pieces is None:
+    touches = None if nothing or len(edges) > MOST_EDGES else find_touches(edges)
+    if touches is None or not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS:  # a tangle
         return FreeSpace([], np.empty((0, 3)), nothing)
-    a, b = pieces
-    coarse = triangulate(a, b)
+    pieces = noded(edges, touches)
+    coarse = triangulate(pieces.a, pieces.b)
     mesh = None if coarse is None else with_feet(coarse)
-    if mesh is None:
+    if coarse is None or mesh is None:
         return FreeSpace([], np.empty((0, 3)), False)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
     circles = _circles(mesh, least)
@@ -141,20 +142,17 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
         parts=Parts.of(mesh, seam),
         solids=solids,
     )
-    chosen = _where_free(found, solids, True)
-    if not len(chosen.gaps) and not len(chosen.closed_rooms):
-        chosen = replace(_where_free(found, solids, False), inside=True)
+    rooms = np.array([*(gap.room for gap in found.gaps), *found.closed_rooms[:, :2].tolist()]).reshape(-1, 2)
+    filled = in_material(solids, coarse, pieces, touches.copy_of, rooms)
+    chosen = _among(found, ~filled) if not filled.all() else replace(_among(found, filled), inside=True)
     chosen = _roomier(chosen, mesh, circles)
     return _sharpened(chosen, walls, vertices) if walls.has_arcs else chosen
 
 
-def _where_free(found: FreeSpace, solids: Solids, free: bool) -> FreeSpace:
-    """Only the rooms and gaps outside material; or, where free is false, those inside."""
-    gaps = [gap.room for gap in found.gaps]
-    rooms = np.concatenate([np.array(gaps).reshape(-1, 2), found.closed_rooms[:, :2]])
-    wanted = solids.contain(rooms) != free
+def _among(found: FreeSpace, wanted: NDArray[np.bool_]) -> FreeSpace:
+    """Only some of the rooms: those behind gaps come first."""
     kept = [gap for gap, chosen in zip(found.gaps, wanted, strict=False) if chosen]
-    return replace(found, gaps=kept, closed_rooms=found.closed_rooms[wanted[len(gaps) :]])
+    return replace(found, gaps=kept, closed_rooms=found.closed_rooms[wanted[len(found.gaps) :]])
 
 
 def _roomier(found: FreeSpace, mesh: Triangulation, circles: _Circles) -> FreeSpace:
@@ -206,14 +204,6 @@ def reached(walls: Walls, radius: float, starts: FloatArray, places: FloatArray)
         if shapely.intersects_xy(part, starts).any():
             result |= shapely.intersects_xy(part, places)
     return result
-
-
-def _noded(edges: Edges) -> tuple[FloatArray, FloatArray] | None:
-    """All edges, cut where they cross or touch, each piece once; None for a tangle: the pieces would be too many."""
-    touches = find_touches(edges)
-    if not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS:
-        return None
-    return noded(edges, touches)
 
 
 @dataclass(slots=True)
