@@ -130,10 +130,13 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     if coarse is None or mesh is None:
         return FreeSpace([], np.empty((0, 3)), False)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
-    circles = _circles(mesh, least)
-    found = _rooms(mesh, circles, narrow, least)
-    seam = _SEAM * diagonal(vertices)
-    solids = Solids.of(walls, edges)
+    solids, seam = Solids.of(walls, edges), _SEAM * diagonal(vertices)
+    faces = Parts.of(mesh, 0.0)
+    material = in_material(solids, coarse, pieces, touches.copy_of, faces.place)[faces.part]
+    found, circles = _rooms(mesh, ~material, narrow, least)
+    if not len(found.gaps) and not len(found.closed_rooms):
+        found, circles = _rooms(mesh, material, narrow, least)
+        found = replace(found, inside=True)
     sealed = [(*gap.room, gap.room_radius) for gap in found.gaps if gap.width <= seam]  # closed, but for rounding
     found = replace(
         found,
@@ -142,17 +145,8 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
         parts=Parts.of(mesh, seam),
         solids=solids,
     )
-    rooms = np.array([*(gap.room for gap in found.gaps), *found.closed_rooms[:, :2].tolist()]).reshape(-1, 2)
-    filled = in_material(solids, coarse, pieces, touches.copy_of, rooms)
-    chosen = _among(found, ~filled) if not filled.all() else replace(_among(found, filled), inside=True)
-    chosen = _roomier(chosen, mesh, circles)
-    return _sharpened(chosen, walls, vertices) if walls.has_arcs else chosen
-
-
-def _among(found: FreeSpace, wanted: NDArray[np.bool_]) -> FreeSpace:
-    """Only some of the rooms: those behind gaps come first."""
-    kept = [gap for gap, chosen in zip(found.gaps, wanted, strict=False) if chosen]
-    return replace(found, gaps=kept, closed_rooms=found.closed_rooms[wanted[len(found.gaps) :]])
+    found = _roomier(found, mesh, circles)
+    return _sharpened(found, walls, vertices) if walls.has_arcs else found
 
 
 def _roomier(found: FreeSpace, mesh: Triangulation, circles: _Circles) -> FreeSpace:
@@ -214,8 +208,12 @@ class _Circles:
     radius: FloatArray
     place: FloatArray
 
-    def climb(self, mesh: Triangulation, triangles: IntArray) -> None:
-        """Put the summits above the circles of some triangles where they belong, if they are larger than what is."""
+    def climb(self, mesh: Triangulation, triangles: IntArray) -> IntArray:
+        """Put the summits above the circles of some triangles where they belong, if they are larger than what is.
+
+        Returns:
+            For each of the triangles that with its summit, or itself.
+        """
         place, radius = climb(self.walls, self.place[triangles])
         at = triangles_at(mesh, place)
         order = np.argsort(radius, kind="stable")
@@ -223,33 +221,31 @@ class _Circles:
         framed = (mesh.corners[at[order]] >= len(mesh.points) - 4).any(axis=1)  # a climb out of everything
         order = order[~framed & (radius[order] > self.radius[at[order]])]
         self.radius[at[order]], self.place[at[order]] = radius[order], place[order]  # the last is the largest
+        higher: IntArray = np.where((at >= 0) & (self.radius[at] > self.radius[triangles]), at, triangles)
+        return higher
 
 
-def _circles(mesh: Triangulation, least: float) -> _Circles:
-    p, q = (mesh.points[mesh.ends[mesh.wall, k]] for k in (0, 1))
-    walls = Segments.of(p, q)
-    return _Circles(walls, *triangle_circles(mesh, walls, least))
-
-
-def _rooms(mesh: Triangulation, circles: _Circles, narrow: float, least: float) -> FreeSpace:
-    """Find rooms, and the narrowest place on the way to a roomier one.
+def _rooms(mesh: Triangulation, where: NDArray[np.bool_], narrow: float, least: float) -> tuple[FreeSpace, _Circles]:
+    """Find rooms among some triangles, which walls part from the others, and the narrowest place on the way out.
 
     What may be a room is found first, by circles that may be too small by a third; then by those at the summits.
     """
     count = len(mesh.corners)
-    joined = unite(mesh, Ways.of(mesh, circles.radius), circles.radius, _TOO_SMALL * narrow, least)
+    walls = Segments.of(*(mesh.points[mesh.ends[mesh.wall, k]] for k in (0, 1)))
+    circles = _Circles(walls, *triangle_circles(mesh, walls, least, where))
+    joined = unite(mesh, Ways.of(mesh, circles.radius, where), circles.radius, _TOO_SMALL * narrow, least)
     nodes = [room.node for room in joined.rooms] + joined.closed
-    circles.climb(mesh, np.array(nodes, dtype=np.int64) - count)
+    closed = circles.climb(mesh, np.array(nodes, dtype=np.int64) - count)
     if joined.rooms:
-        ways = Ways.of(mesh, circles.radius)
+        ways = Ways.of(mesh, circles.radius, where)
         joined = unite(mesh, ways, circles.radius, narrow, least)
-    closed = np.array(joined.closed, dtype=np.int64) - count
+        closed = np.array(joined.closed, dtype=np.int64) - count
     rooms = np.column_stack([circles.place[closed], circles.radius[closed]])
     if not joined.rooms:
-        return FreeSpace([], rooms)
+        return FreeSpace([], rooms), circles
     out = ways_out(mesh, ways, joined.used)
     gaps = [_gap(mesh, ways, out, room, circles) for room in joined.rooms]
-    return FreeSpace(sorted(gaps, key=lambda gap: gap.width), rooms)
+    return FreeSpace(sorted(gaps, key=lambda gap: gap.width), rooms), circles
 
 
 def _gap(mesh: Triangulation, ways: Ways, out: WaysOut, room: Room, circles: _Circles) -> Gap:
