@@ -142,7 +142,7 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
         found,
         gaps=[gap for gap in found.gaps if gap.width > seam],
         closed_rooms=np.concatenate([found.closed_rooms, np.array(sealed).reshape(-1, 3)]),
-        parts=Parts.of(mesh, seam),
+        parts=Parts.of(mesh, seam) if (~mesh.wall & (mesh.length <= seam)).any() else faces,
         solids=solids,
     )
     found = _roomier(found, mesh, circles)
