@@ -4,6 +4,7 @@ import shapely
 
 from importers.drawing import Drawing, DrawnPath, Subpath
 from wallkit import SceneError, WallkitError, Walls, open_scene
+from wallkit.scene import starting_places
 from wallkit.scene.starting_places import roomiest, scattered
 from wallkit.walls.importing.drawn_balls import drawn_balls
 
@@ -101,6 +102,22 @@ def test_an_open_line_beside_a_box_is_no_room():
     walls = Walls.from_polylines([ring(0, 0, 60, 60), [(0, 300), (400, 300)]], closed=[True, False])
     spot = roomiest(walls)
     assert (spot.x, spot.y, spot.room) == pytest.approx((30, 30, 30), rel=0.02)
+
+
+def test_faces_of_many_rings_are_those_of_geos(monkeypatch):
+    rng = np.random.default_rng(3)
+    turn = np.arange(5) * (2 * np.pi / 5)
+    rings = [(i, j, 0.48 * 0.4**k) for i in range(5) for j in range(5) for k in range(rng.integers(1, 6))]
+    rings += [(x + 0.3, y, 0.1) for x, y, radius in rings if radius == 0.48]
+    outlines = [np.stack([x + r * np.cos(turn), y + r * np.sin(turn)], axis=1) for x, y, r in rings]
+    for lines in (outlines, [*outlines, outlines[4]], [*outlines, outlines[4] + 0.2]):  # apart, with a copy, crossing
+        noded = starting_places._noded(Walls.from_polylines(lines))
+        found = []
+        for few in (0, len(lines) + 1):  # by nesting where nothing meets, and always by GEOS
+            monkeypatch.setattr(starting_places, "_MANY_RINGS", few)
+            found.append(sorted(shapely.to_wkb(shapely.normalize(starting_places._bounded(noded)))))
+        assert found[0] == found[1]
+        assert len(found[0]) >= len(outlines)
 
 
 def test_walls_without_room_have_no_spot():

@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 import shapely
 
+from wallkit.geometry.triangulation import triangulate
 from wallkit.scene.starting_places import roomiest
 from wallkit.walls import Walls
+from wallkit.walls.checking.material import Solids
+from wallkit.walls.checking.part_material import in_material
 from wallkit.walls.checking.self_check import straight_edges
 from wallkit.walls.crossings import find_touches
 from wallkit.walls.noding import noded
@@ -30,7 +33,7 @@ CASES = {
 def pieces_of(lines, closed):
     walls = Walls.from_polylines(lines, closed=closed)
     edges = straight_edges(walls)
-    a, b = noded(edges, find_touches(edges))
+    a, b, _, _ = noded(edges, find_touches(edges))
     rings = [np.vstack([line, line[:1]]) if closed else np.array(line) for line in lines]
     given = np.array([shapely.LineString(ring) for ring in rings])
     return edges, shapely.linestrings(np.stack([a, b], axis=1)), given
@@ -67,7 +70,7 @@ def test_lines_through_one_point_meet_in_one_point():
 def test_what_meets_nothing_is_given_as_it_is():
     walls = Walls.from_polylines([(SQUARE - 4) * k for k in (1, 2, 3)])
     edges = straight_edges(walls)
-    a, b = noded(edges, find_touches(edges))
+    a, b, _, _ = noded(edges, find_touches(edges))
     assert a.tobytes() == edges.a.tobytes()
     assert b.tobytes() == edges.b.tobytes()
 
@@ -78,3 +81,32 @@ def test_the_roomiest_spot_of_a_scribble_is_found_and_that_of_a_tangle_is_not_lo
     line = shapely.LinearRing(scribble.vertices)
     assert shapely.distance(line, shapely.Point(spot.x, spot.y)) == pytest.approx(spot.room, rel=1e-3)
     assert roomiest(Walls.from_polylines(list(RNG.uniform(0, 100, (1000, 2, 2))), closed=False)) is None
+
+
+@pytest.mark.parametrize("case", [name for name, (_, closed) in CASES.items() if closed] + ["some open", "deep"])
+def test_material_of_parts_is_what_is_counted_along_rays(case):
+    lines, closed = CASES.get(case, CASES["rings on a lattice"])
+    if case == "deep":  # solids and holes in each other, one in its own way
+        lines = [(SQUARE - 4) * k for k in range(1, 60)]
+    lines = [line[:: (1, -1)[index % 3 == 0]] for index, line in enumerate(lines)]
+    some = np.arange(len(lines)) % 4 > 0 if case == "some open" else closed
+    walls = Walls.from_polylines(lines, closed=some)
+    edges = straight_edges(walls)
+    touches = find_touches(edges)
+    pieces = noded(edges, touches)
+    mesh = triangulate(pieces.a, pieces.b)
+    solids = Solids.of(walls, edges)
+    triangles = shapely.polygons(mesh.points[mesh.corners])
+    places = mesh.points[mesh.corners[shapely.area(triangles) > 1e-9]].mean(axis=1)
+    found = in_material(solids, mesh, pieces, touches.copy_of, places)
+
+    ends = np.tile((1e3 * np.pi, 1e3 * np.e), (len(places), 1))  # by even-odd, on ways that meet no vertex
+    rays = shapely.linestrings(np.stack([places, ends], axis=1))
+    level, outermost, largest = np.zeros(len(places)), np.full(len(places), solids.around), np.zeros(len(places))
+    for number in np.flatnonzero(walls.closed).tolist():
+        sides = shapely.linestrings(np.stack([lines[number], np.roll(lines[number], -1, axis=0)], axis=1))
+        around = shapely.intersects(rays[:, None], sides).sum(axis=1) % 2 == 1
+        level += np.where(around, solids.sign[number], 0)
+        outer = around & (solids.size[number] >= largest)
+        outermost[outer], largest[outer] = solids.sign[number] < 0, solids.size[number]
+    assert found.tolist() == np.where(level == 0, outermost, level > 0).tolist()

@@ -17,7 +17,7 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.delaunay import SURE, delaunay, edge_keys
-from wallkit.geometry.orientation import BOUND, side
+from wallkit.geometry.orientation import BOUND, exact_side, side
 
 Edge = tuple[int, int]
 
@@ -190,14 +190,13 @@ class _Flips:
         self._near[a], self._near[b], self._near[c] = b, c, a
 
     def _side(self, a: int, b: int, c: int) -> int:
-        """Tell the side as :func:`side` does, which is asked where rounding might."""
+        """Tell the side, exactly where rounding might."""
         (ax, ay), (bx, by), (cx, cy) = self._at[a], self._at[b], self._at[c]
         left, right = (ax - cx) * (by - cy), (ay - cy) * (bx - cx)
         det = left - right
         if abs(det) >= BOUND * (abs(left) + abs(right)):
             return (det > 0) - (det < 0)
-        p = self._points
-        return int(side(p[a : a + 1], p[b : b + 1], p[c : c + 1])[0])
+        return exact_side(self._at[a], self._at[b], self._at[c])
 
     def _crossed(self, a: int, b: int) -> tuple[deque[Edge], int]:
         """List the edges that the segment crosses, or give the point that it passes through, else -1."""

@@ -9,6 +9,7 @@ into two floats without error, and ``math.fsum`` rounds their sum only once.
 from __future__ import annotations
 
 import math
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,8 @@ from wallkit.geometry.arrays import FloatArray
 BOUND = (3 + 16 * 2.0**-53) * 2.0**-53
 """Of |l| + |r|: a determinant l - r that is beyond has the right sign."""
 _SPLITTER = 2.0**27 + 1
+_Number = TypeVar("_Number", float, FloatArray)
+_Place = tuple[float, float]
 
 
 def side(a: FloatArray, b: FloatArray, c: FloatArray) -> NDArray[np.int8]:
@@ -30,6 +33,15 @@ def side(a: FloatArray, b: FloatArray, c: FloatArray) -> NDArray[np.int8]:
     if len(unsure):
         sign[unsure] = _closer(a[unsure], b[unsure], c[unsure])
     return sign
+
+
+def exact_side(a: _Place, b: _Place, c: _Place) -> int:
+    """As :func:`side` of one point, which takes an array of one twenty times as long."""
+    ax, ay = _difference(a[0], c[0]), _difference(a[1], c[1])
+    bx, by = _difference(b[0], c[0]), _difference(b[1], c[1])
+    terms = [part for p in ax for q in by for part in _product(p, q)]
+    total = math.fsum(terms + [-part for p in ay for q in bx for part in _product(p, q)])
+    return (total > 0) - (total < 0)
 
 
 def _closer(a: FloatArray, b: FloatArray, c: FloatArray) -> NDArray[np.int8]:
@@ -55,14 +67,14 @@ def _exact(a: FloatArray, b: FloatArray, c: FloatArray) -> NDArray[np.int8]:
     return np.array([math.copysign(1, total) if (total := math.fsum(row)) else 0 for row in rows], dtype=np.int8)
 
 
-def _difference(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _difference(x: _Number, y: _Number) -> tuple[_Number, _Number]:
     """X - y as a rounded difference and its error (Knuth)."""
     d = x - y
     back = d - x
     return d, (x - (d - back)) - (y + back)
 
 
-def _product(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _product(x: _Number, y: _Number) -> tuple[_Number, _Number]:
     """X y as a rounded product and its error (Dekker, Veltkamp)."""
     p = x * y
     xh = x * _SPLITTER - (x * _SPLITTER - x)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.box_tree import BoxTree
 from wallkit.geometry.constrained_delaunay import constrained
 from wallkit.geometry.delaunay import edge_keys
 from wallkit.geometry.same_points import SAME, merged
@@ -17,7 +19,7 @@ MOST_TURNS, MORE_TURNS = 100_000, 4
 _FRAME = 4.0  # in diagonals: the frame is far enough to count as outside
 
 
-@dataclass(slots=True)
+@dataclass(eq=False)
 class Triangulation:
     """Triangles of points, the walls among their edges.
 
@@ -44,6 +46,12 @@ class Triangulation:
     length: FloatArray
     given: int
     size: float
+
+    @cached_property
+    def boxes(self) -> BoxTree:
+        """The boxes around the triangles."""
+        corners = self.points[self.corners]
+        return BoxTree(corners.min(axis=1).T, corners.max(axis=1).T)
 
 
 def triangulate(a: FloatArray, b: FloatArray) -> Triangulation | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 MOST_DRAWS = 200
 """So many times places are drawn, more of them than balls each time, before there is said to be no room."""
 _FINE_STEP = math.pi / 256  # chords of arcs are then off by at most 2e-5 of the radius
+_MANY_RINGS = 500  # of fewer, GEOS finds the faces in no time
 _WAYS = 64  # directions that are tried out of a face that may be open
 _FACES = 24  # so many of the largest faces are searched for the roomiest spot
 
@@ -53,7 +54,7 @@ def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
     noded = _noded(walls)
     if noded is None:
         return None
-    tree = shapely.STRtree(shapely.get_parts(noded))
+    tree = shapely.STRtree(noded.pieces)
     best: Spot | None = None
     for face in _faces(walls, noded, anywhere):
         # A circle in a face of area A has at most the radius sqrt(A / pi): smaller faces cannot win any more.
@@ -74,7 +75,7 @@ def face_around(walls: Walls, x: float, y: float) -> Spot | None:
     if noded is None:
         return None
     faces = [face for face in _faces(walls, noded, anywhere=True) if shapely.contains_xy(face, x, y)]
-    tree = shapely.STRtree(shapely.get_parts(noded))
+    tree = shapely.STRtree(noded.pieces)
     return _spot(min(faces, key=shapely.area), tree) if faces else None
 
 
@@ -99,8 +100,16 @@ def _too_many(touches: Touches) -> bool:
     return not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS
 
 
-def _noded(walls: Walls) -> Any:
-    """Give the walls' lines, cut where they cross; None where there are none, or too many places where they do."""
+class _Noded(NamedTuple):
+    """The walls' lines: their edges, how these touch, and the pieces of them (of shapely) that meet at their ends."""
+
+    edges: Edges
+    touches: Touches
+    pieces: Any
+
+
+def _noded(walls: Walls) -> _Noded | None:
+    """Cut the walls' lines where they cross; None where there are none, or too many places where they do."""
     import shapely
 
     from wallkit.walls.noding import noded
@@ -108,19 +117,44 @@ def _noded(walls: Walls) -> Any:
     edges, touches = _touching(walls)
     if not len(edges) or _too_many(touches):
         return None
-    return shapely.multilinestrings(shapely.linestrings(np.stack(noded(edges, touches), axis=1)))
+    pieces = noded(edges, touches)
+    return _Noded(edges, touches, shapely.linestrings(np.stack([pieces.a, pieces.b], axis=1)))
 
 
-def _faces(walls: Walls, noded: Any, anywhere: bool) -> list[Any]:
+def _bounded(noded: _Noded) -> Any:
+    """Give the bounded faces between the walls' lines.
+
+    By GEOS, which looks among all rings for the one around each hole; of many rings that touch nothing, and are no
+    copies, the nesting tells that: a face is what is within a ring, and not within those directly in it.
+    """
+    import shapely
+
+    from wallkit.walls.nesting import depths
+
+    edges, touches = noded.edges, noded.touches
+    met = (touches.crossing_at, touches.overlap_edges, touches.touch_at, touches.cut_edge)
+    count = np.diff(edges.offsets)
+    if len(count) < _MANY_RINGS or any(map(len, met)) or not edges.closed.all() or count.min() < 3:
+        return shapely.get_parts(shapely.polygonize([*noded.pieces]))
+    rings = shapely.linearrings(edges.vertices, indices=np.repeat(np.arange(len(count)), count))
+    inside: list[list[Any]] = [[] for _ in rings]
+    for ring, around in zip(rings, depths(edges)[1].tolist(), strict=True):
+        if around >= 0:
+            inside[around].append(ring)
+    return np.array([shapely.polygons(ring, holes or None) for ring, holes in zip(rings, inside, strict=True)])
+
+
+def _faces(walls: Walls, noded: _Noded, anywhere: bool) -> list[Any]:
     """Give the faces that may be meant as rooms, the largest first."""
     import shapely
 
-    bounded = shapely.get_parts(shapely.polygonize([*shapely.get_parts(noded)]))
+    bounded = _bounded(noded)
     faces = [*bounded] if anywhere else _largest_free(walls, bounded)
     if not walls.closed.all() and (anywhere or walls.solid is None or not walls.solid.room):
-        around = shapely.get_parts(shapely.difference(shapely.envelope(noded), shapely.union_all(bounded)))
+        lines = shapely.multilinestrings(noded.pieces)
+        around = shapely.get_parts(shapely.difference(shapely.envelope(lines), shapely.union_all(bounded)))
         around = [part for part in around if part.geom_type == "Polygon" and not part.is_empty]
-        nearly = [part for part in sorted(around, key=shapely.area)[-4:] if _is_nearly_closed(part, noded)]
+        nearly = [part for part in sorted(around, key=shapely.area)[-4:] if _is_nearly_closed(part, lines)]
         faces += nearly if faces or nearly else around
     faces.sort(key=shapely.area, reverse=True)
     if faces and any(sides == "both" for sides in walls.sides):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
@@ -13,8 +15,24 @@ MOST_CROSSINGS = 20_000
 """Walls that cross more often are a tangle: the faces between them are not looked at."""
 
 
-def noded(edges: Edges, touches: Touches) -> tuple[FloatArray, FloatArray]:
-    """Cut edges where they meet: the ends of the pieces, (n, 2) each, every piece once.
+class Pieces(NamedTuple):
+    """Walls cut into pieces, every piece once.
+
+    Attributes:
+        a: (n, 2) the ends of the pieces.
+        b: (n, 2) the other ends.
+        piece: (m,) a piece, for each edge that lies on it, the edges of copies of other walls left out.
+        wall: (m,) the wall of that edge.
+    """
+
+    a: FloatArray
+    b: FloatArray
+    piece: IntArray
+    wall: IntArray
+
+
+def noded(edges: Edges, touches: Touches) -> Pieces:
+    """Cut edges where they meet.
 
     What meets nothing keeps its bits and its order. A new point is off both lines by rounding alone, and points as
     near as 1e-11 of the whole are one of them, so that no piece crosses another by rounding. n log n for n edges
@@ -26,7 +44,7 @@ def noded(edges: Edges, touches: Touches) -> tuple[FloatArray, FloatArray]:
     """
     own = touches.copy_of[edges.wall] == edges.wall
     if own.all() and not len(touches.cut_edge):
-        return edges.a, edges.b
+        return Pieces(edges.a, edges.b, np.arange(len(edges)), edges.wall)
     given, count = len(edges.vertices), len(edges)
     points = np.concatenate([edges.vertices, touches.cut_at])
     row = np.concatenate([np.arange(count), touches.cut_edge, np.arange(count)])
@@ -39,5 +57,7 @@ def noded(edges: Edges, touches: Touches) -> tuple[FloatArray, FloatArray]:
     joined = (row[1:] == row[:-1]) & own[row[1:]] & (vertex[1:] != vertex[:-1])
     pieces = np.stack([vertex[:-1][joined], vertex[1:][joined]], axis=1)
     keys = pieces.min(axis=1) * len(points) + pieces.max(axis=1)
-    once: IntArray = np.sort(np.unique(keys, return_index=True)[1])
-    return points[pieces[once, 0]], points[pieces[once, 1]]
+    _, first, alike = np.unique(keys, return_index=True, return_inverse=True)
+    once, wall = np.sort(first), edges.wall[row[1:][joined]]
+    piece = np.searchsorted(once, first[alike.reshape(-1)])
+    return Pieces(points[pieces[once, 0]], points[pieces[once, 1]], piece, wall)

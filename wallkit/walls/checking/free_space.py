@@ -27,6 +27,7 @@ from wallkit.walls.checking.climbing import Segments, climb
 from wallkit.walls.checking.exact_widths import exact_edges, nearest_pair
 from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.narrow_places import with_feet
+from wallkit.walls.checking.part_material import in_material
 from wallkit.walls.checking.parts import Parts
 from wallkit.walls.checking.room_circles import largest_circles, triangles_at
 from wallkit.walls.checking.self_check import diagonal
@@ -120,41 +121,32 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
     edges = Edges(vertices, offsets, walls.closed)
     nothing = not len(edges) or diagonal(vertices) == 0
-    pieces = None if nothing or len(edges) > MOST_EDGES else _noded(edges)
-    if pieces is None:
+    touches = None if nothing or len(edges) > MOST_EDGES else find_touches(edges)
+    if touches is None or not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS:  # a tangle
         return FreeSpace([], np.empty((0, 3)), nothing)
-    a, b = pieces
-    coarse = triangulate(a, b)
+    pieces = noded(edges, touches)
+    coarse = triangulate(pieces.a, pieces.b)
     mesh = None if coarse is None else with_feet(coarse)
-    if mesh is None:
+    if coarse is None or mesh is None:
         return FreeSpace([], np.empty((0, 3)), False)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
-    circles = _circles(mesh, least)
-    found = _rooms(mesh, circles, narrow, least)
-    seam = _SEAM * diagonal(vertices)
-    solids = Solids.of(walls, edges)
+    solids, seam = Solids.of(walls, edges), _SEAM * diagonal(vertices)
+    faces = Parts.of(mesh, 0.0)
+    material = in_material(solids, coarse, pieces, touches.copy_of, faces.place)[faces.part]
+    found, circles = _rooms(mesh, ~material, narrow, least)
+    if not len(found.gaps) and not len(found.closed_rooms):
+        found, circles = _rooms(mesh, material, narrow, least)
+        found = replace(found, inside=True)
     sealed = [(*gap.room, gap.room_radius) for gap in found.gaps if gap.width <= seam]  # closed, but for rounding
     found = replace(
         found,
         gaps=[gap for gap in found.gaps if gap.width > seam],
         closed_rooms=np.concatenate([found.closed_rooms, np.array(sealed).reshape(-1, 3)]),
-        parts=Parts.of(mesh, seam),
+        parts=Parts.of(mesh, seam) if (~mesh.wall & (mesh.length <= seam)).any() else faces,
         solids=solids,
     )
-    chosen = _where_free(found, solids, True)
-    if not len(chosen.gaps) and not len(chosen.closed_rooms):
-        chosen = replace(_where_free(found, solids, False), inside=True)
-    chosen = _roomier(chosen, mesh, circles)
-    return _sharpened(chosen, walls, vertices) if walls.has_arcs else chosen
-
-
-def _where_free(found: FreeSpace, solids: Solids, free: bool) -> FreeSpace:
-    """Only the rooms and gaps outside material; or, where free is false, those inside."""
-    gaps = [gap.room for gap in found.gaps]
-    rooms = np.concatenate([np.array(gaps).reshape(-1, 2), found.closed_rooms[:, :2]])
-    wanted = solids.contain(rooms) != free
-    kept = [gap for gap, chosen in zip(found.gaps, wanted, strict=False) if chosen]
-    return replace(found, gaps=kept, closed_rooms=found.closed_rooms[wanted[len(gaps) :]])
+    found = _roomier(found, mesh, circles)
+    return _sharpened(found, walls, vertices) if walls.has_arcs else found
 
 
 def _roomier(found: FreeSpace, mesh: Triangulation, circles: _Circles) -> FreeSpace:
@@ -208,14 +200,6 @@ def reached(walls: Walls, radius: float, starts: FloatArray, places: FloatArray)
     return result
 
 
-def _noded(edges: Edges) -> tuple[FloatArray, FloatArray] | None:
-    """All edges, cut where they cross or touch, each piece once; None for a tangle: the pieces would be too many."""
-    touches = find_touches(edges)
-    if not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS:
-        return None
-    return noded(edges, touches)
-
-
 @dataclass(slots=True)
 class _Circles:
     """Circles in triangles: walls with their tree, (T,) radii and (T, 2) centres."""
@@ -224,8 +208,12 @@ class _Circles:
     radius: FloatArray
     place: FloatArray
 
-    def climb(self, mesh: Triangulation, triangles: IntArray) -> None:
-        """Put the summits above the circles of some triangles where they belong, if they are larger than what is."""
+    def climb(self, mesh: Triangulation, triangles: IntArray) -> IntArray:
+        """Put the summits above the circles of some triangles where they belong, if they are larger than what is.
+
+        Returns:
+            For each of the triangles that with its summit, or itself.
+        """
         place, radius = climb(self.walls, self.place[triangles])
         at = triangles_at(mesh, place)
         order = np.argsort(radius, kind="stable")
@@ -233,33 +221,31 @@ class _Circles:
         framed = (mesh.corners[at[order]] >= len(mesh.points) - 4).any(axis=1)  # a climb out of everything
         order = order[~framed & (radius[order] > self.radius[at[order]])]
         self.radius[at[order]], self.place[at[order]] = radius[order], place[order]  # the last is the largest
+        higher: IntArray = np.where((at >= 0) & (self.radius[at] > self.radius[triangles]), at, triangles)
+        return higher
 
 
-def _circles(mesh: Triangulation, least: float) -> _Circles:
-    p, q = (mesh.points[mesh.ends[mesh.wall, k]] for k in (0, 1))
-    walls = Segments.of(p, q)
-    return _Circles(walls, *triangle_circles(mesh, walls, least))
-
-
-def _rooms(mesh: Triangulation, circles: _Circles, narrow: float, least: float) -> FreeSpace:
-    """Find rooms, and the narrowest place on the way to a roomier one.
+def _rooms(mesh: Triangulation, where: NDArray[np.bool_], narrow: float, least: float) -> tuple[FreeSpace, _Circles]:
+    """Find rooms among some triangles, which walls part from the others, and the narrowest place on the way out.
 
     What may be a room is found first, by circles that may be too small by a third; then by those at the summits.
     """
     count = len(mesh.corners)
-    joined = unite(mesh, Ways.of(mesh, circles.radius), circles.radius, _TOO_SMALL * narrow, least)
+    walls = Segments.of(*(mesh.points[mesh.ends[mesh.wall, k]] for k in (0, 1)))
+    circles = _Circles(walls, *triangle_circles(mesh, walls, least, where))
+    joined = unite(mesh, Ways.of(mesh, circles.radius, where), circles.radius, _TOO_SMALL * narrow, least)
     nodes = [room.node for room in joined.rooms] + joined.closed
-    circles.climb(mesh, np.array(nodes, dtype=np.int64) - count)
+    closed = circles.climb(mesh, np.array(nodes, dtype=np.int64) - count)
     if joined.rooms:
-        ways = Ways.of(mesh, circles.radius)
+        ways = Ways.of(mesh, circles.radius, where)
         joined = unite(mesh, ways, circles.radius, narrow, least)
-    closed = np.array(joined.closed, dtype=np.int64) - count
+        closed = np.array(joined.closed, dtype=np.int64) - count
     rooms = np.column_stack([circles.place[closed], circles.radius[closed]])
     if not joined.rooms:
-        return FreeSpace([], rooms)
+        return FreeSpace([], rooms), circles
     out = ways_out(mesh, ways, joined.used)
     gaps = [_gap(mesh, ways, out, room, circles) for room in joined.rooms]
-    return FreeSpace(sorted(gaps, key=lambda gap: gap.width), rooms)
+    return FreeSpace(sorted(gaps, key=lambda gap: gap.width), rooms), circles
 
 
 def _gap(mesh: Triangulation, ways: Ways, out: WaysOut, room: Room, circles: _Circles) -> Gap:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
@@ -66,12 +65,11 @@ def triangles_at(mesh: Triangulation, points: FloatArray) -> IntArray:
     result = np.full(len(points), -1, dtype=np.int64)
     if not len(points):
         return result
-    corners = mesh.points[mesh.corners]
-    tree = shapely.STRtree(shapely.box(*corners.min(axis=1).T, *corners.max(axis=1).T))
-    source, triangle = tree.query(shapely.points(points))
+    source, triangle = mesh.boxes.query(points.T, points.T)
     inside = np.ones(len(source), dtype=np.bool_)
     for k in range(3):
-        a, b, c = corners[triangle, k], corners[triangle, k - 1], points[source]
+        a, b = (mesh.points[mesh.corners[triangle, side]] for side in (k, k - 1))
+        c = points[source]
         inside &= (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0] <= 0  # right of each side, backwards
     result[source[inside]] = triangle[inside]
     return result

@@ -10,17 +10,20 @@ from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.checking.climbing import Segments
 
 
-def triangle_circles(mesh: Triangulation, walls: Segments, least: float) -> tuple[FloatArray, FloatArray]:
+def triangle_circles(
+    mesh: Triangulation, walls: Segments, least: float, where: NDArray[np.bool_]
+) -> tuple[FloatArray, FloatArray]:
     """Give radius and centre of the roomier of two circles of each triangle, (T,) and (T, 2).
 
     The centres are that of the circle through the corners, if it is inside, and that of the inscribed one. The radius
-    is 0 where the circle is not asked for: beside the frame, where it is no larger than ``least``, and where a disc as
-    large as it could be gets over an edge into a triangle with a larger one, which is the room then.
+    is 0 where the circle is not asked for: beside the frame, outside of the triangles ``where`` (T,), where it is no
+    larger than ``least``, and where a disc as large as it could be gets over an edge into a triangle with a larger one,
+    which is the room then.
     """
     size, place = np.zeros(len(mesh.corners)), mesh.points[mesh.corners].mean(axis=1)
     centres = _centres(mesh)
     most = np.stack([_to_corners(mesh, centre) for centre in centres])
-    bound: FloatArray = np.where((mesh.corners < len(mesh.points) - 4).all(axis=1), most.max(axis=0), 0.0)
+    bound: FloatArray = np.where(where & (mesh.corners < len(mesh.points) - 4).all(axis=1), most.max(axis=0), 0.0)
     known = bound.copy()
     asked = np.zeros(len(bound), dtype=np.bool_)
     asked[bound <= least] = True

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.triangulation import Triangulation
@@ -49,13 +50,13 @@ class Ways:
     edge: IntArray
 
     @classmethod
-    def of(cls, mesh: Triangulation, circle: FloatArray) -> Ways:
-        """Take all edges but walls, and circles of (T,) radii, where these are above 0."""
+    def of(cls, mesh: Triangulation, circle: FloatArray, where: NDArray[np.bool_]) -> Ways:
+        """Take all edges but walls from the triangles ``where`` (T,), and circles of (T,) radii, if above 0."""
         count = len(mesh.corners)
         triangle, beyond, edge = np.repeat(np.arange(count), 3), mesh.neighbours.ravel(), mesh.edge.ravel()
-        free = (beyond > triangle) & ~mesh.wall[edge]
+        free = (beyond > triangle) & ~mesh.wall[edge] & where[triangle]
         triangle, beyond, edge = triangle[free], beyond[free], edge[free]
-        own = np.flatnonzero(circle > 0)
+        own = np.flatnonzero((circle > 0) & where)
         return cls(
             np.concatenate([triangle, own]),
             np.concatenate([beyond, count + own]),
