@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from wallkit.kernels import intrinsics
-from wallkit.kernels.machine_code import Code, file_of, loaded, read, write
+from wallkit.kernels.machine_code import Code, file_of, loaded, needs_of, read, write
 from wallkit.kernels.signatures import Kind, numba_type, result_of, taken
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -105,7 +105,8 @@ def _compile(entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Code:
     types = tuple(map(numba_type, kinds))
     dispatcher.compile(types)
     made = dispatcher.overloads[types]
-    return Code(made.fndesc.llvm_func_name, result_of(made.signature.return_type), made.library._get_compiled_object())
+    name, result, library = made.fndesc.llvm_func_name, result_of(made.signature.return_type), made.library
+    return Code(name, result, library._get_compiled_object(), needs_of(library._final_module))
 
 
 BARE: dict[str, Any] = {"_nrt": False, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}

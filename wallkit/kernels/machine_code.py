@@ -32,11 +32,13 @@ class Code(NamedTuple):
         symbol: name of its function.
         result: kind of what it returns, see ``signatures.result_of``.
         image: the object file, as bytes.
+        needs: names of functions and variables that the process must provide, see :func:`needs_of`.
     """
 
     symbol: str
     result: Any
     image: bytes
+    needs: tuple[str, ...]
 
 
 def file_of(folder: Path, entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Path:
@@ -61,19 +63,50 @@ def _processor() -> str:
     return "\n".join([llvmlite.__version__, binding.get_process_triple(), binding.get_host_cpu_name(), *told])
 
 
+def needs_of(module: Any) -> tuple[str, ...]:
+    """Name what the machine code of an LLVM module takes from elsewhere: what it declares and does not define.
+
+    LLVM's own intrinsics are no names; what they may become (copies of memory, roots) each process has.
+    """
+    declared = (item.name for item in (*module.functions, *module.global_variables) if item.is_declaration)
+    return tuple(sorted(name for name in declared if not name.startswith("llvm.")))
+
+
 def read(file: Path) -> Code | None:
-    """Read machine code: None where there is none, or not the whole of it."""
+    """Read machine code: None where there is none, or not the whole of it, or where it needs what is not here."""
     try:
         told, _, image = file.read_bytes().partition(b"\n")
-        symbol, result, check = json.loads(told)
+        symbol, result, needs, check = json.loads(told)
     except (OSError, ValueError):
         return None
-    return Code(symbol, result, image) if zlib.crc32(image) == check else None
+    code = Code(symbol, result, image, tuple(needs))
+    return code if check == _check_of(code) and _provided(code.needs) else None
+
+
+def _check_of(code: Code) -> int:
+    return zlib.crc32(code.image, zlib.crc32(json.dumps([code.symbol, code.result, code.needs]).encode()))
+
+
+def _provided(needs: tuple[str, ...]) -> bool:
+    """Tell whether the process provides what machine code needs: LLVM would end it where a name is unknown.
+
+    Numba knows more names than LLVM, once it is imported and ready to compile: of its helper library, of Intel's
+    vector mathematics, of functions that compilers on some platforms call.
+    """
+    from llvmlite import binding
+
+    _engine()  # LLVM looks into the process itself from then on
+    if all(map(binding.address_of_symbol, needs)):
+        return True
+    from numba.core.registry import cpu_target
+
+    _ready = cpu_target.target_context.codegen()
+    return all(map(binding.address_of_symbol, needs))
 
 
 def write(file: Path, code: Code) -> None:
     """Write machine code, as a whole or not at all; where nothing can be written it is not."""
-    told = json.dumps([code.symbol, code.result, zlib.crc32(code.image)])
+    told = json.dumps([code.symbol, code.result, code.needs, _check_of(code)])
     part = file.with_name(f"{file.name}.{os.getpid()}-{threading.get_ident()}")
     with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
