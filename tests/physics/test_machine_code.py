@@ -122,7 +122,7 @@ import sys
 from pathlib import Path
 from wallkit.kernels.machine_code import Code, read, write
 file = Path(sys.argv[1])
-write(file, Code("f", None, b"", tuple(sys.argv[2:])))
+write(file, Code("f", None, (b"",), tuple(sys.argv[2:])))
 print(read(file) is not None, "numba" in sys.modules)
 """
 
