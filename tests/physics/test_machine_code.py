@@ -1,5 +1,6 @@
 """Machine code from the disk: the kinds of arguments that it is found by, and calls without Numba."""
 
+import io
 import json
 import math
 import os
@@ -115,6 +116,24 @@ def test_machine_code_that_needs_what_nobody_provides_is_compiled_anew(tmp_path,
     anew = read(file)
     assert anew is not None
     assert anew.needs == ()
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_a_terminal_is_told_once_what_is_waited_for(tmp_path, monkeypatch):
+    from wallkit.kernels.jit import MachineCode, cache_folder
+
+    monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
+    for stream, told in ((Terminal(), 1), (io.StringIO(), 0)):
+        folder = cache_folder()
+        monkeypatch.setattr(sys, "stderr", stream)
+        for argument in (3, 3.0, 3, True):
+            MachineCode(doubled)(argument)
+        assert stream.getvalue().count(f"once: they are kept in {folder}") == told
+        monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path / "other"))
 
 
 NEEDY = """

@@ -71,6 +71,7 @@ class MachineCode:
         with _compiling:
             if kinds not in self._ready:  # no other thread has compiled it meanwhile
                 if (code := read(file)) is None:
+                    _tell_once(file.parent)
                     code = _compile(self._entry, kinds)
                     write(file, code)
                 self._load(code, kinds)
@@ -81,6 +82,15 @@ class MachineCode:
             if kinds not in self._ready:
                 self._ready[kinds] = loaded(code, kinds)
             return self._ready[kinds]
+
+
+@cache
+def _tell_once(folder: Path) -> None:
+    """Tell whoever sits at a terminal what is waited for."""
+    if sys.stderr is None or not sys.stderr.isatty():
+        return
+    kept = f"once: they are kept in {folder}" if os.access(folder, os.W_OK) else f"each time: {folder} is not writable"
+    print(f"wallkit: compiling kernels for what this scene has, up to half a minute, {kept}", file=sys.stderr)
 
 
 @cache
