@@ -1,6 +1,8 @@
 """Machine code from the disk: the kinds of arguments that it is found by, and calls without Numba."""
 
+import io
 import json
+import math
 import os
 import subprocess
 import sys
@@ -10,7 +12,7 @@ import numpy as np
 import pytest
 
 from wallkit.kernels.jit import compiled, kernel
-from wallkit.kernels.machine_code import file_of, read
+from wallkit.kernels.machine_code import file_of, read, write
 from wallkit.kernels.signatures import Told, kinds_of, numba_type
 
 RECORD = np.dtype([("a", np.float64), ("b", np.uint32)], align=True)
@@ -98,6 +100,75 @@ def test_a_damaged_file_is_compiled_anew(damage, tmp_path, monkeypatch):
     assert MachineCode(doubled)(3) == 6
     assert read(file) is not None
     assert [path.name for path in file.parent.iterdir()] == [file.name]
+
+
+def test_machine_code_that_needs_what_nobody_provides_is_compiled_anew(tmp_path, monkeypatch):
+    from wallkit.kernels.jit import MachineCode, cache_folder
+
+    monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
+    assert MachineCode(doubled)(3) == 6
+    file = file_of(cache_folder(), doubled, kinds_of((3,)))
+    code = read(file)
+    assert code is not None
+    write(file, code._replace(needs=("no_library_has_this_function",)))
+    assert read(file) is None
+    assert MachineCode(doubled)(3) == 6
+    anew = read(file)
+    assert anew is not None
+    assert anew.needs == ()
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_a_terminal_is_told_once_what_is_waited_for(tmp_path, monkeypatch):
+    from wallkit.kernels.jit import MachineCode, cache_folder
+
+    monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
+    for stream, told in ((Terminal(), 1), (io.StringIO(), 0)):
+        folder = cache_folder()
+        monkeypatch.setattr(sys, "stderr", stream)
+        for argument in (3, 3.0, 3, True):
+            MachineCode(doubled)(argument)
+        assert stream.getvalue().count(f"once: they are kept in {folder}") == told
+        monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path / "other"))
+
+
+NEEDY = """
+import sys
+from pathlib import Path
+from wallkit.kernels.machine_code import Code, read, write
+file = Path(sys.argv[1])
+write(file, Code("f", None, (b"",), tuple(sys.argv[2:])))
+print(read(file) is not None, "numba" in sys.modules)
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "found"),
+    [("memcpy", "True False"), ("numba_gettyperecord", "True True"), ("no_such_function", "False True")],
+)
+def test_numba_is_imported_for_names_that_llvm_does_not_know(name, found, tmp_path):
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    arguments = [sys.executable, "-c", NEEDY, str(tmp_path / "needy.code"), "cos", name]
+    assert subprocess.run(arguments, env=env, capture_output=True, check=True, text=True).stdout.strip() == found
+
+
+@kernel
+def mantissa(x):
+    return math.frexp(x)[0]
+
+
+def test_what_machine_code_needs_is_noted(tmp_path, monkeypatch):
+    from wallkit.kernels.jit import MachineCode, cache_folder
+
+    monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
+    assert MachineCode(mantissa)(3.0) == 0.75
+    code = read(file_of(cache_folder(), mantissa, kinds_of((3.0,))))
+    assert code is not None
+    assert code.needs == ("numba_frexp",)
 
 
 AGAIN = """

@@ -19,8 +19,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from wallkit.kernels import intrinsics
-from wallkit.kernels.machine_code import Code, file_of, loaded, read, write
-from wallkit.kernels.signatures import Kind, numba_type, result_of, taken
+from wallkit.kernels.machine_code import Code, entry_of, file_of, loaded, needs_of, read, write
+from wallkit.kernels.signatures import Kind, Told, numba_type, result_of, taken
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -71,6 +71,7 @@ class MachineCode:
         with _compiling:
             if kinds not in self._ready:  # no other thread has compiled it meanwhile
                 if (code := read(file)) is None:
+                    _tell_once(file.parent)
                     code = _compile(self._entry, kinds)
                     write(file, code)
                 self._load(code, kinds)
@@ -84,14 +85,25 @@ class MachineCode:
 
 
 @cache
+def _tell_once(folder: Path) -> None:
+    """Tell whoever sits at a terminal what is waited for."""
+    if sys.stderr is None or not sys.stderr.isatty():
+        return
+    kept = f"once: they are kept in {folder}" if os.access(folder, os.W_OK) else f"each time: {folder} is not writable"
+    print(f"wallkit: compiling kernels for what this scene has, up to half a minute, {kept}", file=sys.stderr)
+
+
+@cache
 def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     """Give the machine-code twin of a kernel; the first call of a new signature compiles, or loads from disk.
 
     Machine code lies in a folder named by a digest of all kernel sources, for a kernel changes with those that it
     calls. ``WALLKIT_CACHE_DIR`` moves it; where no folder can be written, compiled code lasts as long as the process.
-    With ``NUMBA_DISABLE_JIT`` set there is none, and the kernel itself is given back.
+    With ``NUMBA_DISABLE_JIT`` set there is none, and the kernel itself is called.
     """
-    return entry if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0") else MachineCode(entry)
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+        return lambda *arguments: entry(*(one.value if isinstance(one, Told) else one for one in arguments))
+    return MachineCode(entry)
 
 
 def _compile(entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Code:
@@ -105,7 +117,9 @@ def _compile(entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Code:
     types = tuple(map(numba_type, kinds))
     dispatcher.compile(types)
     made = dispatcher.overloads[types]
-    return Code(made.fndesc.llvm_func_name, result_of(made.signature.return_type), made.library._get_compiled_object())
+    library, (name, image) = made.library, entry_of(made.fndesc.llvm_func_name, kinds)
+    images = library._get_compiled_object(), image
+    return Code(name, result_of(made.signature.return_type), images, needs_of(library._final_module))
 
 
 BARE: dict[str, Any] = {"_nrt": False, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}

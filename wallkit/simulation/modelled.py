@@ -72,7 +72,7 @@ class Modelled:
         self.origin = local_origin(scene.walls.vertices) if origin is None else origin
         self.model = self._made(scene, index, machine_code, fine)
         self._lists: Model | None = None
-        self._told: Told | None = None
+        self._told: tuple[Told, Told] | None = None
 
     def _made(self, scene: Scene, index: str, machine_code: bool, fine: bool) -> Model:
         walls, radius = scene.walls, float(self.radii.max(initial=0.0))
@@ -159,10 +159,10 @@ class Modelled:
         return self._lists
 
     @property
-    def told(self) -> Told:
-        """The model as an argument of compiled kernels that are called once a contact."""
+    def told(self) -> tuple[Told, Told]:
+        """The model and its gravity, as arguments of compiled kernels that are called once a contact."""
         if self._told is None:
-            self._told = Told(self.model)
+            self._told = Told(self.model), Told(self.model.gravity)
         return self._told
 
     def index_of_edge(self, scene: Scene) -> tuple[IntArray, IntArray]:

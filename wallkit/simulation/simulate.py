@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.arguments import flag, number, of_type, refused, whole_number, word
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.compile_aside import at_hand
 from wallkit.kernels.flight.flight import FALLING_TOLERANCE, TOLERANCE, fly, fly_all
 from wallkit.kernels.flight.resting import side_of
@@ -29,7 +29,7 @@ from wallkit.kernels.records import (
     STATE_SIZE,
     Counts,
 )
-from wallkit.kernels.signatures import kinds_of
+from wallkit.kernels.signatures import Told, kinds_of
 from wallkit.scene.scene import Scene, SceneError
 from wallkit.scene.start_overlaps import check_apart, check_starts, settled
 from wallkit.simulation.modelled import Modelled
@@ -140,6 +140,9 @@ class Flights:
         self.hits = np.zeros(len(scene.walls), dtype=np.int64)
         self._work = 0
         self._features = tuple(feature is None for feature in self.modelled.model)
+        # What compiled kernels are given for one ball: its radius, state and counts are written into these.
+        self._one = np.empty(1), np.empty((1, STATE_SIZE)), np.empty((1, len(START)), dtype=np.int64)
+        self._told = Told(self._one[0]), Told(self._one[1]), Told(self._one[2])
 
     def __len__(self) -> int:
         return len(self._states)
@@ -160,9 +163,9 @@ class Flights:
         if self._compile():
             machine_log = np.empty(room * LOG_STRIDE)
             _compiled_features.add(self._features)
-            states, many_counts = np.array([state]), np.array([counts], dtype=np.int64)
-            arguments = self._arguments(radius, states, many_counts, until, limit, machine_log)
-            noted = compiled(fly_all)(*arguments)
+            radii, states, many_counts = self._one
+            radii[0], states[0], many_counts[0] = radius, state, counts
+            noted = compiled(fly_all)(*self._arguments(until, limit, machine_log))
             state[:], counts[:] = states[0].tolist(), many_counts[0].tolist()
             return machine_log.reshape(room, LOG_STRIDE)[:noted]
         room = min(room, 256)
@@ -171,20 +174,16 @@ class Flights:
         self._work += (noted + 1) * self._entries_a_bounce()
         return np.array(log).reshape(room, LOG_STRIDE)[:noted]
 
-    def _arguments(
-        self, radius: float, states: FloatArray, counts: IntArray, until: float, limit: int, log: FloatArray
-    ) -> tuple[Any, ...]:
+    def _arguments(self, until: float, limit: int, log: FloatArray) -> tuple[Any, ...]:
         """Give what the compiled kernel is called with for one ball."""
-        model, room = self.modelled.model, len(log) // LOG_STRIDE
-        return self.modelled.told, model.gravity, np.array([radius]), states, counts, until, limit, self.hits, log, room
+        model, gravity = self.modelled.told
+        return model, gravity, *self._told, until, limit, self.hits, log, len(log) // LOG_STRIDE
 
     def machine_code_at_hand(self) -> bool:
         """Tell whether a compiled flight would begin at once; where not, it is being compiled from now on."""
         if self._features in _compiled_features:
             return True
-        state, counts, log = np.zeros((1, STATE_SIZE)), np.array([START], dtype=np.int64), np.empty(LOG_STRIDE)
-        arguments = self._arguments(0.0, state, counts, math.inf, 1, log)
-        return at_hand(compile_for, fly_all, *kinds_of(arguments))
+        return at_hand(compile_for, fly_all, *kinds_of(self._arguments(math.inf, 1, np.empty(LOG_STRIDE))))
 
     def next_contact(self, ball: int) -> FloatArray | None:
         """Fly a ball on to its next contact, (LOG_STRIDE,); None if it has none."""
