@@ -15,8 +15,8 @@ import numpy as np
 
 import wallkit
 from wallkit.accuracy.contact_scenes import KINDS, contact_scene
-from wallkit.accuracy.reference import PrecisionError
 from wallkit.accuracy.reference_contact import ContactReference
+from wallkit.accuracy.sure_digits import PrecisionError
 
 TOLERANCE = 1e-9
 

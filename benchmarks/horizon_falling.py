@@ -15,8 +15,8 @@ import numpy as np
 
 import wallkit
 from wallkit.accuracy.contact_scenes import HARD, contact_scene, hard_scene
-from wallkit.accuracy.reference import PrecisionError
 from wallkit.accuracy.reference_contact import ContactReference
+from wallkit.accuracy.sure_digits import PrecisionError
 from wallkit.simulation.run import ContactKind
 
 TOLERANCES = (1e-6, 1e-9, 1e-12)

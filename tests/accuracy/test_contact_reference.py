@@ -8,8 +8,8 @@ import pytest
 
 from wallkit import Balls, Material, Scene, Walls, simulate
 from wallkit.accuracy.contact_scenes import contact_scene
-from wallkit.accuracy.reference import PrecisionError
 from wallkit.accuracy.reference_contact import ContactReference
+from wallkit.accuracy.sure_digits import PrecisionError
 
 PULL = 9.81
 

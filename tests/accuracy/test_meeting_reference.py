@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import wallkit
-from wallkit.accuracy.reference import PrecisionError
 from wallkit.accuracy.reference_pairs import PairsReference
+from wallkit.accuracy.sure_digits import PrecisionError
 from wallkit.scene.start_overlaps import clearances
 
 TOLERANCE = 1e-6

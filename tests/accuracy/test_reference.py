@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from wallkit.accuracy import scenes
-from wallkit.accuracy.reference import PrecisionError, Reference, context, sure_events
+from wallkit.accuracy.reference import Reference, context, sure_events
+from wallkit.accuracy.sure_digits import PrecisionError
 from wallkit.scene.scene import Balls, Scene
 from wallkit.walls import Material, Walls
 

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from wallkit.accuracy import engines
-from wallkit.accuracy.reference import Event, PrecisionError, Reference, sure_events
+from wallkit.accuracy.reference import Event, Reference, sure_events
 from wallkit.accuracy.reference_pairs import Meeting, PairsReference, sure_meetings
 from wallkit.accuracy.scenes import BuiltIn, break_of_fifteen, built_in
+from wallkit.accuracy.sure_digits import PrecisionError
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import edge_points
 from wallkit.scene.scene import Scene

@@ -22,17 +22,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from importers.errors import WallkitError
+from wallkit.accuracy.sure_digits import PrecisionError, agreed
 from wallkit.arguments import of_type, whole_number
 from wallkit.scene.scene import Scene
 from wallkit.walls import Walls
 
 Real = Any  # an mpmath.mpf of the context in use
 Vector = tuple[Real, Real]
-
-
-class PrecisionError(WallkitError):
-    """More digits were asked for than this installation, or this run, can give."""
 
 
 class Event(NamedTuple):
@@ -427,24 +423,9 @@ def sure_events(scene: Scene, bounces: int, ball: int = 0, *, digits: int = 40, 
     whole = partial(whole_number, may_be="a whole number, 0 or more", error=PrecisionError, code="precision", least=0)
     bounces, most = whole(bounces, "bounces"), whole(most, "most")
     ball = whole(ball, "ball", may_be="the number of a ball", code="bad-ball", most=len(scene.balls) - 1)
-    coarse = Reference(scene, digits).run(bounces, ball)
-    while digits < most:
-        digits *= 2
+
+    def run(digits: int) -> tuple[list[Event], Real]:
         runner = Reference(scene, digits)
-        fine = runner.run(bounces, ball)
-        if _agree(coarse, fine, 1e-25 * runner.size):
-            return fine
-        coarse = fine
-    raise PrecisionError(
-        f"{bounces} bounces of this scene need more than {most} digits", code="precision", fix="ask for fewer bounces"
-    )
+        return runner.run(bounces, ball), runner.size
 
-
-def _agree(coarse: list[Event], fine: list[Event], tolerance: float) -> bool:
-    if len(coarse) != len(fine):
-        return False
-    return all(
-        (a.wall, a.edge, a.vertex) == (b.wall, b.edge, b.vertex)
-        and all(abs(p - q) <= tolerance for p, q in zip(a.position, b.position, strict=True))
-        for a, b in zip(coarse, fine, strict=True)
-    )
+    return agreed(run, lambda event: (event.wall, event.edge, event.vertex), digits, most, bounces, "bounces")

@@ -19,7 +19,8 @@ from typing import Any, Literal
 from wallkit.accuracy.contact_guides import Barrier, Guide, barriers_of, minus
 from wallkit.accuracy.contact_joints import Joints
 from wallkit.accuracy.contact_search import Search
-from wallkit.accuracy.reference import PrecisionError, Real, Reference, Vector, _dot, _reflect
+from wallkit.accuracy.reference import Real, Reference, Vector, _dot, _reflect
+from wallkit.accuracy.sure_digits import PrecisionError
 from wallkit.scene.scene import Scene
 
 Kind = Literal["bounce", "slide", "leave", "rest", "end"]

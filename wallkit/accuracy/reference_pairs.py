@@ -18,7 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wallkit.accuracy.reference import PrecisionError, Real, Reference, Vector, _dot, _reflect
+from wallkit.accuracy.reference import Real, Reference, Vector, _dot, _reflect
+from wallkit.accuracy.sure_digits import PrecisionError, agreed
 from wallkit.arguments import of_type
 from wallkit.scene.scene import Scene
 
@@ -221,24 +222,9 @@ def sure_meetings(scene: Scene, contacts: int, *, digits: int = 40, most: int = 
     Raises:
         PrecisionError: ``most`` digits do not suffice, or the scene has what is not known here.
     """
-    coarse = PairsReference(scene, digits).run(contacts)
-    while digits < most:
-        digits *= 2
+
+    def run(digits: int) -> tuple[list[Meeting], Real]:
         runner = PairsReference(scene, digits)
-        fine = runner.run(contacts)
-        if _agree(coarse, fine, 1e-25 * runner.walls.size):
-            return fine
-        coarse = fine
-    raise PrecisionError(
-        f"{contacts} contacts of this scene need more than {most} digits", code="precision", fix="ask for fewer"
-    )
+        return runner.run(contacts), runner.walls.size
 
-
-def _agree(coarse: list[Meeting], fine: list[Meeting], tolerance: float) -> bool:
-    if len(coarse) != len(fine):
-        return False
-    return all(
-        (a.ball, a.other, a.wall, a.edge) == (b.ball, b.other, b.wall, b.edge)
-        and all(abs(p - q) <= tolerance for p, q in zip(a.position, b.position, strict=True))
-        for a, b in zip(coarse, fine, strict=True)
-    )
+    return agreed(run, lambda met: (met.ball, met.other, met.wall, met.edge), digits, most, contacts, "contacts")

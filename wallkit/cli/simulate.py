@@ -295,7 +295,8 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
         page: str = replay_html(run, title=look["title"])
         return page
     given = {name: look[name] for name in ("colour",) if look[name] is not None}
-    given |= {} if look["size"] is None else {"width": look["size"]}
+    size = {} if look["size"] is None else {"width": look["size"]}
+    given |= size
     theme: Any = look["theme"] or "light"
     if kind in ("gif", "mp4"):
         from wallkit.cli.progress import progress_bar
@@ -310,7 +311,6 @@ def _pictured(kind: Format, run: Run, look: dict[str, Any]) -> str | bytes:
     if look["stepped"] is not None:
         from wallkit.view.ways_picture import ways_canvas
 
-        size = {} if look["size"] is None else {"width": look["size"]}
         return picture_data(f".{kind}", ways_canvas(run, look["stepped"], title=look["title"], **size), theme)
     canvas = run_canvas(run, title=look["title"], heat=bool(look["heat"]), strobe=look["strobe"], **given)
     return picture_data(f".{kind}", canvas, theme)

@@ -125,11 +125,6 @@ def word_formats(kinds: tuple[Kind, ...]) -> list[str]:
     return found
 
 
-def number_type(dtype: np.dtype[Any]) -> Any:
-    """Give the type of C that a number has."""
-    return ctypes.c_bool if dtype == TRUTH else np.ctypeslib.as_ctypes_type(dtype)
-
-
 def numba_type(kind: Kind) -> Any:
     """Give Numba's type of a kind."""
     from numba import types
@@ -171,7 +166,7 @@ def result_type(kind: Any) -> Any:
     if kind is None:
         return ctypes.c_void_p
     if isinstance(kind, str):
-        return number_type(np.dtype(kind))
+        return np.ctypeslib.as_ctypes_type(np.dtype(kind))
     fields = [(f"part{number}", result_type(part)) for number, part in enumerate(kind)]
     return type("Result", (ctypes.Structure,), {"_fields_": fields})
 
