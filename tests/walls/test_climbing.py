@@ -6,7 +6,10 @@ import shapely
 
 from wallkit.geometry.components import components
 from wallkit.geometry.same_points import SAME, merged
+from wallkit.geometry.triangulation import triangulate
 from wallkit.walls.checking.climbing import Segments, climb
+from wallkit.walls.checking.narrow_places import with_feet
+from wallkit.walls.checking.wall_distance import wall_distance
 
 SQUARE = np.array([(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)])
 
@@ -71,3 +74,25 @@ def test_points_as_near_as_rounding_are_one_and_chains_of_such():
     near = np.hypot(*(points[:, None] - points[None, :]).transpose(2, 0, 1)) <= SAME * 2**0.5
     one, two = np.nonzero(near)
     assert merged(points).tolist() == components(one, two, len(points)).tolist()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_distance_from_the_nearest_wall_is_shapelys(seed):
+    """Of middles of triangles, of edges and of circles, among rings and sticks."""
+    random = np.random.default_rng(seed)
+    middle = random.uniform(0, 1000, (80, 2))
+    a, b = middle + random.normal(0, 25, (2, 80, 2))
+    lines = shapely.linestrings(np.stack([a, b], axis=1))
+    apart = [k for k in range(80) if not shapely.intersects(lines[k], lines[:k]).any()]
+    ring = around(40, 700.0, 500, 500)
+    mesh = triangulate(np.concatenate([a[apart], ring]), np.concatenate([b[apart], np.roll(ring, -1, axis=0)]))
+    assert mesh is not None
+    mesh = with_feet(mesh)
+    inner = np.flatnonzero((mesh.corners < len(mesh.points) - 4).all(axis=1))
+    corners = mesh.points[mesh.corners[inner]]
+    walls = shapely.multilinestrings(shapely.linestrings(mesh.points[mesh.ends[mesh.wall]]))
+    for weights in ((1 / 3, 1 / 3, 1 / 3), (0.5, 0.5, 0.0), (0.0, 0.5, 0.5), (0.1, 0.2, 0.7)):
+        places = (corners * np.array(weights)[:, None]).sum(axis=1)
+        assert wall_distance(mesh, inner, places) == pytest.approx(
+            shapely.distance(shapely.points(places), walls), rel=1e-9, abs=1e-10
+        )

@@ -274,3 +274,21 @@ def test_a_room_whose_outline_closes_with_an_edge_as_short_as_rounding_is_a_room
     assert space.gaps == []
     # Without the room the block's own inside would be all that there is, of radius 30.
     assert max(r for _, _, r in space.closed_rooms.tolist()) == pytest.approx(largest, rel=2e-3)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_wall_that_ends_on_a_slanted_one_parts_the_room(seed):
+    """Its end is on the line to rounding alone, on this side or on that: no ball gets through between them.
+
+    Both rooms are as high as the whole: their largest circles have half its height, or half their width.
+    """
+    random = np.random.default_rng(seed)
+    turn, place = random.random() * 2 * np.pi, random.random(2) * 50
+    around = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    ring = np.array([(0, 0), (20, 0), (20, 10), (0, 10)]) @ around + place
+    part = random.uniform(0.2, 0.8)
+    stem = np.array([ring[0] + (ring[1] - ring[0]) * part, ring[3] + (ring[2] - ring[3]) * part])
+    space = free_space(Walls.from_polylines([ring, stem], closed=[True, False]))
+    expected = sorted(min(5.0, 10 * part) for part in (part, 1 - part))
+    assert (space.complete, space.gaps) == (True, [])
+    assert sorted(space.closed_rooms[:, 2].tolist()) == pytest.approx(expected, rel=1e-8)

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely.geometry import Polygon
 
-from wallkit.geometry.orientation import exact_side, side
+from wallkit.geometry.orientation import side, side_of
 from wallkit.walls.crossings import find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.importing.pipeline import import_walls
@@ -81,7 +81,7 @@ def test_side_is_exact(points, part):
         (ax, ay), (bx, by), (cx, cy) = exact
         det = (ax - cx) * (by - cy) - (ay - cy) * (bx - cx)
         sign = (det > 0) - (det < 0)
-        assert side(*(np.array([point]) for point in (p, q, r)))[0] == sign == exact_side(p, q, r)
+        assert side(*(np.array([point]) for point in (p, q, r)))[0] == sign == side_of(p, q, r)
 
 
 boxes = st.tuples(st.integers(0, 8), st.integers(0, 8), st.integers(1, 9), st.integers(1, 9))

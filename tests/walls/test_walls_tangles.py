@@ -54,8 +54,12 @@ TURN = "np.arange(401) * 200 * 2 * np.pi / 401"
             "Walls.from_polylines([[(k, k), (900 - k, k), (900 - k, 900 - k), (k, 900 - k)] for k in range(400)])",
             "True False",
         ),
+        (
+            "Walls.from_polylines([np.array([(-k, -k), (k, -k), (k, k), (-k, k)]) / 9 for k in range(1, 2501)])",
+            "True False",
+        ),
     ],
-    ids=["scribble", "scribbles", "polylines", "lines", "near", "same", "star", "nested"],
+    ids=["scribble", "scribbles", "polylines", "lines", "near", "same", "star", "nested", "about one centre"],
 )
 def test_a_tangle_ends_within_its_bounds_and_says_what_is_not_known(walls, told):
     """512 MB of data and 25 s of processor time, imports included."""

@@ -9,6 +9,7 @@ into two floats without error, and ``math.fsum`` rounds their sum only once.
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import TypeVar
 
 import numpy as np
@@ -16,8 +17,9 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 
-BOUND = (3 + 16 * 2.0**-53) * 2.0**-53
+_BOUND = (3 + 16 * 2.0**-53) * 2.0**-53
 """Of |l| + |r|: a determinant l - r that is beyond has the right sign."""
+_CIRCLE_BOUND = (10 + 96 * 2.0**-53) * 2.0**-53
 _SPLITTER = 2.0**27 + 1
 _Number = TypeVar("_Number", float, FloatArray)
 _Place = tuple[float, float]
@@ -29,14 +31,41 @@ def side(a: FloatArray, b: FloatArray, c: FloatArray) -> NDArray[np.int8]:
     right = (a[:, 1] - c[:, 1]) * (b[:, 0] - c[:, 0])
     det = left - right
     sign = np.sign(det).astype(np.int8)
-    unsure = np.flatnonzero(np.abs(det) < BOUND * (np.abs(left) + np.abs(right)))
+    unsure = np.flatnonzero(np.abs(det) < _BOUND * (np.abs(left) + np.abs(right)))
     if len(unsure):
         sign[unsure] = _closer(a[unsure], b[unsure], c[unsure])
     return sign
 
 
-def exact_side(a: _Place, b: _Place, c: _Place) -> int:
+def side_of(a: _Place, b: _Place, c: _Place) -> int:
     """As :func:`side` of one point, which takes an array of one twenty times as long."""
+    left, right = (a[0] - c[0]) * (b[1] - c[1]), (a[1] - c[1]) * (b[0] - c[0])
+    det = left - right
+    if abs(det) >= _BOUND * (abs(left) + abs(right)):
+        return (det > 0) - (det < 0)
+    return _exact_side(a, b, c)
+
+
+def in_circle(a: _Place, b: _Place, c: _Place, d: _Place) -> int:
+    """1 where d is in the circle through a, b and c, counter-clockwise with y up; -1 where outside, 0 where on it.
+
+    |ax ay ax^2+ay^2; bx ..; cx ..|, all less d, has the right sign where it is more than (10 + 96 u) u times the same
+    with absolute values (Shewchuk); else it is computed in fractions.
+    """
+    ax, ay, bx, by, cx, cy = a[0] - d[0], a[1] - d[1], b[0] - d[0], b[1] - d[1], c[0] - d[0], c[1] - d[1]
+    p, q, r = ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy
+    det = p * (bx * cy - cx * by) + q * (cx * ay - ax * cy) + r * (ax * by - bx * ay)
+    most = p * (abs(bx * cy) + abs(cx * by)) + q * (abs(cx * ay) + abs(ax * cy)) + r * (abs(ax * by) + abs(bx * ay))
+    if abs(det) > _CIRCLE_BOUND * most:
+        return (det > 0) - (det < 0)
+    dx, dy = Fraction(d[0]), Fraction(d[1])
+    rows = [(Fraction(x) - dx, Fraction(y) - dy) for x, y in (a, b, c)]
+    (px, py, p2), (qx, qy, q2), (rx, ry, r2) = ((x, y, x * x + y * y) for x, y in rows)
+    exact = p2 * (qx * ry - rx * qy) + q2 * (rx * py - px * ry) + r2 * (px * qy - qx * py)
+    return (exact > 0) - (exact < 0)
+
+
+def _exact_side(a: _Place, b: _Place, c: _Place) -> int:
     ax, ay = _difference(a[0], c[0]), _difference(a[1], c[1])
     bx, by = _difference(b[0], c[0]), _difference(b[1], c[1])
     terms = [part for p in ax for q in by for part in _product(p, q)]

@@ -194,7 +194,8 @@ def _is_nearly_closed(face: Any, noded: Any) -> bool:
     angle = np.arange(_WAYS) * (math.tau / _WAYS)
     ends = (spot.x, spot.y) + 2 * math.hypot(x1 - x0, y1 - y0) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     ways = shapely.linestrings([[(spot.x, spot.y), end] for end in ends.tolist()])
-    return int(np.count_nonzero(shapely.intersects(ways, noded))) >= 0.8 * _WAYS
+    shapely.prepare(noded)
+    return int(np.count_nonzero(shapely.intersects(noded, ways))) >= 0.8 * _WAYS
 
 
 def _in_material(walls: Walls, spot: Spot) -> bool:

@@ -126,9 +126,9 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
         return FreeSpace([], np.empty((0, 3)), nothing)
     pieces = noded(edges, touches)
     coarse = triangulate(pieces.a, pieces.b)
-    mesh = None if coarse is None else with_feet(coarse)
-    if coarse is None or mesh is None:
+    if coarse is None:
         return FreeSpace([], np.empty((0, 3)), False)
+    mesh = with_feet(coarse)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
     solids, seam = Solids.of(walls, edges), _SEAM * diagonal(vertices)
     faces = Parts.of(mesh, 0.0)
@@ -145,14 +145,14 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
         parts=Parts.of(mesh, seam) if (~mesh.wall & (mesh.length <= seam)).any() else faces,
         solids=solids,
     )
-    found = _roomier(found, mesh, circles)
+    found = _roomier(found, mesh, circles, seam)
     return _sharpened(found, walls, vertices) if walls.has_arcs else found
 
 
-def _roomier(found: FreeSpace, mesh: Triangulation, circles: _Circles) -> FreeSpace:
-    """Give each room its largest circle."""
+def _roomier(found: FreeSpace, mesh: Triangulation, circles: _Circles, seam: float) -> FreeSpace:
+    """Give each room its largest circle; out of a closed one gaps up to ``seam`` may lead."""
     rooms = np.array([(*gap.room, gap.room_radius, gap.width) for gap in found.gaps]).reshape(-1, 4)
-    rooms = np.concatenate([rooms, np.column_stack([found.closed_rooms, np.zeros(len(found.closed_rooms))])])
+    rooms = np.concatenate([rooms, np.column_stack([found.closed_rooms, np.full(len(found.closed_rooms), seam)])])
     largest = largest_circles(mesh, circles.walls, circles.radius, circles.place, rooms)
     gaps = [
         replace(gap, room=(x, y), room_radius=radius)
@@ -232,7 +232,9 @@ def _rooms(mesh: Triangulation, where: NDArray[np.bool_], narrow: float, least: 
     """
     count = len(mesh.corners)
     walls = Segments.of(*(mesh.points[mesh.ends[mesh.wall, k]] for k in (0, 1)))
-    circles = _Circles(walls, *triangle_circles(mesh, walls, least, where))
+    circles = _Circles(walls, *triangle_circles(mesh, least, where))
+    if not (circles.radius > least).any():  # nothing is a room, however it hangs together
+        return FreeSpace([], np.empty((0, 3))), circles
     joined = unite(mesh, Ways.of(mesh, circles.radius, where), circles.radius, _TOO_SMALL * narrow, least)
     nodes = [room.node for room in joined.rooms] + joined.closed
     closed = circles.climb(mesh, np.array(nodes, dtype=np.int64) - count)

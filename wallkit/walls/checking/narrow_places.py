@@ -8,21 +8,22 @@ disc gets through is told by lengths of edges alone (H. Edelsbrunner, The union 
 from __future__ import annotations
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.triangulation import Triangulation, cut_further
 
+_NEARLY = 1e-9  # of the square of the distance: rounding
 _DEEPEST = 40  # edges looked over: with more between two walls, their vertices are as dense as feet would be
 
 
 def narrow_feet(mesh: Triangulation) -> tuple[IntArray, FloatArray]:
-    """Find feet of given vertices on the inside of pieces of walls, with nothing in the circle between the two.
+    """Find feet of given vertices on the inside of pieces of walls: all that have nothing in the circle between them.
 
     A segment to such a foot crosses only edges which have a foot of the vertex inside, since their ends are out of the
     circle; so feet are looked for over such edges alone. The middle of the segment is nearest to the vertex, hence
-    in its Voronoi cell, and no farther from it than the circles around its triangles are large.
+    in its Voronoi cell, and no farther from it than the circles around its triangles are large. That the circle is
+    empty is asked of the first and the last triangle on the way alone: a foot more does no harm.
 
     Args:
         mesh: triangles with the walls among their edges.
@@ -34,26 +35,25 @@ def narrow_feet(mesh: Triangulation) -> tuple[IntArray, FloatArray]:
     edge, through = mesh.edge.ravel()[row], row // 3
     corner = mesh.corners.ravel()
     reach = _reach(mesh)
-    edges, feet, vertices = [np.empty(0, dtype=np.int64)], [np.empty((0, 2))], [np.empty((0, 2))]
+    edges, feet = [np.empty(0, dtype=np.int64)], [np.empty((0, 2))]
     for _ in range(_DEEPEST):
         p, q = (mesh.points[mesh.ends[edge, k]] for k in (0, 1))
         vertex = corner[row]
         foot = _foot(mesh.points[vertex], p, q)
         inner = (foot != p).any(axis=1) & (foot != q).any(axis=1)
         inner &= np.hypot(*(mesh.points[vertex] - foot).T) <= reach[vertex]
-        met = inner & mesh.wall[edge]
+        met = np.flatnonzero(inner & mesh.wall[edge])
+        passed = np.stack([row[met] // 3, through[met]], axis=1)
+        met = met[_empty(mesh, mesh.points[vertex[met]], foot[met], passed)]
         edges.append(edge[met])
         feet.append(foot[met])
-        vertices.append(mesh.points[vertex[met]])
         going = np.flatnonzero(inner & ~mesh.wall[edge] & ~mesh.outer[edge])
         row, edge, through = _across(mesh, row, edge, through, going)
-    result = np.concatenate(feet)
-    empty = _empty(mesh, np.concatenate(vertices), result)
-    return np.concatenate(edges)[empty], result[empty]
+    return np.concatenate(edges), np.concatenate(feet)
 
 
-def with_feet(mesh: Triangulation) -> Triangulation | None:
-    """Triangulate walls once more, with :func:`narrow_feet` among the points; None where that comes to no end."""
+def with_feet(mesh: Triangulation) -> Triangulation:
+    """Triangulate walls once more, with :func:`narrow_feet` among the points."""
     edge, feet = narrow_feet(mesh)
     return cut_further(mesh, edge, feet) if len(edge) else mesh
 
@@ -69,15 +69,17 @@ def _reach(mesh: Triangulation) -> FloatArray:
     return reach
 
 
-def _empty(mesh: Triangulation, vertex: FloatArray, foot: FloatArray) -> NDArray[np.bool_]:
-    """Whether no vertex is in the circles from vertices to their feet."""
-    if not len(foot):
-        return np.zeros(0, dtype=np.bool_)
-    tree = shapely.STRtree(shapely.points(mesh.points))
-    middles = shapely.points((vertex + foot) / 2)
-    nearest = tree.query_nearest(middles, return_distance=True, all_matches=False)[1]
-    half = np.hypot(*(vertex - foot).T) / 2
-    empty: NDArray[np.bool_] = (half > 0) & (nearest >= half * (1 - 1e-9))
+def _empty(mesh: Triangulation, vertex: FloatArray, foot: FloatArray, triangles: IntArray) -> NDArray[np.bool_]:
+    """Whether no corner of some triangles, (n, 2) for each, is in the circle from a vertex to its foot.
+
+    In the circle over v f is what sees it under more than a right angle: (w - v) . (w - f) < 0. Of a vertex on a wall,
+    to rounding, it is a point.
+    """
+    square = ((foot - vertex) ** 2).sum(axis=1)
+    empty = np.ones(len(foot), dtype=np.bool_)
+    for corner in mesh.corners[triangles].reshape(-1, 6).T:
+        place = mesh.points[corner]
+        empty &= ((place - vertex) * (place - foot)).sum(axis=1) >= -_NEARLY * square
     return empty
 
 

@@ -7,12 +7,10 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.triangulation import Triangulation
-from wallkit.walls.checking.climbing import Segments
+from wallkit.walls.checking.wall_distance import wall_distance
 
 
-def triangle_circles(
-    mesh: Triangulation, walls: Segments, least: float, where: NDArray[np.bool_]
-) -> tuple[FloatArray, FloatArray]:
+def triangle_circles(mesh: Triangulation, least: float, where: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
     """Give radius and centre of the roomier of two circles of each triangle, (T,) and (T, 2).
 
     The centres are that of the circle through the corners, if it is inside, and that of the inscribed one. The radius
@@ -34,7 +32,7 @@ def triangle_circles(
         asked[rows] = True
         for centre, limit in zip(centres, most, strict=True):
             some = rows[limit[rows] > size[rows]]
-            distance, _ = walls.nearest(centre[some])
+            distance = wall_distance(mesh, some, centre[some])
             some, distance = some[distance > size[some]], distance[distance > size[some]]
             size[some], place[some] = distance, centre[some]
         known[rows] = size[rows]
@@ -65,4 +63,8 @@ def _centres(mesh: Triangulation) -> FloatArray:
         around = p + np.stack([v[:, 1] * uu - u[:, 1] * vv, u[:, 0] * vv - v[:, 0] * uu], axis=1) / double[:, None]
     largest = np.sort(np.stack([uu, vv, ww], axis=1), axis=1)
     acute = (largest[:, 2] <= (largest[:, 0] + largest[:, 1]) * (1 + 1e-9)) & np.isfinite(around).all(axis=1)
+    around = np.where(acute[:, None], around, inner)
+    for a, b in ((p, q), (q, r), (r, p)):  # of a needle the centre is anywhere, by rounding
+        (x, y), (s, t) = (b - a).T, (around - a).T
+        acute &= x * t - y * s >= -1e-9 * (x * x + y * y)
     return np.stack([np.where(acute[:, None], around, inner), inner])

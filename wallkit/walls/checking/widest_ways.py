@@ -112,8 +112,11 @@ def unite(mesh: Triangulation, ways: Ways, circle: FloatArray, narrow: float, le
         if 2 * narrow * roomy[two] >= width > 0 and roomy[two] > least:
             rooms.append(Room(way, best[two], math.isinf(roomy[one])))
         parent[two] = one
-    roots = {_find(parent, node) for node in range(len(circle))}
-    return Joined(used, rooms, [best[root] for root in sorted(roots) if least < roomy[root] < math.inf])
+    root = np.array(parent)
+    while (root[root] != root).any():
+        root = root[root]
+    roots: list[int] = np.unique(root[: len(circle)]).tolist()
+    return Joined(used, rooms, [best[node] for node in roots if least < roomy[node] < math.inf])
 
 
 def _outer(mesh: Triangulation) -> list[int]:
