@@ -1,9 +1,10 @@
 """What a slide, a glide and a pivot cost beside a bounce of the same walls, on one thread, in one run.
 
-    python benchmarks/contact_state_cost.py [slide glide pivot]
+    python benchmarks/contact_state_cost.py [slide glide pivot ramp]
 
 Tracks in which balls run to and fro for ever, without friction and with restitution 0, so that nearly every contact is
-the begin of a contact state; and the same tracks, closed to a room and with restitution 1, in which balls bounce. A
+the begin of a contact state, and a ramp of a few lines, which many balls slide down; and the same tracks, closed to a
+room and with restitution 1, in which balls bounce: among the ramp's lines in lockstep, beside arcs one by one. A
 state is counted where a ball comes to keep to a piece of wall: where it turns round on it is not. Compiling is not
 counted. Both do some 400,000 of what they are asked for, so that what a call costs does not count.
 """
@@ -18,7 +19,7 @@ import numpy as np
 
 import wallkit
 
-BALLS, SECONDS, BOUNCES, TURNS, PULL, RADIUS = 200, 400.0, 2000, 5, 100.0, 2.0
+BALLS, SECONDS, BOUNCES, TURNS, PULL, RADIUS = 200, 400.0, 400_000, 5, 100.0, 2.0
 TOUCHING = RADIUS + 1e-6
 """From the wall: a disc that is let go there comes to keep to it at once."""
 
@@ -61,6 +62,14 @@ def pivot():
     return points, bulges, middle + (rho - TOUCHING) * np.stack([np.sin(angle), -np.cos(angle)], axis=1)
 
 
+def ramp():
+    """A slope of twelve pieces, no arc anywhere."""
+    points = np.linspace((0.0, 60.0), (240.0, 0.0), 13)
+    down = np.array([240.0, -60.0]) / math.hypot(240.0, 60.0)
+    way = np.linspace(6.0, 18.0, 20_000)[:, None]
+    return points, np.zeros(13), points[0] + way * down + TOUCHING * np.array([-down[1], down[0]])
+
+
 def scene_of(track, restitution):
     """Balls that are let go at a track, or thrown from there, which a lid closes to a room."""
     points, bulges, places = track
@@ -72,8 +81,8 @@ def scene_of(track, restitution):
         bulges=[np.concatenate([bulges, np.zeros(2)])],
         material=wallkit.Material(restitution, 1.0),
     )
-    turn = np.linspace(0.3, 2.8, BALLS)[:, None]
-    velocity = 50.0 * np.hstack([np.cos(turn), np.sin(turn)]) if restitution else np.zeros((BALLS, 2))
+    turn = np.linspace(0.3, 2.8, len(places))[:, None]
+    velocity = 50.0 * np.hstack([np.cos(turn), np.sin(turn)]) if restitution else np.zeros_like(places)
     return wallkit.Scene(walls, wallkit.Balls(places, velocity, RADIUS), gravity=(0.0, -PULL))
 
 
@@ -84,8 +93,9 @@ def seconds(run):
 
 
 def measure(name):
-    track = {"slide": slide, "glide": glide, "pivot": pivot}[name]()
+    track = {"slide": slide, "glide": glide, "pivot": pivot, "ramp": ramp}[name]()
     held, bouncing = scene_of(track, 0.0), scene_of(track, 1.0)
+    each = BOUNCES // len(track[2])
     run = wallkit.simulate(held, until=SECONDS, mode="compiled")
     kinds = np.bincount(run.contacts["kind"], minlength=4)
     pivots = np.count_nonzero((run.contacts["kind"] == 2) & (run.contacts["edge"] < 0))
@@ -96,26 +106,26 @@ def measure(name):
             "survey",
             (
                 lambda: wallkit.survey(ready, until=SECONDS, threads=1),
-                lambda: wallkit.survey(other, bounces=BOUNCES, threads=1),
+                lambda: wallkit.survey(other, bounces=each, threads=1),
             ),
         ),
         (
             "simulate",
             (
                 lambda: wallkit.simulate(held, until=SECONDS, mode="compiled"),
-                lambda: wallkit.simulate(bouncing, bounces=BOUNCES, mode="compiled"),
+                lambda: wallkit.simulate(bouncing, bounces=each, mode="compiled"),
             ),
         ),
     ):
         for part in both:  # compiled here
             part()
-        turns = np.array([[seconds(part) for part in both] for _ in range(TURNS)]) / (kinds[2], BALLS * BOUNCES) * 1e9
+        turns = np.array([[seconds(part) for part in both] for _ in range(TURNS)]) / (kinds[2], BOUNCES) * 1e9
         (state, bounce), ratio = np.median(turns, axis=0), np.median(turns[:, 0] / turns[:, 1])
         print(f"  {how:8s} a state {state:6.0f} ns, a bounce {bounce:6.0f} ns, ratio {ratio:.1f}", flush=True)
 
 
 def main() -> None:
-    for name in sys.argv[1:] or ["slide", "glide", "pivot"]:
+    for name in sys.argv[1:] or ["slide", "glide", "pivot", "ramp"]:
         measure(name)
 
 
