@@ -1,6 +1,7 @@
 """Hold random scenes with contact states against the reference of 40 digits: the state at the end, and the horizon.
 
     python benchmarks/contact_states.py --scenes 1000 --seed 0
+    python benchmarks/contact_states.py --scenes 1000 --seed 0 --rolling
 
 A scene agrees if place and velocity at its end are those of the reference to 1e-9; else the horizon must say that the
 run is not good to that. Printed are all that do neither.
@@ -14,16 +15,16 @@ import time
 import numpy as np
 
 import wallkit
-from wallkit.accuracy.contact_scenes import KINDS, contact_scene
+from wallkit.accuracy.contact_scenes import KINDS, contact_scene, rolling_scene
 from wallkit.accuracy.reference_contact import ContactReference
 from wallkit.accuracy.sure_digits import PrecisionError
 
 TOLERANCE = 1e-9
 
 
-def judge(seed):
+def judge(seed, scene_of):
     """What becomes of one scene: (kind, verdict, how far off, whether it had contact states)."""
-    kind, scene, until = contact_scene(seed)
+    kind, scene, until = scene_of(seed)
     try:
         run = wallkit.simulate(scene, until=until)
     except wallkit.WallkitError:
@@ -46,11 +47,12 @@ def main() -> None:
     asked = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     asked.add_argument("--scenes", type=int, default=100)
     asked.add_argument("--seed", type=int, default=0)
+    asked.add_argument("--rolling", action="store_true", help="the same scenes with rolling friction")
     asked = asked.parse_args()
     table = {kind: {} for kind in KINDS}
     begin, states, worst = time.process_time(), 0, 0.0
     for seed in range(asked.seed, asked.seed + asked.scenes):
-        kind, verdict, off, held = judge(seed)
+        kind, verdict, off, held = judge(seed, rolling_scene if asked.rolling else contact_scene)
         states += held
         table[kind][verdict] = table[kind].get(verdict, 0) + 1
         if verdict == "agrees":

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from wallkit import Balls, Material, Scene, Walls, simulate
+from wallkit.accuracy.contact_scenes import contact_scene
 from wallkit.simulation import horizon
 from wallkit.simulation.glide_errors import glides_of
 
@@ -40,3 +41,12 @@ def test_a_corner_that_a_disc_has_just_left_does_not_end_trust():
     walls = Walls.from_polylines([[[0, 5], [6, 4.8]], [[-10, 0], [30, 0]]], closed=False, material=Material(0.0, 1.0))
     run = simulate(Scene(walls, Balls([(2.0, 6.0)], [(0.4, 0.0)], 0.5), gravity=(0.0, -PULL)), until=6.0)
     assert horizon.trusted_until(run.scene, run.contacts, 0, 1e-9).whole
+
+
+def test_the_last_bounces_in_a_corner_have_speeds_whose_squares_have_no_digits():
+    # a point in the corner of two arcs, restitution 0: each bounce leaves it a part of its speed, down to 1e-163
+    _kind, scene, until = contact_scene(17309)
+    run = simulate(scene, until=until)
+    speed = np.hypot(run.contacts["vx"], run.contacts["vy"])
+    assert (speed**2 < 2.0**-1022).any()
+    assert horizon.trusted_until(scene, run.contacts, 0, 1e-6).bounces > 0

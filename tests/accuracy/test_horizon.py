@@ -7,7 +7,9 @@ import pytest
 
 from wallkit import simulate
 from wallkit.accuracy import scenes
+from wallkit.accuracy.contact_scenes import contact_scene
 from wallkit.accuracy.reference import Reference, sure_events
+from wallkit.accuracy.reference_contact import ContactReference
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation import horizon
 from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, near_misses
@@ -115,6 +117,30 @@ def test_flattened_walls_are_trusted_less_far():
     real = next(k for k, e in enumerate(parted) if e > 0.1)
     assert drawing.bounces <= real
     assert drawing.bounces < rounding.bounces
+
+
+def test_a_wall_that_is_off_moves_the_place_at_which_it_is_met():
+    # the first wall moved out by d along its normal is met at d / sin(a) farther on, a the angle to the wall
+    walls = scenes.room([(0, 0), (0, 4), (10, 4), (10, 0)])
+    walls.measured_error, angle = 0.01, math.radians(30)
+    scene = Scene(walls, Balls([(2.0, 1.0)], [(math.cos(angle), math.sin(angle))]))
+    rms, _worst = horizon.predicted_errors(scene, simulate(scene, bounces=1).contacts, source="drawing")
+    assert rms[0] == pytest.approx(0.01 / math.sin(angle), rel=1e-12)
+
+
+def test_a_hollow_met_along_its_tangent_is_met_anywhere_near():
+    # a point falls along the upright side of a half pipe on to the arc that goes on from it: they part as y^2 / 2 R, so
+    # that a rounding of 1e-16 decides over 1e-8
+    _kind, scene, until = contact_scene(11349)
+    run, true = simulate(scene, until=until), ContactReference(scene).run(until)
+    row = next(k for k, change in enumerate(true) if change.kind == "leave") + 1
+    met, own = true[row], run.contacts[run.contacts["time"] > float(true[row - 1].time) + 0.1][0]
+    off = math.hypot(own["x"] - float(met.position[0]), own["y"] - float(met.position[1]))
+    bounces = np.flatnonzero(run.contacts["kind"] <= 1)
+    said = run.trusted_until(1e-9)[0]
+    assert off > 1e-9
+    assert said.bounces < len(bounces)
+    assert run.trusted_until(1e-5)[0].whole
 
 
 def test_a_ball_that_comes_to_rest_is_good_throughout():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -32,6 +33,14 @@ def contact_scene(seed: int) -> tuple[str, Scene, float]:
     radius = float(random.choice([0.0, 0.2, 0.5]))
     gravity = (0.0, -PULL) if random.random() < 0.7 else (float(random.uniform(-3.0, 3.0)), -PULL)
     return kind, Scene(walls, Balls([place], [velocity], radius), gravity=gravity), float(random.uniform(2.0, 6.0))
+
+
+def rolling_scene(seed: int) -> tuple[str, Scene, float]:
+    """Make the scene of :func:`contact_scene` with rolling friction, from a hundredth of gravity to more than half."""
+    kind, scene, until = contact_scene(seed)
+    random = np.random.default_rng([seed, 2])
+    part = float(random.choice([0.01, 0.05, 0.2, random.uniform(0.0, 0.6)]))
+    return kind, dataclasses.replace(scene, rolling_friction=part * PULL), until
 
 
 def _material(random: np.random.Generator) -> Material:

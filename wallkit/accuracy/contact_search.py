@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.accuracy.contact_guides import Barrier, minus
+from wallkit.accuracy.real_roots import real_roots
 from wallkit.accuracy.reference import Real, Reference, Vector, _Arc, _dot, _Line
 
 
@@ -39,14 +41,20 @@ class Search:
         self, position: Vector, velocity: Vector, touching: dict[int, Barrier], span: Real
     ) -> tuple[Real, Barrier] | None:
         """Time of the first contact within a time, and with what."""
+        gaps: dict[int, tuple[list[Real], list[float]]] = {}
         asked: dict[int, list[Real]] = {}
         begin, end = 0.0, min(self.guess, float(span))
         while True:
             best: tuple[Real, Barrier] | None = None
             for number in self._candidates(position, velocity, begin, end).tolist():
                 barrier = self.barriers[number]
+                if number not in gaps:
+                    gap = self._gap(barrier, position, velocity, touching)
+                    gaps[number] = gap, [float(c) for c in gap]
                 if number not in asked:
-                    asked[number] = self._times(barrier, position, velocity, touching)
+                    if keeps_its_sign(gaps[number][1], begin, end):
+                        continue
+                    asked[number] = self._times(barrier, gaps[number][0], position, velocity, touching)
                 for time in asked[number]:
                     if best is None or time < best[0]:
                         best = time, barrier
@@ -65,12 +73,13 @@ class Search:
         low, high = np.minimum(one, other) - sag, np.maximum(one, other) + sag
         return np.flatnonzero(((self.low <= high) & (self.high >= low)).all(axis=1))
 
-    def _times(self, barrier: Barrier, position: Vector, velocity: Vector, touching: dict[int, Barrier]) -> list[Real]:
+    def _times(
+        self, barrier: Barrier, gap: list[Real], position: Vector, velocity: Vector, touching: dict[int, Barrier]
+    ) -> list[Real]:
         """Times at which the gap falls through zero on the section of the barrier that is there."""
-        touched = barrier.number in touching or (barrier.radius == 0 and self._twin_touched(barrier, touching))
-        gap = self._gap(barrier, position, velocity, touched)
+        touched = self._touched(barrier, touching)
         found = []
-        for time in self.reference._roots(gap[::-1]):
+        for time in real_roots(self.mp, gap[::-1]):
             if time < -self.same or (touched and time <= self.same):
                 continue
             half = time * time / 2
@@ -83,10 +92,13 @@ class Search:
                 found.append(max(time, self.mp.mpf(0)))
         return found
 
-    def _twin_touched(self, barrier: Barrier, touching: dict[int, Barrier]) -> bool:
+    def _touched(self, barrier: Barrier, touching: dict[int, Barrier]) -> bool:
+        """Whether it is touched; for a point the two sides of an edge are one place."""
+        if barrier.radius > 0:
+            return barrier.number in touching
         return any(other.obstacle == barrier.obstacle for other in touching.values())
 
-    def _gap(self, barrier: Barrier, position: Vector, velocity: Vector, touched: bool) -> list[Real]:
+    def _gap(self, barrier: Barrier, position: Vector, velocity: Vector, touching: dict[int, Barrier]) -> list[Real]:
         """Coefficients of the gap in time, that of 1 first; of a touched one without what is rounding."""
         g = self.gravity
         if barrier.bend == 0:
@@ -100,7 +112,7 @@ class Search:
                 out * _dot(velocity, g),
                 out * _dot(g, g) / 4,
             ]
-        if not touched:
+        if not self._touched(barrier, touching):
             return gap
         square = _dot(velocity, velocity)
         tiny = self.same / self.reference.size
@@ -133,3 +145,22 @@ class Search:
             if abs(gap) <= distance and self.on_section(barrier, place, distance):
                 found.append(barrier)
         return found
+
+
+def keeps_its_sign(coefficients: list[float], begin: float, end: float) -> bool:
+    """Tell whether a polynomial, that of 1 first, surely has no zero between two times.
+
+    With t = begin + u (end - begin) and the coefficients d of the powers of u it lies between the least and the
+    greatest of its Bernstein coefficients, b_j = sum of C(j, k) / C(n, k) d_k. What doubles lose of these is below
+    2^-40 of the sum of |c_k| (|begin| + |end|)^k, which is kept clear of.
+    """
+    n, span, size = len(coefficients) - 1, end - begin, 0.0
+    shifted = coefficients[:]
+    for low in range(n):  # Horner's scheme, again and again: the Taylor coefficients at `begin`
+        for k in range(n - 1, low - 1, -1):
+            shifted[k] += begin * shifted[k + 1]
+    for c in reversed(coefficients):
+        size = size * (begin + end) + abs(c)
+    scaled = [d * span**k for k, d in enumerate(shifted)]
+    bounds = [sum(math.comb(j, k) / math.comb(n, k) * scaled[k] for k in range(j + 1)) for j in range(n + 1)]
+    return min(bounds) > 2.0**-40 * size or max(bounds) < -(2.0**-40) * size

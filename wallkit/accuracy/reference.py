@@ -12,7 +12,6 @@ close together are beyond what these digits can order.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -22,6 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wallkit.accuracy.real_roots import real_roots
 from wallkit.accuracy.sure_digits import PrecisionError, agreed
 from wallkit.arguments import of_type, whole_number
 from wallkit.scene.scene import Scene
@@ -212,7 +212,7 @@ class Reference:
             offset = (position[0] - line.start[0], position[1] - line.start[1])
             gap = zero if side is not None else _dot(offset, normal) - radius
             push = _dot(self.gravity, normal) if self.gravity is not None else zero
-            for time in self._roots([push / 2, _dot(velocity, normal), gap]):
+            for time in real_roots(self.mp, [push / 2, _dot(velocity, normal), gap]):
                 there, then = self._fly(position, velocity, time)
                 approaching = _dot(then, normal) < 0
                 if not approaching or time < -same:
@@ -256,7 +256,7 @@ class Reference:
             g = self.gravity
             coefficients[0] += _dot(offset, g)
             coefficients = [_dot(g, g) / 4, _dot(velocity, g), *coefficients]
-        for time in self._roots(coefficients):
+        for time in real_roots(self.mp, coefficients):
             if time < -same:
                 continue
             there, then = self._fly(position, velocity, time)
@@ -266,67 +266,6 @@ class Reference:
                 which = 1 if outside else -1
                 length = self.mp.sqrt(_dot(radial, radial))
                 yield max(time, self.mp.mpf(0)), (which * radial[0] / length, which * radial[1] / length), which
-
-    def _roots(self, coefficients: list[Real]) -> list[Real]:
-        """List the real roots, leading coefficient first; none of a constant."""
-        while coefficients and coefficients[0] == 0:
-            coefficients = coefficients[1:]
-        if len(coefficients) <= 1:
-            return []
-        if len(coefficients) == 2:
-            return [-coefficients[1] / coefficients[0]]
-        if len(coefficients) == 3:
-            return self._quadratic_roots(*coefficients)
-        if coefficients[-1] == 0:  # it touches now: the root 0 is known, the others are found without it
-            return [self.mp.mpf(0), *self._roots(coefficients[:-1])]
-        return self._roots_between_extremes(coefficients)
-
-    def _roots_between_extremes(self, coefficients: list[Real]) -> list[Real]:
-        """A polynomial is monotone between the roots of its derivative: at most one root in each stretch."""
-        degree = len(coefficients) - 1
-        slope = [(degree - k) * c for k, c in enumerate(coefficients[:-1])]
-        bound = 1 + max(abs(c / coefficients[0]) for c in coefficients)  # Cauchy: no root is larger
-        stops = [-bound, *sorted(self._roots(slope)), bound]
-        found = []
-        for low, high in itertools.pairwise(stops):
-            if self._value(coefficients, low) * self._value(coefficients, high) < 0:
-                found.append(self._root_in(coefficients, slope, low, high))
-        return found
-
-    def _root_in(self, coefficients: list[Real], slope: list[Real], low: Real, high: Real) -> Real:
-        """Newton's steps, halving the bracket instead whenever one leaves it or shrinks too little."""
-        rising = self._value(coefficients, high) > 0
-        middle = (low + high) / 2
-        for _ in range(20 * self.mp.prec):
-            value = self._value(coefficients, middle)
-            if value == 0:
-                break
-            low, high = (low, middle) if (value > 0) == rising else (middle, high)
-            steep = self._value(slope, middle)
-            following = middle - value / steep if steep != 0 else low
-            if not low < following < high:
-                following = (low + high) / 2
-            if abs(following - middle) <= self.mp.eps * abs(following):
-                break
-            middle = following
-        return middle
-
-    @staticmethod
-    def _value(coefficients: list[Real], at: Real) -> Real:
-        total = coefficients[0]
-        for c in coefficients[1:]:
-            total = total * at + c
-        return total
-
-    def _quadratic_roots(self, a: Real, b: Real, c: Real) -> list[Real]:
-        if c == 0:
-            return [self.mp.mpf(0), -b / a]
-        discriminant = b * b - 4 * a * c
-        if discriminant < 0:
-            return []
-        root = self.mp.sqrt(discriminant)
-        q = -(b + root) / 2 if b >= 0 else (root - b) / 2
-        return [q / a, c / q] if q != 0 else [self.mp.mpf(0)]
 
     def _fly(self, position: Vector, velocity: Vector, time: Real) -> tuple[Vector, Vector]:
         x, y = position[0] + velocity[0] * time, position[1] + velocity[1] * time

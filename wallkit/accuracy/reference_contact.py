@@ -13,11 +13,13 @@ to one barrier (see ``contact_guides``); what touches it and moves neither to no
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from typing import Any, Literal
 
 from wallkit.accuracy.contact_guides import Barrier, Guide, barriers_of, minus
 from wallkit.accuracy.contact_joints import Joints
+from wallkit.accuracy.contact_motions import Motion, motion
 from wallkit.accuracy.contact_search import Search
 from wallkit.accuracy.reference import Real, Reference, Vector, _dot, _reflect
 from wallkit.accuracy.sure_digits import PrecisionError
@@ -49,7 +51,7 @@ class ContactReference:
     """One ball of a scene under gravity.
 
     Args:
-        scene: walls and balls under gravity; drag and friction are not known here and raise.
+        scene: walls and balls under gravity; drag is not known here and raises.
         ball: which ball.
         digits: decimal digits, at least 30.
 
@@ -58,7 +60,7 @@ class ContactReference:
     """
 
     def __init__(self, scene: Scene, ball: int = 0, digits: int = 40) -> None:
-        reference = Reference(scene, digits)
+        reference = Reference(dataclasses.replace(scene, rolling_friction=None), digits)
         if reference.gravity is None or digits < 30:
             raise PrecisionError("contact states need gravity and 30 digits", code="precision", fix="give both")
         self.mp = mp = reference.mp
@@ -71,6 +73,7 @@ class ContactReference:
         self.radius = mp.mpf(float(radii if isinstance(radii, (int, float)) else radii[0]))
         self.barriers = barriers_of(reference, self.radius)
         self.pull = mp.sqrt(_dot(self.gravity, self.gravity))
+        self.rolling = mp.mpf(float(scene.rolling_friction)) / self.pull if scene.rolling_friction else None
         self.size = reference.size
         self.low = self.size * mp.mpf(10) ** (-digits / mp.mpf(2))
         self.tiny = mp.mpf(10) ** (-0.6 * digits)
@@ -232,6 +235,7 @@ class ContactReference:
         pull = self._pull_along(barrier)
         pressed = barrier.press(self.mp, self.gravity, self.position, self.velocity)
         grip = self.reference.scene.walls.materials[self.reference.obstacles[barrier.obstacle].wall].static_friction
+        grip = max(grip, self.rolling or 0)
         along = self.mp.sqrt(_dot(pull, pull))
         return bool(along <= self.tiny * self.pull or along <= grip * pressed)
 
@@ -241,11 +245,12 @@ class ContactReference:
         mp, held = self.mp, self.held
         assert held is not None
         guide, square = self._guide(held)
-        way, event = self._first_event(guide, square, held)
-        then = mp.mpf(0) if event == "turn" else self._value(guide, guide.squared_speed(self.gravity, square), way)
-        time = guide.time_to(mp, self.gravity, square, way, max(then, mp.mpf(0))) if way < mp.inf else mp.inf
+        goes = motion(mp, guide, self.gravity, square, self.rolling)
+        way, event = self._first_event(guide, goes, held)
+        then = mp.mpf(0) if event == "turn" or way == mp.inf else goes.square_at(way)
+        time = goes.time_to(way, max(then, mp.mpf(0))) if way < mp.inf else mp.inf
         if self.now + time >= end:
-            self.position, self.velocity = guide.after(mp, self.gravity, square, end - self.now)
+            self.position, self.velocity = goes.after(end - self.now, way)
             self.now = end
             return
         self.now += time
@@ -280,6 +285,8 @@ class ContactReference:
         following = joint.barrier if joint.kind == "smooth" else joint.vertex
         if joint.barrier is not None and self.radius == 0:  # a disc is at the vertex yet
             self.touching[joint.barrier.number] = joint.barrier
+        if joint.vertex is not None:  # of a smooth joint: passed as the edge is, whatever its rounding turns
+            self.touching[joint.vertex.number] = joint.vertex
         if following is not None:
             self.touching[following.number] = following
             self._turn_along(following)
@@ -308,17 +315,13 @@ class ContactReference:
         bend = held.bend or 1
         return Guide(held, self.position, (bend * nx, bend * ny), (-turn * ny, turn * nx)), square
 
-    def _first_event(self, guide: Guide, square: Real, held: Barrier) -> tuple[Real, Any]:
+    def _first_event(self, guide: Guide, goes: Motion, held: Barrier) -> tuple[Real, Any]:
         mp, least = self.mp, self.tiny
         best: Real = mp.inf
         event: Barrier | str | None = None
-        for name, wave in (
-            ("turn", guide.squared_speed(self.gravity, square)),
-            ("lift", guide.pressing(self.gravity, square)),
-        ):
-            for way in guide.falls(mp, wave, least):
-                if way < best:
-                    best, event = way, name
+        for way, name in goes.events(least):
+            if way < best:
+                best, event = way, name
         for way in self.joints.ends(guide):
             if way < best:
                 best, event = way, "end"
@@ -333,12 +336,6 @@ class ContactReference:
                     best, event = way, other
                     break
         return best, event
-
-    def _value(self, guide: Guide, wave: tuple[Real, Real, Real], way: Real) -> Real:
-        a, b, c = wave
-        if guide.barrier.bend == 0:
-            return a + way * (b + way * c)
-        return a + b * self.mp.cos(way) + c * self.mp.sin(way)
 
     def _note(self, kind: Kind, barrier: Barrier | None) -> None:
         wall, edge, normal = -1, -1, (self.mp.mpf(0), self.mp.mpf(0))

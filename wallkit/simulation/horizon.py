@@ -22,7 +22,8 @@ Under gravity drag k takes t to the free time f = (1 - e^(-k t)) / k, and dv to 
 A ball that keeps to a line is pulled along it; along a circle its error is that of a pendulum (see ``glide_errors``),
 and its velocity before a bounce, and the g before it, are those on the circle. Where it runs off an edge, a neighbour
 that is there later by dt falls later: dv' = dv + (g before - g after) dt. Where endless bounces take what speed it has
-along the wall, it sets out from there later by dT, what they take longer in all: dv' = -a dT (see ``contact``).
+along the wall, it sets out from there later by dT, what they take longer in all: dv' = -a dT (see ``contact``); where
+they leave it all, rolling friction begins later by dT.
 
 Where the first order ends, trust ends: when the error reaches the distance by which the path passed a corner
 (points: the distance of a hit from a corner that turns), or the depth of a grazing hit.
@@ -38,7 +39,8 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import circles
-from wallkit.kernels.flight.error_growth import BOUNCES, LEAVES, PASSES, SLIDES, STOPS, carry, stretch
+from wallkit.kernels.flight.error_growth import BOUNCES, LEAVES, PASSES, SLIDES, SLOWS, STOPS, carry, stretch
+from wallkit.kernels.flight.flight import FALLING_TOLERANCE
 from wallkit.kernels.jit import compiled
 from wallkit.scene.scene import Scene
 from wallkit.simulation.damping import damping_of, on_a_free_clock, slowing_of
@@ -190,10 +192,23 @@ def _course(scene: Scene, own: Any, ball: int) -> Course:
     for row in np.flatnonzero(slides).tolist():
         pull[row + 1] = pull_along(gravity, slowing, path[row, 1:3], path[row, 3:5])
     keep = table[own["wall"]]
-    stopped = slides & stands & (before == BOUNCES) & (keep < 1.0).all(axis=1) & (np.diff(path[:, 0], prepend=0.0) > 0)
-    path[stopped, 5] = STOPS
+    ended = slides & (before == BOUNCES) & (keep[:, 1] < 1.0) & (np.diff(path[:, 0], prepend=0.0) > 0)
+    path[ended & stands & (keep[:, 0] < 1.0), 5] = STOPS
+    path[ended & ~stands & (keep[:, 0] == 1.0) & (slowing.rolling is not None), 5] = SLOWS
+    for row in np.flatnonzero(path[:, 5] == SLOWS).tolist():
+        pull[row + 1] = _pull_after_bounces(gravity, slowing.rolling or 0.0, path[row - 1], path[row], keep[row, 1])
     glides = glides_of(scene, own, gravity) if slides.any() else np.full((len(own), COLUMNS), math.nan)
     return start, np.ascontiguousarray(path), bends(scene, own, ball), keep, pull, slowing.drag or 0.0, glides
+
+
+def _pull_after_bounces(
+    gravity: FloatArray, rolling: float, bounce: FloatArray, slide: FloatArray, restitution: float
+) -> FloatArray:
+    """Acceleration along the wall where a ball begins to slide, whose endless bounces took T = 2 w / p (1 - e)."""
+    ahead = np.array([-slide[4], slide[3]])
+    pressed = 2.0 * float(bounce[1:3] @ bounce[3:5]) / ((1.0 - restitution) * (slide[0] - bounce[0]))
+    pull = float(gravity @ ahead) - math.copysign(rolling * pressed, float(slide[1:3] @ ahead))
+    return pull * ahead
 
 
 def _roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
@@ -207,14 +222,23 @@ def _roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
 
     _, path, bend, keep, _, _, _ = course
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
-    places = np.concatenate([begin[None], np.stack([own["x"], own["y"]], axis=1)]) - local_origin(scene.walls.vertices)
+    origin = local_origin(scene.walls.vertices)
+    places = np.concatenate([begin[None], np.stack([own["x"], own["y"]], axis=1)]) - origin
     place = RMS_ROUNDING * np.hypot(*places[1:].T)
     plain = (bend == 0) & ((path[:, 3] == 0) | (path[:, 4] == 0)) & (keep == 1).all(axis=1)
     speed = np.where(plain, 0.0, RMS_ROUNDING)
     if scene.gravity is not None:
         place, speed = _falling_roundings(course, places)
     turn = np.where(plain, 0.0, RMS_ROUNDING + place * np.abs(bend))
-    return np.stack([place, turn, place, speed], axis=1)
+    # An edge is where its first vertex is: what is left of the way from there is rounded as that is long.
+    edge = scene.walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
+    d = scene.walls.vertices[scene.walls.edge_starts[edge]] - np.stack([own["x"], own["y"]], axis=1)
+    wall = np.hypot(place, np.where(own["edge"] < 0, 0.0, RMS_ROUNDING * np.hypot(*d.T)))
+    if scene.gravity is not None:  # nearer to a corner than the tolerance it bounces off both walls in no time
+        at_once = (np.diff(path[:, 0], prepend=-1.0) == 0.0) & (path[:, 5] == BOUNCES)
+        near = FALLING_TOLERANCE * float(np.abs(scene.walls.vertices - origin).max(initial=0.0))
+        place = np.where(at_once, np.hypot(place, near / SURE), place)
+    return np.stack([wall, turn, place, speed], axis=1)
 
 
 def _falling_roundings(course: Course, places: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -298,7 +322,7 @@ def _flights(scene: Scene, own: Any, ball: int) -> FlightTable:
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
     ends = np.stack([own["x"], own["y"]], axis=1)
     slides = np.concatenate(
-        [[False], np.isin(path[:-1, 5], (SLIDES, PASSES, STOPS))]
+        [[False], np.isin(path[:-1, 5], (SLIDES, PASSES, STOPS, SLOWS))]
     )  # a ball that slides misses nothing
     return FlightTable(
         start=np.concatenate([begin[None], ends[:-1]]),

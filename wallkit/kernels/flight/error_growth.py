@@ -8,8 +8,9 @@ from typing import Any
 from wallkit.kernels.impact.drag_motion import eased
 from wallkit.kernels.jit import kernel
 
-BOUNCES, SLIDES, LEAVES, PASSES, STOPS = 0.0, 1.0, 2.0, 3.0, 4.0
-"""What a contact is to an error. Who passes slides on from another edge; who stops has been stopped by bounces."""
+BOUNCES, SLIDES, LEAVES, PASSES, STOPS, SLOWS = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
+"""What a contact is to an error. Who passes slides on from another edge. Where one stops or slows, endless bounces end:
+they have taken its speed, or left it what it has along the wall, so that rolling friction acts from here on."""
 
 
 @kernel
@@ -65,9 +66,9 @@ def contact(
     """Give the derivative at contact i, before which v and its change in time are known: S, A, B and M.
 
     They are those of :func:`derivative` at a bounce. A ball that begins to slide keeps what its error has along the
-    wall; where endless bounces stop it (see ``wallkit.simulation.horizon``), it goes on later by dT, so with -a dT. One
-    that runs off an edge by dt = -(dx.v) / v^2 later falls so much later: its velocity differs by the jump of the
-    acceleration times dt.
+    wall; where endless bounces stop it (see ``wallkit.simulation.horizon``), it goes on later by dT, so with -a dT.
+    Where they leave it its speed along the wall, what pulled it along before is taken from a. One that runs off an edge
+    by dt = -(dx.v) / v^2 later falls so much later: its velocity differs by the jump of the acceleration times dt.
     """
     nx, ny, ux, uy = path[i, 3], path[i, 4], path[i, 1], path[i, 2]
     hx, hy = pull[i + 1, 0] - drag * ux, pull[i + 1, 1] - drag * uy
@@ -81,17 +82,24 @@ def contact(
     along = (1.0 - nx * nx, -nx * ny, -nx * ny, 1.0 - ny * ny)
     if path[i, 5] == PASSES:  # from edge to edge: that place is where it is
         return none, along, none, along
-    if path[i, 5] == STOPS:
+    if path[i, 5] == STOPS or path[i, 5] == SLOWS:
         # The last bounce leaves at w, dt = -dx.n / w late and faster by dw = dv.n - p dt; its series takes T = 2 w /
         # p (1 - e), so dT = dt + T dw / w. Here, T later, dx.n has T dv.n more.
         T, e = path[i, 0] - path[i - 1, 0], keep[i, 1]
+        nx, ny = path[i - 1, 3], path[i - 1, 4]  # of that bounce: on an arc it turns from there by more than w / v
         w = path[i - 1, 1] * nx + path[i - 1, 2] * ny
         part = 1.0 - 2.0 / (1.0 - e)
         d, m = -part / w, T * (1.0 + part) / w
-        px, py = along[0] * hx + along[1] * hy, along[2] * hx + along[3] * hy
-        return along, along, (-px * d * nx, -px * d * ny, -py * d * nx, -py * d * ny), (
-            -px * m * nx, -px * m * ny, -py * m * nx, -py * m * ny
-        )  # fmt: skip
+        keeps = 1.0 if path[i, 5] == SLOWS else 0.0  # of what it had until then
+        jx, jy = hx - keeps * ax, hy - keeps * ay
+        px, py = along[0] * jx + along[1] * jy, along[2] * jx + along[3] * jy
+        late = (-px * m * nx, -px * m * ny, -py * m * nx, -py * m * ny)
+        return (
+            along,
+            along,
+            (-px * d * nx, -px * d * ny, -py * d * nx, -py * d * ny),
+            _plus(_scaled(along, keeps), late),
+        )
     return along, along, none, along
 
 
@@ -179,6 +187,23 @@ def _met(xx: Any, xv: Any, vv: Any, A: Any, B: Any, M: Any) -> tuple[Any, Any, A
 
 
 @kernel
+def _outer(x: float, y: float) -> Any:
+    return x * x, x * y, x * y, y * y
+
+
+@kernel
+def _wall_moved(d: float, wx: float, wy: float, across: float, nx: float, ny: float, B: Any) -> tuple[Any, Any, Any]:
+    """Covariances that a wall adds which is elsewhere by d along its normal n: as a ball that is off by -d n meets it.
+
+    dx' = d (n - A n) and dv' = -d B n; with A = 1 - w n^T / (v.n) and w = v - v', n - A n is w / (v.n). A hollow met at
+    a small angle is met far along it, where its normal is another one: that is in B.
+    """
+    px, py = d * wx / across, d * wy / across
+    qx, qy = -d * (B[0] * nx + B[1] * ny), -d * (B[2] * nx + B[3] * ny)
+    return _outer(px, py), (px * qx, px * qy, py * qx, py * qy), _outer(qx, qy)
+
+
+@kernel
 def carry(
     start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, glides: Any, fresh: Any, variance: Any
 ) -> None:
@@ -218,6 +243,8 @@ def carry(
         S, A, B, M = contact(vx, vy, ax, ay, path, bend, keep, pull, drag, i)
         place = _times_turned(_times(S, xx), S)
         variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]  # the trace of S Var(x) S^T, and rounding
+        if path[i, 5] == BOUNCES:  # the wall elsewhere by d is met at d (n - v / (v.n)) along it, and d along n
+            variance[i] += fresh[i, 0] * fresh[i, 0] * (vx * vx + vy * vy) / (across * across)
         if not variance[i] < 1e300:
             break
         xx, xv, vv = _met(xx, xv, vv, A, B, M)
@@ -230,15 +257,14 @@ def carry(
                 _plus(vv, (rounded * ux * ux, rounded * ux * uy, rounded * ux * uy, rounded * uy * uy)),
             )
             continue
-        # New here: the wall moved by `shift` along n moves the state by (v - v') shift / (v.n) ...
-        shift, turn = fresh[i, 0] / across, fresh[i, 1] * (keep[i, 0] + keep[i, 1])
-        p, q = (vx - ux) * shift, (vy - uy) * shift
-        xx = _plus(xx, (p * p + rounded, p * q, p * q, q * q + rounded))
-        # ... its normal turned by `turn` turns v', with dn = (ny, -nx) turn; and the state is rounded
-        slip = vx * ny - vy * nx
-        p, q = turn * (nx * slip + across * ny), turn * (ny * slip - across * nx)
+        moved = _wall_moved(fresh[i, 0], vx - ux, vy - uy, across, nx, ny, B)
+        xx, xv, vv = _plus(xx, moved[0]), _plus(xv, moved[1]), _plus(vv, moved[2])
+        # Its normal turned by `turn` turns v', with dn = (ny, -nx) turn; and the state is rounded.
+        turn, slip = fresh[i, 1] * (keep[i, 0] + keep[i, 1]), vx * ny - vy * nx
+        turned = _outer(turn * (nx * slip + across * ny), turn * (ny * slip - across * nx))
+        xx = _plus(xx, (rounded, 0.0, 0.0, rounded))
         rounded = fresh[i, 3] * fresh[i, 3] * (ux * ux + uy * uy)
-        vv = _plus(vv, (p * p + rounded, p * q, p * q, q * q + rounded))
+        vv = _plus(_plus(vv, turned), (rounded, 0.0, 0.0, rounded))
 
 
 @kernel

@@ -6,6 +6,7 @@ from wallkit.kernels.flight.contact_state import reach
 from wallkit.kernels.flight.gravity import LEVEL
 from wallkit.kernels.flight.guide import STRAIGHT, guide, off_guide, press
 from wallkit.kernels.flight.pendulum import turned
+from wallkit.kernels.flight.slowed_contact import or_none
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import PASSING, SLIDING
 
@@ -15,9 +16,10 @@ def join(model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of,
     """Put a ball on its guide, and its velocity along it; take its last, endless bounces at once.
 
     With f = 1 its way along the wall in them is that of sliding, so it slides at once, but where it stands, and comes
-    to rest when they are over. With f < 1 they stop it. Where a is the pull along, u its speed along after the bounce
-    and t = 2 w / p the time to the next, the times to come are t e^k and u_(k+1) = f (u_k + a t e^k), so that after
-    t / (1 - e) it has come by
+    to rest when they are over, or where rolling friction waits for it, which takes nothing from a ball that bounces:
+    so it slides when they are over. With f < 1 they stop it. Where a is the pull along, u its speed along after the
+    bounce and t = 2 w / p the time to the next, the times to come are t e^k and u_(k+1) = f (u_k + a t e^k), so that
+    after t / (1 - e) it has come by
 
         S = t (u + e f a t / (1 - e^2)) / (1 - e f) + a t^2 / (2 (1 - e^2)).
 
@@ -32,8 +34,15 @@ def join(model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of,
     e, f = _kept(model, model.restitution, held)
     pull = gravity[1] * nx - gravity[0] * ny
     stands = u == 0.0 and abs(pull) <= LEVEL * (abs(gravity[0]) + abs(gravity[1]))
-    if hold == PASSING or e >= 1.0 or (f >= 1.0 and not stands):
+    if hold == PASSING or e >= 1.0 or (f >= 1.0 and not stands and not _given(model.rolling)):
         return x, y, vx, vy, 0.0, SLIDING
+    if f >= 1.0 and not stands:
+        time, pull = _unslowed(model.drag, gravity, rho, away, nx, ny, u, abs(w), e)
+        way = time * (u + 0.5 * pull * time)
+        x, y, done = reach(model, gravity, radius, held, side, last, x, y, way, start_of, tolerance)
+        _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
+        u += pull * done * time
+        return x, y, -u * ny, u * nx, done * time, SLIDING
     if stands or rho == STRAIGHT:
         # Up and down again under p takes 2 w / p, and each bounce e times as long as the one before:
         # t (1 + e + e^2 + ...) = t / (1 - e).
@@ -48,6 +57,26 @@ def join(model, gravity, radius, held, hold, side, last, x, y, vx, vy, start_of,
     _rho, _away, nx, ny = guide(model, model.arcs, held, side, radius, x, y)
     left = (1.0 - done) * u
     return x, y, -left * ny, left * nx, done * time, SLIDING
+
+
+@kernel
+def _given(rolling):
+    """Tell whether there is any rolling friction."""
+    return rolling is not None
+
+
+@rare_kernel
+def _unslowed(drag, gravity, rho, away, nx, ny, u, w, e):
+    """Time of the endless bounces of a ball that they do not slow down, and what accelerates it along the wall then.
+
+    That is the pull half-way, where the wall has turned, less drag there: over so short a time t the place along the
+    wall is off by t^3 of its change.
+    """
+    time = 2.0 * w / (press(gravity, rho, away, nx, ny, u * u) * (1.0 - e))
+    if rho != STRAIGHT:  # a way to the left turns n as in ``_last_bounces``
+        nx, ny, _tx, _ty = turned(nx, ny, -away * ny, away * nx, 0.25 * u * time / rho)
+    pull = gravity[1] * nx - gravity[0] * ny
+    return time, pull - or_none(drag) * (u + 0.5 * pull * time)
 
 
 @rare_kernel

@@ -167,6 +167,8 @@ def swing(
     Quarter by quarter, whole periods taken at once. At rest at the bottom or the top it stays there.
     """
     since, dx, dy, first = 0.0, 0.0, 0.0, True
+    if v * v < 2.0**-1000:
+        v = 0.0  # as the last speeds in a corner: below all that are modelled, whose squares have all digits
     for _quarter in range(40):
         pull = gy * ex - gx * ey
         if v == 0.0 and pull == 0.0:

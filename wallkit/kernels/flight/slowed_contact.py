@@ -51,11 +51,11 @@ def pull_ahead(rolling: Any, drag: Any, tx: float, ty: float, gx: float, gy: flo
     # On a level wall nothing but rounding would move it for ever.
     if abs(pull) <= LEVEL * (abs(gx) + abs(gy)):
         pull = 0.0
-    return pull - _or_none(rolling) * abs(gx * ty - gy * tx)
+    return pull - or_none(rolling) * abs(gx * ty - gy * tx)
 
 
 @kernel
-def _or_none(rate):
+def or_none(rate):
     """A rate, or 0 for None."""
     if rate is None:
         return 0.0
@@ -110,7 +110,7 @@ def swing_on(
         (tan(phi / 2), speed, time, what ended it: GOES_ON, TURNS, LIFTS or TIME_IS_UP); GOES_ON before ``way``, too,
         after so many leaps.
     """
-    mu, k = away * _or_none(rolling), _or_none(drag)
+    mu, k = away * or_none(rolling), or_none(drag)
     along_t, along_e = gx * tx + gy * ty, gx * ex + gy * ey
     law = (along_t, along_e, rho, away, mu, k)
     pull = math.sqrt(gx * gx + gy * gy)
