@@ -17,7 +17,7 @@ from wallkit.kernels.records import OCTANTS
 
 BOW = 1.0 / 8.0
 """Chords miss their arc by at most this part of a cell, and what they miss it by widens them."""
-SMALL = 1.0 / 4.0
+SMALL = 1.0 / 2.0
 """An arc of at most this radius, in cells, crosses most of the cells that its box does."""
 MOST_CHORDS = 1024
 """Of a part of an arc; in cells so small that they bow more, they are the wider."""
