@@ -25,10 +25,9 @@ def ring(centre, radius, count, jag=0.0, seed=0):
     return np.asarray(centre) + away[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-def modelled(walls, radius=0.0, *, index="grid", machine_code=False, fine=False):
-    return Modelled(
-        Scene(walls, Balls([[1.0, 1.0]], [[1.0, 1.0]], radius)), index=index, machine_code=machine_code, fine=fine
-    )
+def modelled(walls, radius=0.0, *, index="grid", machine_code=False, fine=False, gravity=None):
+    scene = Scene(walls, Balls([[1.0, 1.0]], [[1.0, 1.0]], radius), gravity=gravity)
+    return Modelled(scene, index=index, machine_code=machine_code, fine=fine)
 
 
 def entries(model):
@@ -95,9 +94,9 @@ def test_arcs_about_corners_are_in_cells_that_list_them(drawn, radius):
 
 
 @settings(max_examples=25)
-@given(spots, st.sampled_from([0.0, 1.0]))
-def test_nothing_is_listed_in_a_clearing(drawn, radius):
-    model = modelled(clustered(drawn), radius).lists
+@given(spots, st.sampled_from([0.0, 1.0]), st.sampled_from([None, (0.0, -1.0)]))
+def test_nothing_is_listed_in_a_clearing(drawn, radius, gravity):
+    model = modelled(clustered(drawn), radius, gravity=gravity).lists
     grid, cells = model.grid, model.cells
     corners = {}  # of each cell, in units
     for row in range(grid.rows):
@@ -144,7 +143,8 @@ def test_a_clearing_ahead_is_empty_and_cannot_grow_both_ways(drawn, fine):
 
 
 def test_an_empty_room_around_a_spot_is_one_clearing():
-    model = modelled(Walls.from_polylines([ROOM, ring((200.0, 150.0), 1.0, 1000)])).model
+    """Where balls fall: straight flights have rectangles ahead for it."""
+    model = modelled(Walls.from_polylines([ROOM, ring((200.0, 150.0), 1.0, 1000)]), gravity=(0.0, -1.0)).model
     half = min(model.grid.columns, model.grid.rows) // 2
     moves = model.cells["first"][model.cells["first"] == model.cells["end"]]
     assert 0.4 * half < moves.max() < half

@@ -161,7 +161,8 @@ class Cell(NamedTuple):
     """A cell of the index, and what is listed in it: ids from ``first`` to before ``end``.
 
     Lines come first, then arcs (from ``arcs`` on), then corners (from ``corners`` on). An empty
-    cell stores its Chebyshev distance (cells, at least 1) to the nearest cell with entries, in all four fields. Where
+    cell stores its Chebyshev distance (cells, at least 1) to the nearest cell with entries, in all four fields; without
+    gravity it is 1 in a cell that is not part of another, for which flights have clearings. Where
     ``end`` is before ``first`` the cell is divided into 2^arcs by 2^arcs smaller ones, row by row from the cell
     ``first`` on, and lists nothing itself.
     """

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.kernels.index.cell_entries import ALL_OCTANTS, Table, describe, enter, lay_out
+from wallkit.kernels.index.cell_entries import ALL_OCTANTS, Table, describe, enter, sort
 from wallkit.kernels.index.empty_rectangles import clear, clear_ahead, clear_departures, octants_along
 from wallkit.kernels.intrinsics import AT_ONCE
 from wallkit.kernels.jit import compiled
@@ -67,8 +67,8 @@ class _Level:
     """(cells + 1, 4) see ``Cell``."""
     ids: NDArray[np.uint32]
     octants: NDArray[np.uint8]
-    """By cell, see ``Table``; for the first level alone, and not for points or where cells list one thing on average:
-    then few of them are clear in any octant."""
+    """By cell, see ``Table``; for the first level alone, for discs alone, and not where cells list one thing on
+    average: then few of them are clear in any octant."""
     divided: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     parts: NDArray[Any] = field(default_factory=lambda: np.empty(0, dtype=BLOCK))
 
@@ -137,12 +137,14 @@ def _joined(work: _Work, levels: list[_Level], packed: int) -> NDArray[Any]:
     rows, cells, ids = joined.view(np.uint32).reshape(-1, 4 << packed), 0, 0
     farthest = max(1, sum(len(level.ids) for level in levels))
     for level in levels:
-        part = rows[cells : cells + len(level.numbers) - 1, :4]
-        part[:] = work.cells(level, ids, farthest)
-        cells, ids = cells + len(part), ids + len(level.ids)
-        part[level.divided] = 0
-        part[level.divided, 0] = (cells + level.parts["first"]) << packed
-        part[level.divided, 1] = np.log2(level.parts["columns"]).astype(np.int64)
+        first, cells = cells, cells + len(level.numbers) - 1
+        work.describe(level, ids, farthest, rows[first:cells])
+        ids += len(level.ids)
+        if len(level.divided):
+            divided = first + level.divided
+            rows[divided, :4] = 0
+            rows[divided, 0] = (cells + level.parts["first"]) << packed
+            rows[divided, 1] = np.log2(level.parts["columns"]).astype(np.int64)
     return joined
 
 
@@ -158,32 +160,48 @@ class _Work:
         self._rounding = extent * ROUNDING
         shared = model.lines, model.arcs, model.corners, fans
         self._shared = shared if machine_code else in_lists(shared)
+        self._falls = model.gravity is not None
 
     def reach(self, side: Any) -> Any:
         """How far beyond its locus an entry goes."""
         return self._spread + side * MARGIN + self._rounding
 
-    def count(self, blocks: NDArray[Any], source: NDArray[np.uint32]) -> tuple[Any, IntArray]:
-        """Count entries: (flat numbers of the cells of blocks, entries by block)."""
+    def enter(
+        self, blocks: NDArray[Any], source: NDArray[np.uint32], room: int, octants: bool
+    ) -> tuple[Table, IntArray]:
+        """Enter what blocks speak of, and note as many entries as there is room for: (the table, entries by block)."""
         cells = int((blocks["columns"] * blocks["rows"]).sum())
-        table = Table(self._room(4 * cells + 4, np.int32), self._room(0, np.uint8), self._room(0, np.uint32))
-        return table.numbers, self._enter(blocks, source, table)
+        entered, found = self._zeros(len(blocks), np.int64), self._zeros(octants * cells, np.uint8)
+        counted, ids = self._room(room, np.uint32), self._room(room, np.uint32)
+        table = Table(self._zeros(4 * cells + 4, np.int32), found, counted, ids)
+        asked = (blocks, source) if self.machine_code else in_lists((blocks, source))
+        self._run(enter, *asked, *self._shared, self.distance, table, entered)
+        return table, np.asarray(entered)
 
-    def fill(self, blocks: NDArray[Any], source: NDArray[np.uint32], numbers: Any, top: bool) -> _Level:
-        """Write the entries that were counted."""
-        entries, cells = self._run(lay_out, numbers), len(numbers) // 4 - 1
-        ids = self._room(entries, np.uint32)
-        octants = self._room(cells if top and self.distance > 0.0 and entries < cells else 0, np.uint8)
-        self._enter(blocks, source, Table(numbers, octants, ids))
-        self._run(clear, blocks if self.machine_code else in_lists(blocks), numbers, top)
-        listed = np.asarray(numbers, dtype=np.int32).reshape(-1, 4)
-        return _Level(blocks, listed, np.asarray(ids, dtype=np.uint32), np.asarray(octants, dtype=np.uint8))
+    def sort(
+        self, blocks: NDArray[Any], source: NDArray[np.uint32], table: Table, entered: IntArray, top: bool
+    ) -> _Level:
+        """Make a level of what was entered; where that is more than was noted it is entered again."""
+        count = int(entered.sum())
+        if count > len(table.ids):
+            table, _entered = self.enter(blocks, source, count, len(table.octants) > 0)
+        ids = self._room(count, np.uint32)
+        self._run(sort, table, ids)
+        # A straight flight asks how far the next entries are in parts of cells alone: elsewhere it has clearings.
+        if self._falls or not top:
+            self._run(clear, blocks if self.machine_code else in_lists(blocks), table.numbers, top)
+        numbers = np.asarray(table.numbers, dtype=np.int32).reshape(-1, 4)
+        return _Level(blocks, numbers, np.asarray(ids, dtype=np.uint32), np.asarray(table.octants, dtype=np.uint8))
 
-    def cells(self, level: _Level, ids: int, farthest: int) -> NDArray[np.uint32]:
-        """Give (n, 4) the cells of a level as ``Cell`` has them, where so many ids come before theirs."""
-        cells, numbers = self._room(4 * (len(level.numbers) - 1), np.uint32), level.numbers.ravel()
-        self._run(describe, numbers if self.machine_code else numbers.tolist(), ids, farthest, cells)
-        return np.asarray(cells, dtype=np.uint32).reshape(-1, 4)
+    def describe(self, level: _Level, ids: int, farthest: int, rows: NDArray[np.uint32]) -> None:
+        """Write the cells of a level as ``Cell`` has them into the first four columns; ``ids`` come before theirs."""
+        numbers = level.numbers.ravel()
+        if self.machine_code:
+            self._run(describe, numbers, ids, farthest, rows.reshape(-1), 0, rows.shape[1])
+            return
+        cells = [0] * (len(numbers) - 4)
+        self._run(describe, numbers.tolist(), ids, farthest, cells, 0, 4)
+        rows[:, :4] = np.array(cells, dtype=np.uint32).reshape(-1, 4)
 
     def octants(self, top: _Level, fine: bool) -> tuple[NDArray[np.uint8], int, int, int]:
         """Find in which octants flights may meet something in the cells of the first level: (their bits, octants, ...).
@@ -204,16 +222,16 @@ class _Work:
 
     def clearings(self, grid: Grid) -> Any:
         """Make room for clearings and departures by octant."""
-        return self._room((grid.octants + OCTANTS * grid.departs) * grid.columns * grid.rows, np.int16)
+        return self._zeros((grid.octants + OCTANTS * grid.departs) * grid.columns * grid.rows, np.int16)
 
     def clear(self, grid: Grid, octants: NDArray[np.uint8], clearings: Any) -> None:
         """Find the clearings ahead of each cell of the first level, in each octant."""
-        above = self._room(grid.columns, np.int16)
+        above = self._zeros(grid.columns, np.int16)
         self._run(clear_ahead, octants if self.machine_code else in_lists(octants), grid, above, clearings)
 
     def depart(self, model: Model, top: _Level, grid: Grid, clearings: Any) -> None:
         """Find the clearings of balls that leave a wall."""
-        along = self._room(len(model.lines), np.uint8)
+        along = self._zeros(len(model.lines), np.uint8)
         self._run(octants_along, *self._shared[:2], along)
         chains = chains_in_cells(model, np.asarray(along, dtype=np.uint8), top.numbers, top.ids, top.listing)
         listing_and_chains = top.listing, chains
@@ -221,16 +239,12 @@ class _Work:
             listing_and_chains = in_lists(listing_and_chains)
         self._run(clear_departures, *listing_and_chains, grid, clearings)
 
-    def _enter(self, blocks: NDArray[Any], source: NDArray[np.uint32], table: Table) -> IntArray:
-        entered = self._room(len(blocks), np.int64)
-        if not self.machine_code:
-            blocks, source = in_lists((blocks, source))
-        self._run(enter, blocks, source, *self._shared, self.distance, table, entered)
-        return np.asarray(entered)
+    def _zeros(self, size: int, kind: Any) -> Any:
+        return np.zeros(size, dtype=kind) if self.machine_code else [0] * size
 
     def _room(self, size: int, kind: Any) -> Any:
-        """Give so many zeros."""
-        return np.zeros(size, dtype=kind) if self.machine_code else [0] * size
+        """Room for so many numbers, whatever is in it."""
+        return np.empty(size, dtype=kind) if self.machine_code else [0] * size
 
     def _run(self, kernel: Callable[..., Any], *arguments: Any) -> Any:
         return (compiled(kernel) if self.machine_code else kernel)(*arguments)
@@ -240,7 +254,8 @@ def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Lev
     """Enter all that the model's one cell lists; where that comes to too many entries, into larger cells."""
     first, arcs, corners, end = model.cells[0].tolist()
     width, height = (box[1] - box[0]).tolist()
-    side = _side(width, height, corners, _mean_length(model), fine)
+    length = _mean_length(model)
+    side = _side(width, height, corners, length, fine)
     while True:
         beyond = work.distance + work.reach(side)
         low, high = box[0] - beyond, box[1] + beyond
@@ -248,11 +263,23 @@ def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Lev
         span, most = (first, arcs, corners, end), work.budget // 2
         block = Block(low[0], low[1], side, 1.0 / side, work.reach(side), columns, rows, 0, *span, most)
         blocks = np.array([block], dtype=BLOCK)
-        numbers, entered = work.count(blocks, model.ids)
+        edges, turns = _expected(work.distance, corners, end - corners, length, side)
+        octants = work.distance > 0.0 and edges + end - corners < columns * rows
+        table, entered = work.enter(blocks, model.ids, min(most, 2 * (edges + turns)), octants)
         if entered[0] <= most:
             work.budget -= int(entered[0])
-            return work.fill(blocks, model.ids, numbers, top=True)
+            return work.sort(blocks, model.ids, table, entered, top=True)
         side *= 2.0
+
+
+def _expected(distance: float, edges: int, corners: int, length: float, side: float) -> tuple[int, int]:
+    """Estimate how many entries edges come to, and corners: a path of length l crosses 1 + 4 l / (pi side) cells.
+
+    A disc has a path on either side of an edge, and one around each corner, half a circle at most.
+    """
+    cells = 4.0 / (math.pi * side)
+    along = edges * (2 if distance > 0.0 else 1) * (1.0 + cells * length)
+    return math.ceil(along), math.ceil(corners * (1.0 + cells * math.pi * distance))
 
 
 def _side(width: float, height: float, count: int, length: float, fine: bool) -> float:
@@ -276,7 +303,7 @@ def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:
     if not len(cells):
         return None
     blocks = _parts(work, level, cells, finest)
-    numbers, entered = work.count(blocks, level.ids)
+    table, entered = work.enter(blocks, level.ids, min(int(blocks["most"].sum()), work.budget), False)
     growth = np.where(entered > blocks["most"], np.inf, entered / counts[cells])
     order = np.argsort(growth, kind="stable")
     fits = np.cumsum(entered[order]) <= work.budget // 2
@@ -286,10 +313,10 @@ def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:
     if len(kept) < len(cells):
         blocks = blocks[kept]
         blocks["first"] = _starts(blocks["columns"] * blocks["rows"])
-        numbers, entered = work.count(blocks, level.ids)
+        table, entered = work.enter(blocks, level.ids, int(entered[kept].sum()), False)
     work.budget -= int(entered.sum())
     level.divided, level.parts = cells[kept], blocks
-    return work.fill(blocks, level.ids, numbers, top=False)
+    return work.sort(blocks, level.ids, table, entered, top=False)
 
 
 def _parts(work: _Work, level: _Level, cells: IntArray, finest: float) -> NDArray[Any]:

@@ -31,10 +31,15 @@ class Corners(NamedTuple):
     """Whether it can touch at all, but for rounding."""
 
 
+def columns(table: FloatArray) -> FloatArray:
+    """(2, n) of (n, 2): passes over a column are many times as quick as over rows of two."""
+    return np.ascontiguousarray(table.T)
+
+
 def lines_of(vertices: FloatArray, starts: IntArray, ends: IntArray) -> NDArray[Any]:
     """Make a ``LINE`` of each edge, given by its vertices; without a length it has no normal."""
     lines = on_cache_lines(len(starts), LINE)
-    x, y = (np.ascontiguousarray(column) for column in vertices.T)
+    x, y = columns(vertices)
     ax, ay, bx, by = x[starts], y[starts], x[ends], y[ends]
     dx, dy = bx - ax, by - ay
     length = np.sqrt(dx * dx + dy * dy)
@@ -108,13 +113,16 @@ def corners_of(
         corners[name] = column
     first, last = np.ones((2, len(vertices)), dtype=np.bool_)
     first[ends], last[starts] = False, False
-    ux[first], uy[first], wx[last], wy[last] = -wx[first], -wy[first], -ux[last], -uy[last]
+    # Chosen by ``where``: a mask as an index takes ten times as long.
+    (ux, uy), (wx, wy) = (
+        (np.where(first, -wx, ux), np.where(first, -wy, uy)),
+        (np.where(last, -ux, wx), np.where(last, -uy, wy)),
+    )
     cross = ux * wy - uy * wx
     right = cross < 0.0
-    ux[right], wx[right] = -wx[right], -ux[right]
-    uy[right], wy[right] = -wy[right], -uy[right]
     fans = np.zeros(len(vertices), dtype=FAN)
-    fans["ux"], fans["uy"], fans["wx"], fans["wy"] = ux, uy, wx, wy
+    fans["ux"], fans["uy"] = np.where(right, -wx, ux), np.where(right, -wy, uy)
+    fans["wx"], fans["wy"] = np.where(right, -ux, wx), np.where(right, -uy, wy)
     none = lines["length"] == 0.0
     bare = np.concatenate([starts[none], ends[none]])
     fans[bare] = 1.0, 0.0, 1.0, 0.0, 1.0, 0.0

@@ -18,7 +18,7 @@ from wallkit.kernels.signatures import Told
 from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.simulation.build_grid import build_grid
 from wallkit.simulation.damping import damping_of, slowing_of
-from wallkit.simulation.edge_records import arcs_of, corners_of, lines_of, no_corners
+from wallkit.simulation.edge_records import arcs_of, columns, corners_of, lines_of, no_corners
 from wallkit.simulation.joints import joints_of
 from wallkit.walls import Walls
 
@@ -76,7 +76,8 @@ class Modelled:
 
     def _made(self, scene: Scene, index: str, machine_code: bool, fine: bool) -> Model:
         walls, radius = scene.walls, float(self.radii.max(initial=0.0))
-        vertices, starts, ends = walls.vertices - self.origin, walls.edge_starts, walls.edge_ends
+        vertices = (columns(walls.vertices) - self.origin[:, None]).T
+        starts, ends = walls.edge_starts, walls.edge_ends
         edge_wall = np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets))
         corner_wall = np.repeat(np.arange(len(walls)), np.diff(walls.offsets))
         lines, bulges = lines_of(vertices, starts, ends), walls.bulges[starts]
@@ -243,17 +244,17 @@ def local_origin(vertices: FloatArray) -> FloatArray:
     origin = np.zeros(2)
     if len(vertices) == 0:
         return origin
-    x, y = vertices.T
-    low = np.array([x.min(), y.min()])
-    size = float(max(x.max() - low[0], y.max() - low[1]))
+    places = columns(vertices)
+    low = places.min(axis=1)
+    size = float((places.max(axis=1) - low).max())
     if size <= 0.0 or not math.isfinite(size):
         return origin
     step = 2.0 ** (math.frexp(size)[1] + 2)
     origin = np.floor(low / step + 0.5) * step
-    local = vertices - origin
-    back = vertices - local  # with the next line Knuth's exact remainder of a subtraction
-    lost = (vertices - (local + back)) + (back - origin)
-    return origin if not np.any(lost) and np.array_equal(local + origin, vertices) else np.zeros(2)
+    local = places - origin[:, None]
+    back = places - local  # with the next line Knuth's exact remainder of a subtraction
+    lost = (places - (local + back)) + (back - origin[:, None])
+    return origin if not np.any(lost) and np.array_equal(local + origin[:, None], places) else np.zeros(2)
 
 
 def _one_cell(lines: int, arcs: int, corners: int) -> NDArray[Any]:

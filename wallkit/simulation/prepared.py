@@ -15,6 +15,7 @@ from wallkit.kernels.jit import compiled
 from wallkit.kernels.records import Model
 from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.scene.start_overlaps import check_apart, check_starts
+from wallkit.simulation.edge_records import columns
 from wallkit.simulation.meeting_rules import check_modelled
 from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.sensors import modelled_sensors
@@ -87,13 +88,17 @@ def expected_flights(scene: Scene, until: float, bounces: int) -> float:
     middle of the time.
     """
     walls, balls = scene.walls, scene.balls
-    chord = walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]
+    x, y = columns(walls.vertices)
+    starts, ends = walls.edge_starts, walls.edge_ends
+    dx, dy = x[ends] - x[starts], y[ends] - y[starts]
     sides = np.repeat(np.where(walls.closed, 1.0, 2.0), np.diff(walls.edge_offsets))
     low_x, low_y, high_x, high_y = walls.box()
-    ends = 2 * np.pi * float(np.mean(balls.radius)) * np.count_nonzero(~walls.closed) if len(balls) else 0.0
-    path = np.pi * (high_x - low_x) * (high_y - low_y) / max(float(np.hypot(*chord.T) @ sides) + ends, 1e-300)
+    turns = 2 * np.pi * float(np.mean(balls.radius)) * np.count_nonzero(~walls.closed) if len(balls) else 0.0
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        speed = np.hypot(*np.asarray(balls.velocity, dtype=np.float64).T)
+        length = float(np.sqrt(dx * dx + dy * dy) @ sides) + turns
+        path = np.pi * (high_x - low_x) * (high_y - low_y) / max(length, 1e-300)
+        vx, vy = columns(np.asarray(balls.velocity, dtype=np.float64))
+        speed = np.sqrt(vx * vx + vy * vy)
         if scene.gravity is not None:
             speed = speed + np.hypot(*scene.gravity) * until / 2
         return float(np.fmin(speed * until / path, bounces).sum())
@@ -150,9 +155,11 @@ def _neighbours_together(position: FloatArray) -> NDArray[np.int64]:
     """Order places along Morton's curve: a ball then finds the cells it needs where the one before left them."""
     if not len(position):
         return np.empty(0, dtype=np.int64)
-    x, y = position[:, 0] - position[:, 0].min(), position[:, 1] - position[:, 1].min()
-    per_extent = 1023.0 / (max(float(x.max()), float(y.max())) or 1.0)
-    return np.argsort(spaced((x * per_extent).astype(np.int64)) | spaced((y * per_extent).astype(np.int64)) << 1)
+    places = columns(position)
+    places = places - places.min(axis=1, keepdims=True)
+    x, y = spaced((places * (255.0 / (float(places.max()) or 1.0))).astype(np.int64))
+    # Keys of 16 bits are sorted by counting, and balls in one of 256 by 256 squares are near enough.
+    return np.argsort((x | y << 1).astype(np.uint16), kind="stable")
 
 
 def spaced(number: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -1,9 +1,8 @@
 """Which cells an edge or a corner goes into: those crossed by the places of a centre at a contact, widened.
 
 The places are two lines beside an edge, two arcs beside an arc, and the arc around a corner. Arcs are cut into chords.
-Entries are written into flat numbers, four a cell as in ``Cell``, twice: first they are only counted, then, when
-``lay_out`` has made places of the counts, the ids are written too. So nothing is sorted, and ids come cell by cell in
-the order in which they are given.
+Entries are counted in flat numbers, four a cell as in ``Cell``, and noted one after the other. ``sort`` makes places of
+the counts and takes each id to its own, so that they come cell by cell in the order in which they are given.
 """
 
 from __future__ import annotations
@@ -18,12 +17,12 @@ from wallkit.kernels.records import OCTANTS
 
 BOW = 1.0 / 8.0
 """Chords miss their arc by at most this part of a cell, and what they miss it by widens them."""
-SMALL = 1.0 / 4.0
+SMALL = 1.0 / 2.0
 """An arc of at most this radius, in cells, crosses most of the cells that its box does."""
 MOST_CHORDS = 1024
 """Of a part of an arc; in cells so small that they bow more, they are the wider."""
 OF_LINES, OF_ARCS, OF_CORNERS = 1, 2, 4
-"""Where in a cell's numbers the entries of a kind are counted. When all are written each of them has come to the end of
+"""Where in a cell's numbers the entries of a kind are counted. When all are sorted each of them has come to the end of
 its kind, which is where the next one begins: ``arcs``, ``corners``, and ``first`` of the next cell."""
 ALL_OCTANTS = (1 << OCTANTS) - 1
 ASIDE = 2.0**-10
@@ -43,8 +42,10 @@ class Table(NamedTuple):
     """Four a cell, and four more at the end."""
     octants: Any
     """The bits of the octants in which a flight may meet something that a cell lists; empty where nobody asks."""
+    counted: Any
+    """By entry: which of the numbers counts it."""
     ids: Any
-    """What the cells list; empty as long as it is only counted."""
+    """By entry: the id. Entries for which there is no room are only counted."""
 
 
 @kernel
@@ -52,30 +53,33 @@ def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
     """Enter edges and corners into the cells of blocks; with no ``ids`` they are only counted.
 
     Blocks speak of ids of ``source``; lines, arcs, their numbers and corners are those of ``Model``, and ``fans`` has
-    a ``Fan`` for each vertex. ``distance`` is that of a centre at a contact. Written are ``numbers``, four a cell and
-    four more at the end, ``ids``, and how many are ``entered`` by block: more than ``most`` where it was given up.
+    a ``Fan`` for each vertex. ``distance`` is that of a centre at a contact. Written are the ``table``, and how many
+    are ``entered`` by block: more than ``most`` where it was given up.
+
+    The functions below take how many entries there are so far, and return how many there are then.
     """
+    count = 0
     for b in range(len(blocks)):
         block = blocks[b]
-        count, far = 0, block.columns * block.rows > NEAR_CELLS
+        before, far = count, block.columns * block.rows > NEAR_CELLS
         for k in range(block.start, block.end):
-            if count > block.most:
+            if count - before > block.most:
                 break
             if far and k + AHEAD < block.end:
                 _prefetch_cells(block, source[k + AHEAD], k + AHEAD >= block.corners, lines, corners, table.numbers)
             if k < block.arcs:
-                count += _enter_line(block, lines[source[k]], distance, k, source[k], table)
+                count = _enter_line(block, lines[source[k]], distance, k, source[k], count, table)
             elif k >= block.corners:
                 corner, fan = corners[source[k]], fans[source[k]]
                 # Which way such a fan opens is rounding: both ways are entered.
                 if fan.both > 0.0:
-                    count += _arc(block, corner.x, corner.y, distance, -fan.ux, -fan.uy, -fan.wx, -fan.wy, fan.wide,
-                                  1.0, OF_CORNERS, k, source[k], table)  # fmt: skip
-                count += _arc(block, corner.x, corner.y, distance, fan.ux, fan.uy, fan.wx, fan.wy, fan.wide, 1.0,
-                              OF_CORNERS, k, source[k], table)  # fmt: skip
+                    count = _arc(block, corner.x, corner.y, distance, -fan.ux, -fan.uy, -fan.wx, -fan.wy, fan.wide,
+                                 1.0, OF_CORNERS, k, source[k], count, table)  # fmt: skip
+                count = _arc(block, corner.x, corner.y, distance, fan.ux, fan.uy, fan.wx, fan.wy, fan.wide, 1.0,
+                             OF_CORNERS, k, source[k], count, table)  # fmt: skip
             elif arcs is not None:
-                count += _enter_arc(block, arcs[source[k]], distance, k, source[k], table)
-        entered[b] = count
+                count = _enter_arc(block, arcs[source[k]], distance, k, source[k], count, table)
+        entered[b] = count - before
 
 
 @kernel
@@ -93,49 +97,45 @@ def _prefetch_cells(block, entry, is_corner, lines, corners, numbers):
 
 
 @kernel
-def _enter_line(block, line, distance, item, entry, table):
-    """Enter the lines at a distance beside an edge; the functions below give how many cells were new to it."""
-    nx, ny = line.nx, line.ny
-    # At a contact the centre is on the edge moved out by r, along n or against it.
-    sx, sy = distance * nx, distance * ny
-    octants = ALL_OCTANTS
-    if len(table.octants) > 0:
-        octants = octants_against(nx, ny, nx, ny)
-    count = _line(block, line.ax + sx, line.ay + sy, line.bx + sx, line.by + sy, block.reach,
-                  OF_LINES, item, entry, octants, table)  # fmt: skip
-    if distance > 0.0:
+def _enter_line(block, line, distance, item, entry, count, table):
+    """Enter the lines at a distance beside an edge."""
+    nx, ny, octants = line.nx, line.ny, ALL_OCTANTS
+    # At a contact the centre is on the edge moved out by r, along n or against it; for a point both are one.
+    for _side in range(2 if distance > 0.0 else 1):
+        sx, sy = distance * nx, distance * ny
         if len(table.octants) > 0:
-            octants = octants_against(-nx, -ny, -nx, -ny)
-        count += _line(block, line.ax - sx, line.ay - sy, line.bx - sx, line.by - sy, block.reach,
-                       OF_LINES, item, entry, octants, table)  # fmt: skip
+            octants = octants_against(nx, ny, nx, ny)
+        count = _line(block, line.ax + sx, line.ay + sy, line.bx + sx, line.by + sy, block.reach,
+                      OF_LINES, item, entry, octants, count, table)  # fmt: skip
+        nx, ny = -nx, -ny
     return count
 
 
 @kernel
-def _enter_arc(block, arc, distance, item, entry, table):
+def _enter_arc(block, arc, distance, item, entry, count, table):
     """Enter the arcs at a distance outside and inside an arc."""
     # The arc's centre is a - s. A centre at a contact is R + r or |R - r| from it, in a direction of the arc.
     x, y, per = arc.ax - arc.sx, arc.ay - arc.sy, 1.0 / arc.radius
     fx, fy = to_end(arc)
     ux, uy, wx, wy = arc.sx * per, arc.sy * per, fx * per, fy * per
     wide = 1.0 if is_wide(arc.sweep) else 0.0
-    count = _arc(block, x, y, arc.radius + distance, ux, uy, wx, wy, wide, 1.0, OF_ARCS, item, entry, table)
+    count = _arc(block, x, y, arc.radius + distance, ux, uy, wx, wy, wide, 1.0, OF_ARCS, item, entry, count, table)
     if distance > 0.0:
         inside = MOULD * arc.radius if is_mould(arc.radius, distance) else arc.radius - distance
-        count += _arc(block, x, y, inside, ux, uy, wx, wy, wide, -1.0, OF_ARCS, item, entry, table)
+        count = _arc(block, x, y, inside, ux, uy, wx, wy, wide, -1.0, OF_ARCS, item, entry, count, table)
         inside = FALLING_MOULD * arc.radius
         if abs(arc.radius - distance) < inside:
-            count += _arc(block, x, y, inside, ux, uy, wx, wy, wide, -1.0, OF_ARCS, item, entry, table)
+            count = _arc(block, x, y, inside, ux, uy, wx, wy, wide, -1.0, OF_ARCS, item, entry, count, table)
     return count
 
 
 @rare_kernel
-def _arc(block, x, y, radius, ux, uy, wx, wy, wide, facing, kind, item, entry, table):
+def _arc(block, x, y, radius, ux, uy, wx, wy, wide, facing, kind, item, entry, count, table):
     """Enter an arc about (x, y), from the direction u counter-clockwise to w: its box, or parts below 120 degrees."""
     small = abs(radius) <= SMALL * block.side
     facing = facing if radius > SMALL * block.side + block.reach else 0.0
     if wide == 0.0 and not small and ux * wx + uy * wy > -0.5:
-        return _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, table)
+        return _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, count, table)
     mx, my = _half_way(ux, uy, wx, wy, wide)
     if small:
         # The box holds the ends, and each extreme of the circle that is in the arc: as near to its middle m as u is.
@@ -145,16 +145,16 @@ def _arc(block, x, y, radius, ux, uy, wx, wy, wide, facing, kind, item, entry, t
         if radius < 0.0:
             left, right, low, high = right, left, high, low
         return _box(block, x + radius * left, x + radius * right, y + radius * low, y + radius * high,
-                    kind, item, entry, ALL_OCTANTS, table)  # fmt: skip
+                    kind, item, entry, ALL_OCTANTS, count, table)  # fmt: skip
     if wide == 0.0:
-        count = _chords(block, x, y, radius, ux, uy, mx, my, facing, kind, item, entry, table)
-        return count + _chords(block, x, y, radius, mx, my, wx, wy, facing, kind, item, entry, table)
+        count = _chords(block, x, y, radius, ux, uy, mx, my, facing, kind, item, entry, count, table)
+        return _chords(block, x, y, radius, mx, my, wx, wy, facing, kind, item, entry, count, table)
     hx, hy = _half_way(ux, uy, mx, my, 0.0)
-    count = _chords(block, x, y, radius, ux, uy, hx, hy, facing, kind, item, entry, table)
-    count += _chords(block, x, y, radius, hx, hy, mx, my, facing, kind, item, entry, table)
+    count = _chords(block, x, y, radius, ux, uy, hx, hy, facing, kind, item, entry, count, table)
+    count = _chords(block, x, y, radius, hx, hy, mx, my, facing, kind, item, entry, count, table)
     hx, hy = _half_way(mx, my, wx, wy, 0.0)
-    count += _chords(block, x, y, radius, mx, my, hx, hy, facing, kind, item, entry, table)
-    return count + _chords(block, x, y, radius, hx, hy, wx, wy, facing, kind, item, entry, table)
+    count = _chords(block, x, y, radius, mx, my, hx, hy, facing, kind, item, entry, count, table)
+    return _chords(block, x, y, radius, hx, hy, wx, wy, facing, kind, item, entry, count, table)
 
 
 @kernel
@@ -195,7 +195,7 @@ def _half_way(ux, uy, wx, wy, wide):
 
 
 @rare_kernel
-def _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, table):
+def _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, count, table):
     """Enter an arc of less than 120 degrees in chords: halved until they bow little enough, then turned on and on.
 
     Cosines and sines of halves need square roots alone, which are the same everywhere. Turning on gathers up to two
@@ -206,40 +206,39 @@ def _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, tabl
     half = math.sqrt(0.5 + 0.5 * cosine)
     size = abs(radius)
     bow = size * (0.5 - 0.5 * cosine) / (1.0 + half)
-    count = 1
-    while bow > BOW * block.side and count < MOST_CHORDS:
+    chords = 1
+    while bow > BOW * block.side and chords < MOST_CHORDS:
         # sin(A/2) = sin A / (2 cos(A/2)).
-        cosine, sine, count = half, sine / (2.0 * half), 2 * count
+        cosine, sine, chords = half, sine / (2.0 * half), 2 * chords
         half = math.sqrt(0.5 + 0.5 * cosine)
         bow = size * (0.5 - 0.5 * cosine) / (1.0 + half)
-    reach = block.reach + bow + size * (count + 1) * 2.0**-51
-    ax, ay, entries, octants = x + radius * ux, y + radius * uy, 0, ALL_OCTANTS
-    for _chord in range(count):
+    reach = block.reach + bow + size * (chords + 1) * 2.0**-51
+    ax, ay, octants = x + radius * ux, y + radius * uy, ALL_OCTANTS
+    for _chord in range(chords):
         wx, wy = ux * cosine - uy * sine, ux * sine + uy * cosine
         bx, by = x + radius * wx, y + radius * wy
         if len(table.octants) > 0 and facing != 0.0:
             octants = octants_against(facing * ux, facing * uy, facing * wx, facing * wy)
-        entries += _line(block, ax, ay, bx, by, reach, kind, item, entry, octants, table)
+        count = _line(block, ax, ay, bx, by, reach, kind, item, entry, octants, count, table)
         ax, ay, ux, uy = bx, by, wx, wy
-    return entries
+    return count
 
 
 @rare_kernel
-def _box(block, left, right, low, high, kind, item, entry, octants, table):
+def _box(block, left, right, low, high, kind, item, entry, octants, count, table):
     """Enter a box, and what is within reach of it."""
     per_side, reach = block.per_side, block.reach
     left, right = (left - reach - block.x0) * per_side, (right + reach - block.x0) * per_side
     low, high = (low - reach - block.y0) * per_side, (high + reach - block.y0) * per_side
     if right < 0.0 or left >= block.columns or high < 0.0 or low >= block.rows:
-        return 0
-    count = 0
+        return count
     for column in range(int(max(left, 0.0)), int(min(right, block.columns - 0.5)) + 1):
-        count += _rows(block, column, low, high, kind, item, entry, octants, table)
+        count = _rows(block, column, low, high, kind, item, entry, octants, count, table)
     return count
 
 
 @rare_kernel
-def _line(block, ax, ay, bx, by, reach, kind, item, entry, octants, table):
+def _line(block, ax, ay, bx, by, reach, kind, item, entry, octants, count, table):
     """Enter a line, and all within reach of it along x and y: column by column, the rows that it covers there."""
     per_side = block.per_side
     ax, ay, bx, by, reach = (
@@ -248,35 +247,32 @@ def _line(block, ax, ay, bx, by, reach, kind, item, entry, octants, table):
     )  # fmt: skip
     left, right, low, high = min(ax, bx) - reach, max(ax, bx) + reach, min(ay, by), max(ay, by)
     if right < 0.0 or left >= block.columns or high + reach < 0.0 or low - reach >= block.rows:
-        return 0
-    first, last = int(max(left, 0.0)), int(min(right, block.columns - 0.5))
-    if first == last or ax == bx:
-        bottom, top, count = low - reach, high + reach, 0
-        for column in range(first, last + 1):
-            count += _rows(block, column, bottom, top, kind, item, entry, octants, table)
         return count
-    # The rows that the line covers over a column, itself widened by `reach`, cut to the line's own height.
-    slope, count = (by - ay) / (bx - ax), 0
+    first, last = int(max(left, 0.0)), int(min(right, block.columns - 0.5))
+    whole = first == last or ax == bx
+    slope = 0.0 if whole else (by - ay) / (bx - ax)
     for column in range(first, last + 1):
+        # The rows that the line covers over a column, itself widened by `reach`, cut to the line's own height.
         here, there = ay + (column - reach - ax) * slope, ay + (column + 1 + reach - ax) * slope
+        here, there = (low, high) if whole else (here, there)
         bottom, top = max(low, min(here, there, high)) - reach, min(high, max(here, there, low)) + reach
         if top >= 0.0 and bottom < block.rows:
-            count += _rows(block, column, bottom, top, kind, item, entry, octants, table)
+            count = _rows(block, column, bottom, top, kind, item, entry, octants, count, table)
     return count
 
 
 @kernel
-def _rows(block, column, bottom, top, kind, item, entry, octants, table):
+def _rows(block, column, bottom, top, kind, item, entry, octants, count, table):
     """Enter what a column holds between two heights, given in cells; one of them at least is in the block."""
-    numbers, lowest, count = table.numbers, int(max(bottom, 0.0)), 0
+    numbers, lowest = table.numbers, int(max(bottom, 0.0))
     at = 4 * (block.first + column + block.columns * lowest)
     for _row in range(lowest, int(min(top, block.rows - 0.5)) + 1):
         # The latest entry stands in the cell, so that chords and sides that overlap are entered once.
         if numbers[at + LATEST] != item + 1:
             numbers[at + LATEST] = item + 1
-            if len(table.ids) > 0:
-                table.ids[numbers[at + kind]] = entry
             numbers[at + kind] += 1
+            if count < len(table.ids):
+                table.counted[count], table.ids[count] = at + kind, entry
             count += 1
         if len(table.octants) > 0:
             table.octants[at >> 2] |= octants
@@ -285,29 +281,43 @@ def _rows(block, column, bottom, top, kind, item, entry, octants, table):
 
 
 @kernel
-def lay_out(numbers):
-    """Make of the counts of each cell where its entries of each kind begin; give how many there are in all."""
-    total = 0
+def sort(table, ids):
+    """Write the ids of a table cell by cell, of each lines, arcs, corners; there are as many as are entered."""
+    numbers, total = table.numbers, 0
     for at in range(0, len(numbers) - 4, 4):
         lines, arcs, corners = numbers[at + OF_LINES], numbers[at + OF_ARCS], numbers[at + OF_CORNERS]
-        # Where each kind begins. Writing an entry moves this on, in the end to where the next kind begins.
+        # Where each kind begins. Writing an id moves this on, in the end to where the next kind begins.
         numbers[at + OF_LINES] = total
         numbers[at + OF_ARCS] = total + lines
         numbers[at + OF_CORNERS] = total + lines + arcs
         numbers[at + LATEST] = 0
         total += int(lines) + int(arcs) + int(corners)
-    return total
+    for k in range(len(ids)):
+        at = table.counted[k]
+        ids[numbers[at]] = table.ids[k]
+        numbers[at] += 1
 
 
 @kernel
-def describe(numbers, before, farthest, cells):
-    """Write the fields of ``Cell``, flat; so many ids come before theirs; ``farthest`` bounds distances."""
-    for at in range(0, len(cells), 4):
-        first, arcs, corners, end = numbers[at], numbers[at + OF_LINES], numbers[at + OF_ARCS], numbers[at + OF_CORNERS]
-        if first == end:
-            # An empty cell: all four fields hold its Chebyshev distance to the nearest one with entries.
+def describe(numbers, before, farthest, cells, first, step):
+    """Write the fields of ``Cell``, flat, of cells that come one after the other.
+
+    Args:
+        numbers: of the cells, see ``Table``, sorted.
+        before: so many ids come before theirs.
+        farthest: bound of distances.
+        cells: written.
+        first: where they begin.
+        step: how far apart they are.
+    """
+    to = first
+    for at in range(0, len(numbers) - 4, 4):
+        start, arcs, corners, end = numbers[at], numbers[at + OF_LINES], numbers[at + OF_ARCS], numbers[at + OF_CORNERS]
+        if start == end:
+            # An empty cell: all four fields hold how far it is from entries, see ``Cell``.
             moves = min(max(numbers[at + LATEST], 1), farthest)
-            cells[at], cells[at + 1], cells[at + 2], cells[at + 3] = moves, moves, moves, moves
+            cells[to], cells[to + 1], cells[to + 2], cells[to + 3] = moves, moves, moves, moves
         else:
-            cells[at], cells[at + 1] = first + before, arcs + before
-            cells[at + 2], cells[at + 3] = corners + before, end + before
+            cells[to], cells[to + 1] = start + before, arcs + before
+            cells[to + 2], cells[to + 3] = corners + before, end + before
+        to += step
