@@ -57,12 +57,17 @@ _MODULES = {
 
 
 def _register_commands(wanted: str = "") -> None:
-    """Attach the command that is wanted, or all: to make one takes milliseconds, most of them for its options.
+    """Attach the command that is wanted, or all, as far as they are not there yet.
 
-    The modules import what is heavy only when their command runs.
+    To make one takes milliseconds, most of them for its options. The modules import what is heavy only when their
+    command runs.
     """
-    for module in [_MODULES[wanted]] if wanted in _MODULES else _MODULES.values():
-        importlib.import_module(f"wallkit.cli.{module}").register(app)
+    there = {command.name for command in app.registered_commands}
+    for name in [wanted] if wanted in _MODULES else _MODULES:
+        if name not in there:
+            importlib.import_module(f"wallkit.cli.{_MODULES[name]}").register(app)
+    names = list(_MODULES)
+    app.registered_commands.sort(key=lambda command: names.index(str(command.name)))
     for command in app.registered_commands:
         command.cls = PlainCommand
 
