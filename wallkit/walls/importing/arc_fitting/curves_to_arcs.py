@@ -47,7 +47,7 @@ _LEAST_TURN = 0.35
 _LARGEST_JUMP = 32.0
 _BLOCK = 8192
 """About so many curves are fitted at once: what the work needs for them stays in the cache."""
-_KERNELS_PAY = 8192
+_KERNELS_PAY = 1 << 14
 """So many cubics take NumPy longer than kernels that have to be loaded; where they have to be compiled, another process
 does that and NumPy goes on."""
 _SAME_RADII = 1e-9  # relative; a circle after a turn and a scale differs by rounding, 1e-15
