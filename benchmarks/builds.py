@@ -27,6 +27,7 @@ class Build:
     def seconds(self, arguments: Sequence[str], **more: str) -> tuple[float, str]:
         """Run Python with these arguments: processor seconds of the process and its children, and what it printed."""
         env = os.environ | self.settings | more | {"PYTHONPATH": str(self.folder)}
+        env.pop("PYTHONDONTWRITEBYTECODE", None)  # an installed package has its byte code
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         done = subprocess.run([self.python, *arguments], cwd=self.folder, env=env, capture_output=True, text=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)

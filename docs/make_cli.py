@@ -20,8 +20,7 @@ usage, 3 a limit was hit, 130 interrupted.
 
 def page() -> str:
     """Write the page: a section a command, a table row an option."""
-    if not cli.app.registered_commands:
-        cli._register_commands()
+    cli._register_commands()
     group: Any = typer.main.get_command(cli.app)
     return "\n".join([HEAD, *(_section(name, command) for name, command in group.commands.items())])
 

@@ -31,8 +31,7 @@ def box():
 
 @pytest.fixture(scope="module", autouse=True)
 def _commands():
-    if not app.registered_commands:
-        _register_commands()
+    _register_commands()
 
 
 def test_the_exact_ways_are_exact_and_the_others_are_not(box):

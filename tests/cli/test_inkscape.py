@@ -167,8 +167,7 @@ def test_the_folder_is_that_of_inkscape_on_each_system(system, variables, folder
 
 
 def test_the_command_says_where_and_what_it_wrote(tmp_path):
-    if not app.registered_commands:
-        _register_commands()
+    _register_commands()
     told = CliRunner().invoke(app, ["inkscape", "--to", str(tmp_path / "e")])
     assert str(tmp_path / "e") in told.output
     assert not (tmp_path / "e").exists()

@@ -30,8 +30,7 @@ def test_every_command_takes_a_program_by_way_of_ghostscript_and_no_scene_file_m
     with pytest.raises(WallkitError, match=r"import\.via: no such key"):
         open_scene(tmp_path / "a.toml")
     monkeypatch.chdir(tmp_path)
-    if not app.registered_commands:
-        _register_commands()
+    _register_commands()
     for command in (["import", "-o", "w.json"], ["check"], ["simulate"], ["export", "-o", "l.tmj"], ["inspect"]):
         done = CliRunner().invoke(app, [command[0], "a.eps", "--via", "ghostscript", *command[1:]])
         assert done.exit_code in (0, 1), done.output

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import sys
 from typing import Annotated
@@ -9,9 +10,11 @@ from typing import Annotated
 import typer
 
 from importers.errors import WallkitError
+from wallkit.cli.plain_values import PlainCommand, PlainGroup
 
 app = typer.Typer(
     name="wallkit",
+    cls=PlainGroup,
     help="Turn a drawing into walls, and shoot balls at them with the exact answer.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -37,26 +40,41 @@ def _root(
     """Turn a drawing into walls, and shoot balls at them with the exact answer."""
 
 
-def _register_commands() -> None:
-    """Attach one module a command. The modules import what is heavy only when their command runs."""
-    from wallkit.cli import aim, check, export, import_, inkscape, inspect, play, report, simulate, survey, warm
+_MODULES = {
+    "inspect": "inspect",
+    "import": "import_",
+    "check": "check",
+    "simulate": "simulate",
+    "survey": "survey",
+    "aim": "aim",
+    "export": "export",
+    "play": "play",
+    "report": "report",
+    "inkscape": "inkscape",
+    "warm": "warm",
+}
+"""Which module of this folder has each command, in the order of the help."""
 
-    inspect.register(app)
-    import_.register(app)
-    check.register(app)
-    simulate.register(app)
-    survey.register(app)
-    aim.register(app)
-    export.register(app)
-    play.register(app)
-    report.register(app)
-    inkscape.register(app)
-    warm.register(app)
+
+def _register_commands(wanted: str = "") -> None:
+    """Attach the command that is wanted, or all, as far as they are not there yet.
+
+    To make one takes milliseconds, most of them for its options. The modules import what is heavy only when their
+    command runs.
+    """
+    there = {command.name for command in app.registered_commands}
+    for name in [wanted] if wanted in _MODULES else _MODULES:
+        if name not in there:
+            importlib.import_module(f"wallkit.cli.{_MODULES[name]}").register(app)
+    names = list(_MODULES)
+    app.registered_commands.sort(key=lambda command: names.index(str(command.name)))
+    for command in app.registered_commands:
+        command.cls = PlainCommand
 
 
 def main() -> None:
     """Run the command line; end with 0 fine, 1 findings, 2 unreadable input or usage, 3 a limit, 130 interrupted."""
-    _register_commands()
+    _register_commands("".join(sys.argv[1:2]))
     try:
         app()
     except WallkitError as error:

@@ -25,6 +25,7 @@ def warm(
     from wallkit.scene.samples import samples
     from wallkit.scene.wishes import Wishes
     from wallkit.simulation.warming import warm as warm_scene
+    from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_a_few
 
     for file in files or [str(sample.path) for sample in samples()]:
         scene = opened(file, Wishes(may_be_empty=True)).scene
@@ -34,4 +35,8 @@ def warm(
         if not scene.meeting:
             warm_aim(scene)
         typer.echo(f"{time.perf_counter() - began:.1f} s" if len(scene.balls) else "no ball, nothing to compile")
+    typer.echo("arcs for drawings of many curves ... ", nl=False)
+    began = time.perf_counter()
+    fit_a_few()
+    typer.echo(f"{time.perf_counter() - began:.1f} s")
     typer.echo(f"compiled code is kept in {cache_folder()}")

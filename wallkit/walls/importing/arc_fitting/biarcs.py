@@ -31,6 +31,7 @@ from wallkit.walls.importing.arc_fitting.curves import (
     turned_back,
     unit,
 )
+from wallkit.walls.importing.arc_fitting.machine_code import joined_ends, measured
 from wallkit.walls.importing.arc_fitting.moved_curves import Moved
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
 
@@ -123,14 +124,19 @@ class Biarcs:
     sound: BoolArray
 
 
-def biarcs(spans: Spans, loose: BoolArray | None = None) -> Biarcs:
+def biarcs(spans: Spans, loose: BoolArray | None = None, *, machine_code: bool = False) -> Biarcs:
     """Join the ends of each span by arcs.
 
     Args:
         spans: the pieces; where the chord runs against the directions there is no arc of at most a half
             circle, and ``sound`` is false.
         loose: where one arc is taken even if it leaves the ends a little off the directions there.
+        machine_code: let compiled kernels do it.
     """
+    limit = np.full(len(spans), _SAME) if loose is None else np.where(loose, _NEARLY_SAME, _SAME)
+    if machine_code:
+        ends, bends, bulges, told = joined_ends(spans, limit, _STRAIGHT)
+        return Biarcs(*ends, *bends, *bulges, *told)
     v, both, across = spans.p1 - spans.p0, spans.t0 + spans.t1, spans.t0 - spans.t1
     ahead, apart, square = dot(v, both), dot(across, across), dot(v, v)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -143,7 +149,6 @@ def biarcs(spans: Spans, loose: BoolArray | None = None) -> Biarcs:
     bend1, bulge1 = _from(along, spans.p1 - joint)
     straight = unit(v)
     start, end = turned_back(straight, spans.t0), turned_back(spans.t1, straight)
-    limit = _SAME if loose is None else np.where(loose, _NEARLY_SAME, _SAME)
     single: BoolArray = (sound & (length(start - end) <= limit)) | (v == 0)
     rows = np.flatnonzero(single)
     if len(rows):
@@ -215,6 +220,8 @@ MOST_PLACES = 1 << 14  # of sections measured at once, so that the work stays in
 def measure(chains: Chains, spans: Spans, arcs: Biarcs, fractions: FloatArray) -> Fit:
     """Measure at fixed fractions of the parameter range of each part of a span that is in one curve."""
     sections = chains.sections(spans.ids, spans.low, spans.high)
+    if chains.machine_code:
+        return largest(sections, *measured(chains, sections, arcs, fractions), arcs)
     distance, turn = np.zeros(len(sections)), np.zeros(len(sections))
     for rows in portions(len(sections), len(fractions)):
         low = sections.low[rows]

@@ -19,8 +19,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from importers.drawing import Subpath
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.ellipse_arcs import Arcs
+from wallkit.kernels.compile_aside import at_hand
 from wallkit.walls.importing.arc_fitting.biarcs import Fit, Spans
 from wallkit.walls.importing.arc_fitting.curves import BoolArray, Cubics, Curves, Ellipses, as_complex, cross, length
 from wallkit.walls.importing.arc_fitting.cuts import (
@@ -34,7 +36,7 @@ from wallkit.walls.importing.arc_fitting.cuts import (
 )
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, runs_on
 from wallkit.walls.importing.curves_to_lines import Pieces, within_limit
-from wallkit.walls.importing.segments import KIND_ARC, KIND_CUBIC, KIND_LINE, Segments
+from wallkit.walls.importing.segments import KIND_ARC, KIND_CUBIC, KIND_LINE, Segments, gather
 
 # A curve that is one arc by itself stays that where it turns by more (radians): it was drawn as an arc, and is no
 # short piece of something else.
@@ -45,6 +47,9 @@ _LEAST_TURN = 0.35
 _LARGEST_JUMP = 32.0
 _BLOCK = 8192
 """About so many curves are fitted at once: what the work needs for them stays in the cache."""
+_KERNELS_PAY = 1 << 14
+"""So many cubics take NumPy longer than kernels that have to be loaded; where they have to be compiled, another process
+does that and NumPy goes on."""
 _SAME_RADII = 1e-9  # relative; a circle after a turn and a scale differs by rounding, 1e-15
 
 
@@ -124,7 +129,8 @@ def _fit(curves: Curves, segments: Segments, at: IntArray, tolerance: float) -> 
     total = 0
     for first, last in pairwise(blocks):
         rows = np.arange(first, last)
-        parts.append(_fit_block(curves.take(rows), segments, at[rows], smooth[rows], tolerance))
+        kernels = isinstance(curves, Cubics) and len(curves) >= _KERNELS_PAY and at_hand(fit_a_few)
+        parts.append(_fit_block(curves.take(rows), segments, at[rows], smooth[rows], tolerance, kernels))
         total += len(parts[-1].bulges)
         within_limit(total)
     return _Edges(
@@ -136,7 +142,9 @@ def _fit(curves: Curves, segments: Segments, at: IntArray, tolerance: float) -> 
     )
 
 
-def _fit_block(curves: Curves, segments: Segments, at: IntArray, smooth: BoolArray, tolerance: float) -> _Edges:
+def _fit_block(
+    curves: Curves, segments: Segments, at: IntArray, smooth: BoolArray, tolerance: float, kernels: bool
+) -> _Edges:
     """Fit curves; the edges of a chain count as its last segment's.
 
     Args:
@@ -145,9 +153,10 @@ def _fit_block(curves: Curves, segments: Segments, at: IntArray, smooth: BoolArr
         at: (n,) the segment of each curve.
         smooth: (n,) the curve goes on smoothly from the one before.
         tolerance: how far arcs may be off.
+        kernels: compiled kernels do what takes longest; for cubics.
     """
     origins = as_complex(segments.begins[at])
-    chains = Chains.of(curves, origins, np.zeros(len(curves), dtype=np.bool_))
+    chains = Chains.of(curves, origins, np.zeros(len(curves), dtype=np.bool_), kernels)
     whole = between_cusps(chains)
     spans, fit = halve(chains, whole, tolerance)
     joined = smooth.copy()
@@ -155,7 +164,7 @@ def _fit_block(curves: Curves, segments: Segments, at: IntArray, smooth: BoolArr
     joined[1:] &= ~apart[1:] & ~apart[:-1]
     joined &= _bends_on(curves, spans, fit, tolerance)
     if joined.any():
-        chains = Chains.of(curves, origins, joined)
+        chains = Chains.of(curves, origins, joined, kernels)
         stretch = np.cumsum(~(joined[whole.ids] & (whole.low == 0))) - 1
         spans = strung(chains, spans, stretch)
         whole = run_together(strung(chains, whole, stretch))
@@ -171,6 +180,14 @@ def _fit_block(curves: Curves, segments: Segments, at: IntArray, smooth: BoolArr
     ends = segments.begins[at[chains.offsets[ids]]] + np.stack([z.real, z.imag], axis=1)
     owner = at[chains.offsets[ids + 1] - 1]
     return _Edges(owner, ends, bulges, float(fit.distance.max()), 2 * math.atan(float(fit.turn.max())))
+
+
+def fit_a_few() -> None:
+    """Fit two cubics by compiled kernels: the task of their compiling."""
+    subpath = Subpath([("M", 0, 0), ("C", 40, 0, 80, 20, 100, 100), ("C", 120, 180, 200, 90, 300, 0)], closed=False)
+    segments = gather([subpath])
+    curves = Cubics.of(segments.cubics)
+    _fit_block(curves, segments, np.arange(2), np.array([False, True]), 0.01, kernels=True)
 
 
 def _arcs_by_themselves(chains: Chains, spans: Spans) -> BoolArray:

@@ -30,6 +30,7 @@ from wallkit.walls.importing.arc_fitting.biarcs import (
 )
 from wallkit.walls.importing.arc_fitting.curves import ROUNDING, BoolArray, cross, dot, length
 from wallkit.walls.importing.arc_fitting.joint_directions import lean
+from wallkit.walls.importing.arc_fitting.machine_code import measured_closely, raise_to
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
 from wallkit.walls.importing.curves_to_lines import within_limit
 
@@ -104,7 +105,8 @@ def run_together(stretches: Spans) -> Spans:
 def fitted(chains: Chains, spans: Spans) -> Biarcs:
     """Give the arcs of spans; a curve that is a chain and a span by itself may become one arc more easily."""
     alone = (spans.low == 0) & (spans.high == chains.lengths[spans.ids])
-    return biarcs(spans, alone & (np.diff(chains.offsets)[spans.ids] == 1))
+    loose = alone & (np.diff(chains.offsets)[spans.ids] == 1)
+    return biarcs(spans, loose, machine_code=chains.machine_code)
 
 
 def _look(chains: Chains, spans: Spans) -> Fit:
@@ -272,17 +274,31 @@ def _close_look(chains: Chains, spans: Spans, arcs: Biarcs) -> Fit:
     """Measure at even places, then once more at the top of the parabola through the worst place and its neighbours."""
     sections = chains.sections(spans.ids, spans.low, spans.high)
     worst = np.zeros((2, len(sections)))
-    for rows in portions(len(sections), len(_EVEN)):
-        ruler = Ruler.of(chains, sections, rows, arcs)
-        low, high = _inside(sections, rows)
-        off, angle = ruler.offsets(low + (high - low) * _EVEN[:, None])
-        peaks = [_peak(np.abs(off, out=off)), _peak(angle, np.arctan)]
-        place = np.clip(low + (high - low) * np.stack([place for place, _ in peaks]), *_inside(sections, rows, 1 / 80))
-        off, angle = ruler.offsets(place)
-        worst[0, rows] = np.maximum(peaks[0][1], np.abs(off[0]))
-        worst[1, rows] = np.maximum(peaks[1][1], angle[1])
+    for rows in [slice(len(sections))] if chains.machine_code else portions(len(sections), len(_EVEN)):
+        look = _kernels_look if chains.machine_code else _look_closely
+        worst[:, rows] = look(chains, sections, rows, arcs)
     turn = np.where(spans.t0[sections.rows] == 0, 0.0, worst[1])  # a curve that is a point has no direction
     return largest(sections, worst[0], turn, arcs)
+
+
+def _look_closely(chains: Chains, sections: Sections, rows: slice, arcs: Biarcs) -> FloatArray:
+    """Largest distance and turn (2, n) of some sections."""
+    ruler = Ruler.of(chains, sections, rows, arcs)
+    low, high = _inside(sections, rows)
+    off, angle = ruler.offsets(low + (high - low) * _EVEN[:, None])
+    peaks = [_peak(np.abs(off, out=off)), _peak(angle, np.arctan)]
+    place = np.clip(low + (high - low) * np.stack([place for place, _ in peaks]), *_inside(sections, rows, 1 / 80))
+    off, angle = ruler.offsets(place)
+    return np.stack([np.maximum(peaks[0][1], np.abs(off[0])), np.maximum(peaks[1][1], angle[1])])
+
+
+def _kernels_look(chains: Chains, sections: Sections, rows: slice, arcs: Biarcs) -> FloatArray:
+    """The same by compiled kernels, of all sections; arctan is NumPy's here too."""
+    low, high = _inside(sections, rows)
+    worst, at, around = measured_closely(chains, sections, (low, high), arcs, _EVEN)
+    tops = np.stack([_top(at[0], *around[0]), _top(at[1], *np.arctan(around[1]))])
+    raise_to(chains, sections, arcs, np.clip(low + (high - low) * tops, *_inside(sections, rows, 1 / 80)), worst)
+    return worst
 
 
 def _inside(sections: Sections, rows: slice, margin: float = 1 / 20) -> tuple[FloatArray, FloatArray]:
@@ -300,7 +316,12 @@ def _peak(values: FloatArray, meant: Callable[[FloatArray], FloatArray] = np.asa
     largest = values.max(axis=0)
     at = np.clip((values == largest).argmax(axis=0), 1, len(values) - 2)
     column = np.arange(values.shape[1])
-    before, middle, after = (meant(values[at + step, column]) for step in (-1, 0, 1))
+    return _top(at, *(meant(values[at + step, column]) for step in (-1, 0, 1))), largest
+
+
+def _top(at: IntArray, before: FloatArray, middle: FloatArray, after: FloatArray) -> FloatArray:
+    """Where parabolas through three values each peak, whose middle ones are at ``_EVEN[at]``: (n,)."""
     bow = before - 2 * middle + after
     shift = np.divide(before - after, 2 * bow, out=np.zeros_like(bow), where=bow < 0)
-    return _EVEN[at] + np.clip(shift, -1, 1) * _EVEN[1], largest
+    top: FloatArray = _EVEN[at] + np.clip(shift, -1, 1) * _EVEN[1]
+    return top

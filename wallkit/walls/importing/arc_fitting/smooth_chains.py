@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.importing.arc_fitting.curves import ComplexArray, Curves, as_complex, cross, dot, unit
+from wallkit.walls.importing.arc_fitting.machine_code import chain_points
 from wallkit.walls.importing.segments import Segments
 
 # Curves whose directions differ by less (radians) were drawn as one smooth line and lost the rest when coordinates
@@ -57,6 +58,7 @@ class Chains:
         stops: (n,) u where it stops, the next one's start bit for bit.
         headings: (n,) direction at the first point of each curve; 0 for one that is a point.
         leavings: (n,) direction at the last point.
+        machine_code: the fit of these curves, cubics, is for compiled kernels.
     """
 
     curves: Curves
@@ -66,15 +68,17 @@ class Chains:
     stops: FloatArray
     headings: ComplexArray
     leavings: ComplexArray
+    machine_code: bool = False
 
     @classmethod
-    def of(cls, curves: Curves, origins: ComplexArray, joined: NDArray[np.bool_]) -> Chains:
+    def of(cls, curves: Curves, origins: ComplexArray, joined: NDArray[np.bool_], machine_code: bool = False) -> Chains:
         """String curves together.
 
         Args:
             curves: the curves.
             origins: (n,) first point of each.
             joined: (n,) the curve goes on with the chain of the one before it.
+            machine_code: the curves are cubics, and compiled kernels are at hand.
         """
         n = len(curves)
         first = np.flatnonzero(~joined)
@@ -84,7 +88,8 @@ class Chains:
         share = np.where(np.diff(offsets)[chain] > 1, curves.lengths, 1.0)
         stops = _running_sums(np.where(share > 0, share, 1.0), offsets)
         starts = np.where(joined, np.roll(stops, 1), 0.0)
-        return cls(curves, offsets, origins - origins[first][chain], starts, stops, *curves.end_tangents())
+        shifts = origins - origins[first][chain]
+        return cls(curves, offsets, shifts, starts, stops, *curves.end_tangents(), machine_code)
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
@@ -102,6 +107,8 @@ class Chains:
 
     def at(self, ids: IntArray, u: FloatArray) -> tuple[ComplexArray, ComplexArray]:
         """Points and directions of chains ``ids`` at ``u``; at a joint the direction is that of the later curve."""
+        if self.machine_code:
+            return chain_points(self, ids, u)
         curve = self._curve_at(ids, u)
         t = self._own(curve, u)
         place, velocity = self.curves.motion(curve, t[:, None])

@@ -1,0 +1,182 @@
+"""Chains of cubics: where their points are, and how far spans of them are from their arcs; see ``arc_fitting``.
+
+Chains are tuples ``(control, offsets, shifts, starts, stops, headings, leavings)`` as in ``smooth_chains.Chains``, with
+the control points (n, 4) of ``curves.Cubics``. Arcs are tuples (joints, directions there, curvatures, curvatures).
+"""
+
+from __future__ import annotations
+
+from wallkit.kernels.fitting.biarc_formulas import half_tangent, larger, offset, turned_back, unit
+from wallkit.kernels.jit import kernel
+
+PLACES = 19
+"""Where a close look looks: at k / 18."""
+
+
+@kernel
+def curve_at(offsets, starts, chain, u):
+    """The last curve of a chain that starts at u or before, by bisection."""
+    low, high = offsets[chain], offsets[chain + 1] - 1
+    while low < high:
+        middle = (low + high + 1) // 2
+        if starts[middle] <= u:
+            low = middle
+        else:
+            high = middle - 1
+    return low
+
+
+@kernel
+def points_at(chains, ids, u, places, directions):
+    """Points and directions of chains ``ids`` at ``u``, as ``Chains.at`` gives them; both are written."""
+    control, offsets, shifts, starts, stops, headings, _ = chains
+    for n in range(len(ids)):
+        curve = curve_at(offsets, starts, ids[n], u[n])
+        t = (u[n] - starts[curve]) / (stops[curve] - starts[curve])
+        p0, p1, p2, p3 = control[curve, 0], control[curve, 1], control[curve, 2], control[curve, 3]
+        c = 3 * p1
+        b = 3 * (p2 - 2 * p1)
+        a = p3 - c - b
+        places[n] = shifts[curve] + complex(
+            ((a.real * t + b.real) * t + c.real) * t, ((a.imag * t + b.imag) * t + c.imag) * t
+        )
+        if t == 0.0:
+            directions[n] = headings[curve]
+            continue
+        first, second, third = 3 * (p1 - p0), 3 * (p2 - p1), 3 * (p3 - p2)
+        s, double, square = 1.0 - t, 2.0 * t, t * t
+        directions[n] = unit(
+            complex(
+                (first.real * s + second.real * double) * s + third.real * square,
+                (first.imag * s + second.imag * double) * s + third.imag * square,
+            )
+        )
+
+
+@kernel
+def columns(start, p1, p2, p3):
+    """Coefficients of 1, t, t^2 and t^3, and the three control points of the derivative, in one coordinate."""
+    c, b = 3.0 * p1, 3.0 * (p2 - 2.0 * p1)
+    return start, c, b, p3 - c - b, c, 3.0 * (p2 - p1), 3.0 * (p3 - p2)
+
+
+@kernel
+def moved(control, curve, origin, along):
+    """Columns of a cubic in axes at ``origin``, the x axis ``along``: those of x and those of y."""
+    p1, p2 = turned_back(control[curve, 1], along), turned_back(control[curve, 2], along)
+    p3, start = turned_back(control[curve, 3], along), -turned_back(origin, along)
+    return columns(start.real, p1.real, p2.real, p3.real), columns(start.imag, p1.imag, p2.imag, p3.imag)
+
+
+@kernel
+def place_in(column, t):
+    """One coordinate of a point."""
+    return ((column[3] * t + column[2]) * t + column[1]) * t + column[0]
+
+
+@kernel
+def velocity_in(column, t):
+    """One coordinate of the derivative."""
+    s = 1.0 - t
+    return (column[4] * s + column[5] * (2.0 * t)) * s + column[6] * (t * t)
+
+
+@kernel
+def off_and_turn(x_column, y_column, bend0, bend1, t):
+    """Signed distance at t, and the tangent of half the angle between directions; see ``biarcs.Ruler``."""
+    x, y = place_in(x_column, t), place_in(y_column, t)
+    vx, vy = velocity_in(x_column, t), velocity_in(y_column, t)
+    bend = bend0 if x < 0.0 else bend1
+    fx, fy = 1.0 - y * bend, bend * x
+    return offset(x, y, bend), half_tangent(fx * vy - fy * vx, vx * fx + vy * fy)
+
+
+@kernel
+def look(control, shifts, sections, arcs, fractions, distance, turn):
+    """Measure sections at fixed fractions: the largest distance and turn of each are written, see ``biarcs.measure``.
+
+    Args:
+        control: of the curves.
+        shifts: of the curves.
+        sections: the span of each, its curve, low and high.
+        arcs: of the spans.
+        fractions: where.
+        distance: (n,) written.
+        turn: (n,) written.
+    """
+    rows, curves, lows, highs = sections
+    joint, along, bend0, bend1 = arcs
+    for n in range(len(rows)):
+        span, curve = rows[n], curves[n]
+        x_column, y_column = moved(control, curve, joint[span] - shifts[curve], along[span])
+        most, widest = 0.0, 0.0
+        for fraction in fractions:
+            t = lows[n] + (highs[n] - lows[n]) * fraction
+            off, angle = off_and_turn(x_column, y_column, bend0[span], bend1[span], t)
+            most, widest = larger(most, abs(off)), larger(widest, angle)
+        distance[n], turn[n] = most, widest
+
+
+@kernel
+def peak_of(values):
+    """Give where the largest of PLACES values is, at most one from an end, and the value."""
+    most, at = values[0], 0
+    for k in range(1, PLACES):
+        if values[k] > most:
+            most, at = values[k], k
+        elif values[k] != values[k]:
+            most, at = values[k], 0
+            break
+    return most, min(max(at, 1), PLACES - 2)
+
+
+@kernel
+def look_closely(control, shifts, sections, arcs, fractions, work, largest, at, around):
+    """Measure sections at PLACES places: the largest distance and turn, where, and what is around them.
+
+    Args:
+        control: of the curves.
+        shifts: of the curves.
+        sections: the span of each, its curve, low and high of where to look.
+        arcs: of the spans.
+        fractions: where, PLACES of them.
+        work: (2, PLACES) for the work.
+        largest: (2, n) of distances and turns, written.
+        at: (2, n) where these are, one of the fractions but the first and the last, written.
+        around: (2, 3, n) the values before, there and after, written.
+    """
+    rows, curves, lows, highs = sections
+    joint, along, bend0, bend1 = arcs
+    for n in range(len(rows)):
+        span, curve = rows[n], curves[n]
+        x_column, y_column = moved(control, curve, joint[span] - shifts[curve], along[span])
+        for k in range(PLACES):
+            t = lows[n] + (highs[n] - lows[n]) * fractions[k]
+            off, angle = off_and_turn(x_column, y_column, bend0[span], bend1[span], t)
+            work[0, k], work[1, k] = abs(off), angle
+        for which in range(2):
+            largest[which, n], at[which, n] = peak_of(work[which])
+            for step in range(3):
+                around[which, step, n] = work[which, at[which, n] - 1 + step]
+
+
+@kernel
+def look_again(control, shifts, sections, arcs, places, worst):
+    """Raise the largest distance and turn of sections by those at one more place each.
+
+    Args:
+        control: of the curves.
+        shifts: of the curves.
+        sections: the span of each, its curve, low and high.
+        arcs: of the spans.
+        places: (2, n) parameters, for the distance and for the turn.
+        worst: (2, n) raised.
+    """
+    rows, curves, _, _ = sections
+    joint, along, bend0, bend1 = arcs
+    for n in range(len(rows)):
+        span, curve = rows[n], curves[n]
+        x_column, y_column = moved(control, curve, joint[span] - shifts[curve], along[span])
+        off, _ = off_and_turn(x_column, y_column, bend0[span], bend1[span], places[0, n])
+        _, angle = off_and_turn(x_column, y_column, bend0[span], bend1[span], places[1, n])
+        worst[0, n], worst[1, n] = larger(worst[0, n], abs(off)), larger(worst[1, n], angle)
