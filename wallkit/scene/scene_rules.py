@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from fnmatch import fnmatchcase
 
 from importers.drawing import Drawing, DrawnPath, Level
+from importers.limits import Work
+from wallkit.globs import fits, steps_of
 from wallkit.walls import Walls
 from wallkit.walls.fields import Sides
 from wallkit.walls.roles import levels_of, material_keys_of, plain_name, sides_of
@@ -19,6 +20,7 @@ from wallkit.walls.tags import MATERIAL_KEYS
 
 RULE_KEYS = (*MATERIAL_KEYS, "sides", "role")
 FIT_KEYS = ("layer", "group", "wall")
+MATCHING = "rules matched with walls"
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,10 +34,16 @@ class Rule:
 
 
 class Ruled:
-    """Walls while rules are applied to them."""
+    """Walls while rules are applied to them.
+
+    Attributes:
+        steps: of work that it takes to find those that one rule fits.
+    """
 
     def __init__(self, walls: Walls) -> None:
         self._walls = walls
+        groups = (word for origin in walls.origins for word in origin.groups)
+        self.steps = steps_of(walls.layers) + steps_of(walls.names) + steps_of(groups)
         self._materials = list(walls.materials)
         self._sides = list(walls.sides)
 
@@ -88,9 +96,9 @@ class Fit:
         if self.colour is not None:
             return colour == _six_digits(self.colour)
         return (
-            fnmatchcase(layer, self.layer)
-            and fnmatchcase(name, self.wall)
-            and (self.group == "*" or any(fnmatchcase(one, self.group) for one in groups))
+            fits(layer, self.layer)
+            and fits(name, self.wall)
+            and (self.group == "*" or any(fits(one, self.group) for one in groups))
         )
 
 
@@ -101,13 +109,15 @@ def _six_digits(colour: str) -> str:
     return wanted
 
 
-def say_roles(drawing: Drawing, roles: Iterable[tuple[Fit, str]]) -> None:
+def say_roles(drawing: Drawing, roles: Iterable[tuple[Fit, str]], work: Work) -> None:
     """Let paths of a drawing be what a scene file says (``sensor``, ``target:left`` ...), the last that fits winning.
 
     It is said of them as of a layer around all others, so that every word in the drawing goes before it.
     """
     said: dict[int, str] = {}
+    steps = steps_of(word for path in drawing.paths for word in (path.layer, path.name, *path.groups))
     for fit, role in roles:
+        work.charge(MATCHING, steps)
         said |= dict.fromkeys(fit.paths(drawing), role)
     for index, role in said.items():
         path = drawing.paths[index]

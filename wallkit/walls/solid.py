@@ -14,13 +14,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from importers.drawing import DrawnPath
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.globs import fits
 
 if TYPE_CHECKING:
     from wallkit.walls.edge_tree import Edges
@@ -159,7 +159,7 @@ def _named(nested: Nested, name: str) -> Solid:
     fits = [
         index
         for index in closed
-        if any(fnmatchcase(called, name) for called in (nested.paths[index].name, plain_name(nested.paths[index].name)))
+        if any(fits(called, name) for called in (nested.paths[index].name, plain_name(nested.paths[index].name)))
     ]
     if not fits:
         known = ", ".join(sorted({repr(nested.paths[index].name) for index in closed if nested.paths[index].name}))
