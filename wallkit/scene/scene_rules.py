@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from importers.drawing import Drawing, DrawnPath, Level
 from importers.limits import Work
 from wallkit.globs import fits, steps_of
-from wallkit.walls import Walls
+from wallkit.walls import Material, Walls
 from wallkit.walls.fields import Sides
 from wallkit.walls.roles import levels_of, material_keys_of, plain_name, sides_of
 from wallkit.walls.tags import MATERIAL_KEYS
@@ -49,12 +49,14 @@ class Ruled:
 
     def apply(self, rule: Rule, walls: Iterable[int]) -> None:
         """Let a rule hold for walls, but for what their tags say."""
+        said = {key: getattr(rule, key) for key in MATERIAL_KEYS if getattr(rule, key) is not None}
+        made: dict[tuple[Material, frozenset[str]], Material] = {}
         for index in walls:
-            tags = self._walls.origins[index].tags
-            given = {key: getattr(rule, key) for key in MATERIAL_KEYS if key not in material_keys_of(tags)}
-            given = {key: value for key, value in given.items() if value is not None}
-            if given:
-                self._materials[index] = replace(self._materials[index], **given)
+            tags, before = self._walls.origins[index].tags, self._materials[index]
+            own = frozenset(material_keys_of(tags)) if tags else frozenset()
+            if (before, own) not in made:
+                made[before, own] = replace(before, **{key: said[key] for key in said if key not in own})
+            self._materials[index] = made[before, own]
             if rule.sides is not None and sides_of(tags) is None:
                 self._sides[index] = rule.sides
 
