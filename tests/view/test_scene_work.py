@@ -5,8 +5,10 @@ import json
 import pytest
 
 from importers.errors import LimitError, WallkitError
+from wallkit import Balls, Scene, Walls, simulate
 from wallkit.globs import MOST_LETTERS, fits
 from wallkit.scene.scene_files import read_scene
+from wallkit.simulation.run_files import load, save
 from wallkit.toml_text import MOST_NAMES, parse_toml
 from wallkit.walls.import_options import ImportOptions
 from wallkit.walls.walls_json import dumps, loads
@@ -93,3 +95,15 @@ def test_options_say_what_number_they_take():
     with pytest.raises(WallkitError, match="scale is 1000") as caught:
         ImportOptions(scale=10**400)
     assert caught.value.fix == "give a number above 0"
+
+
+@pytest.mark.parametrize("change", [("time", HUGE), ("ball", HUGE)])
+def test_numbers_of_a_saved_run_that_no_double_holds_are_refused(change, tmp_path):
+    column, number = change
+    scene = Scene(Walls.from_polylines([[(0, 0), (4, 0), (4, 4), (0, 4)]]), Balls([[2, 1]], [[1.0, 0.5]]))
+    save(simulate(scene, bounces=3), tmp_path / "run.json")
+    value = json.loads((tmp_path / "run.json").read_text())
+    value["contacts"][column][0] = int(number)
+    (tmp_path / "run.json").write_text(json.dumps(value))
+    with pytest.raises(WallkitError, match="this is no run"):
+        load(tmp_path / "run.json")
