@@ -21,6 +21,7 @@ MAX_DEPTH = 256  # groups in groups, layers in layers, dictionaries in dictionar
 MAX_REFERENCES = 500_000  # followed `use`s, form XObjects and the like
 MAX_VERTICES = 2_000_000  # of all walls together, once curves are lines
 MAX_COORDINATE = 1e9  # |x| and |y|; beyond it doubles leave less than 1e-7 of a unit
+MAX_NAME_LETTERS = 50_000_000  # that all paths bear together: their own and those of each group and layer around them
 
 MAX_ENTITIES = 64  # internal ones of a document type; external ones are an error whatever their number
 MAX_ENTITY_BYTES = 1024  # of one entity's replacement text

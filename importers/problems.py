@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 Severity = Literal["error", "warning", "info"]
 
@@ -54,3 +56,20 @@ class Problem:
             "x": self.x,
             "y": self.y,
         }
+
+    @staticmethod
+    def of_json(entry: Mapping[str, Any]) -> Problem:
+        """Read one that :meth:`to_json` wrote, with its excerpt where there is one.
+
+        Raises:
+            TypeError: a key is not known, or holds what it cannot.
+            ValueError: a place is no finite number.
+        """
+        found = Problem(**entry)
+        texts = (found.code, found.message, found.fix, found.layer, found.name, found.excerpt)
+        if not all(isinstance(text, str) for text in texts) or found.severity not in get_args(Severity):
+            raise TypeError("a problem has a code, a severity and other texts")
+        for place in (found.line, found.column, found.x, found.y):
+            if place is not None and not math.isfinite(place):
+                raise ValueError(f"the place of a problem is {place}")
+        return found

@@ -10,11 +10,12 @@ from typing import IO, Any
 
 from importers.drawing import Drawing
 from importers.errors import DrawingError
-from importers.limits import MAX_INPUT_BYTES, Unpacker, check_input_size
+from importers.limits import MAX_INPUT_BYTES, MAX_NAME_LETTERS, Unpacker, check_input_size, limit_error
 from importers.page_background import note_background
 from importers.page_choice import PageChoice, check_page, keep_artboard
 
 _GZIP = b"\x1f\x8b"
+_LETTERS_OF_A_LEVEL = 8  # what a group without a name costs
 _SAVE = "save it as SVG or as Illustrator 8 from your drawing program"
 _TRACE = "it holds pixels, not outlines: trace it in a drawing program and save that as SVG"
 # What people give by mistake: how it begins, what it is, what to do.
@@ -91,9 +92,34 @@ def read_drawing_text(text: str | bytes, file: str = "", *, page: PageChoice = N
     check_page(page, file)
     drawing = _read_via(via, text, file, page) if via else _read_by_any(text, file, page)
     drawing.file = file
+    check_names(drawing)
     note_background(drawing)
     drawing.sha256 = hashlib.sha256(text).hexdigest()
     return drawing
+
+
+def check_names(drawing: Drawing) -> None:
+    """Bound what paths say of themselves and of all that is around them, which each of them says anew.
+
+    Raises:
+        LimitError: it is more than MAX_NAME_LETTERS.
+    """
+    letters = 0
+    known: dict[int, int] = {}  # of each level, by its id: neighbours share theirs
+    for path in drawing.paths:
+        letters += len(path.name) + len(path.layer) + len(path.title) + sum(map(len, path.groups))
+        for level in path.levels:
+            if id(level) not in known:
+                known[id(level)] = _LETTERS_OF_A_LEVEL + len(level.name) + len(level.note) + _letters_of(level.tags)
+            letters += known[id(level)]
+        if letters > MAX_NAME_LETTERS:
+            fix = "shorten the names of layers, groups and objects, or take groups apart"
+            limit = "letters of names, those of groups and layers counted for each path in them"
+            raise limit_error(limit, f"{MAX_NAME_LETTERS:,}", file=drawing.file, line=path.line, fix=fix)
+
+
+def _letters_of(tags: dict[str, str]) -> int:
+    return sum(len(key) + len(value) for key, value in tags.items())
 
 
 def _read_by_any(data: bytes, file: str, page: PageChoice) -> Drawing:

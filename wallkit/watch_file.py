@@ -11,9 +11,11 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import tomllib
 from collections.abc import Callable, Sequence
 from pathlib import Path
+
+from importers.errors import WallkitError
+from wallkit.toml_text import parse_toml
 
 EVERY = 0.2
 """Seconds between two looks: a change is seen after 0.4 at most."""
@@ -84,8 +86,8 @@ def watched_paths(file: Path) -> Sequence[Path]:
     try:
         data = file.read_bytes()
         text = data.decode("utf-8-sig")
-        table = json.loads(text) if text.lstrip().startswith("{") else tomllib.loads(text)
-    except (OSError, ValueError, RecursionError):
+        table = json.loads(text) if text.lstrip().startswith("{") else parse_toml(text)
+    except (OSError, ValueError, RecursionError, WallkitError):
         return [file]
     named = [table.get(key) for key in ("drawing", "walls")] if isinstance(table, dict) else []
     return [file, *(file.parent / name for name in named if isinstance(name, str) and name)]

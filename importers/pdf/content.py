@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from importers.drawing import Layer
 from importers.illustrator import findings as common
@@ -18,8 +18,10 @@ from importers.pdf.painting import Handler, Name, Operands, Painter, State
 from importers.pdf.state import IDENTITY, Matrix
 
 _BATCH = 20_000
-_BYTES_PER_TOKEN = 16  # of strings, whose cost grows with their length
+_BYTES_PER_TOKEN = 16  # of strings and of images within the content, whose cost grows with their length
 _MAX_OPERANDS = 4096
+_FORM_COSTS = 4  # operators' worth of work to go into a form
+_MAX_IMAGE_HEAD = 2000  # bytes of an image's dictionary, before its data
 # Blanks, numbers, and the operator if one follows: all may be missing, so it never fails and reads no number twice.
 _OPERATOR = re.compile(
     rb"[\s\x00]{0,200}((?:[-+.\deE]{1,40}\s{1,20}){0,8})(?:([A-Za-z]{1,3}\d?\*?|['\"])(?=[\s\x00/(\[<%]|\Z))?"
@@ -33,6 +35,21 @@ _NAME_ESCAPE = re.compile(rb"#([0-9A-Fa-f]{2})")
 _IMAGE_DATA = re.compile(rb"\bID[\s]")
 _IMAGE_END = re.compile(rb"[\s\x00]EI(?=[\s\x00]|\Z)")
 _WITHOUT_GEOMETRY = b"j J M d ri i Tc Tw Tz TL Tf Tr Ts Td TD Tm T* BX EX MP DP d0 d1 << >> true false null".split()
+
+
+class Marked(NamedTuple):
+    """What a marked-content sequence is part of, those around it included.
+
+    Attributes:
+        layer: the innermost layer.
+        hidden: one of the layers is not shown.
+    """
+
+    layer: Layer | None
+    hidden: bool
+
+
+_UNMARKED = Marked(None, False)
 
 
 @dataclass(slots=True)
@@ -62,6 +79,8 @@ class Form:
     layer: Layer | None
     grouped: bool  # it is drawn as a whole, with the opacity of fills at hand
     box: tuple[float, float, float, float] | None  # two corners, in its own units: nothing of it is seen outside
+    spaces: dict[str, str] = field(default_factory=dict)  # of its resources, as far as they were asked for
+    states: dict[str, State] = field(default_factory=dict)
 
 
 class PageReader(Painter):
@@ -72,9 +91,8 @@ class PageReader(Painter):
         self.document = document
         self.layers = layers
         self._frames: list[Frame] = []
-        self._marked: list[Layer | None] = []  # one for each marked-content sequence that is open
+        self._marked: list[Marked] = []  # one for each marked-content sequence that is open
         self._text_shown = False
-        self._operators = 0
         self._bytes = 0
         self._forms: dict[tuple[int, int], Form] = {}
         self._drawn: dict[tuple[tuple[int, int], str], Form | str] = {}  # by where and under which name
@@ -204,7 +222,9 @@ class PageReader(Painter):
     def _skip_image(self, data: bytes, position: int) -> int:
         """Skip an image within the content; give the position after it."""
         self._find(common.RASTER)
-        begin = _IMAGE_DATA.search(data, position, position + 2000)
+        begin = _IMAGE_DATA.search(data, position, position + _MAX_IMAGE_HEAD)
+        if begin is None:  # looked at in vain, and looked at again by what follows
+            self._operators += _MAX_IMAGE_HEAD // _BYTES_PER_TOKEN
         end = _IMAGE_END.search(data, begin.end() if begin else position)
         return end.end() if end else len(data)
 
@@ -250,7 +270,9 @@ class PageReader(Painter):
     def _push_marked(self, layer: Layer | None) -> None:
         if len(self._marked) >= MAX_DEPTH:
             raise limit_error("marked contents in each other", str(MAX_DEPTH), file=self.file)
-        self._marked.append(layer)
+        around = self._marked[-1] if self._marked else _UNMARKED
+        own = around if layer is None else Marked(layer, around.hidden or not layer.visible)
+        self._marked.append(own)
         self._update_layer()
 
     def _end_marked(self, _operands: Operands) -> None:
@@ -261,10 +283,8 @@ class PageReader(Painter):
             self._find(common.UNBALANCED, "EMC")
 
     def _update_layer(self) -> None:
-        """Work out the innermost layer, and whether one around it is hidden."""
-        layers = [layer for layer in self._marked if layer is not None]
-        self._layer = layers[-1] if layers else None
-        self._hidden = not all(layer.visible for layer in layers)
+        """Take the innermost layer, and whether one around it is hidden."""
+        self._layer, self._hidden = self._marked[-1] if self._marked else _UNMARKED
 
     def _draw(self, operands: Operands) -> None:
         """``Do``: draw a form, or leave a picture out."""
@@ -317,6 +337,7 @@ class PageReader(Painter):
             return
         if len(self._frames) >= MAX_DEPTH:
             raise limit_error("forms in each other", str(MAX_DEPTH), file=self.file)
+        self._operators += _FORM_COSTS
         self._keep([])
         if form.marked:
             self._push_marked(form.layer)
@@ -337,6 +358,8 @@ class PageReader(Painter):
                 graphics_depth=len(self._kept),
                 marked_depth=len(self._marked),
                 marked=form.marked,
+                spaces=form.spaces,
+                states=form.states,
             )
         )
 

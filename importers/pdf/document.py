@@ -54,7 +54,7 @@ class Document:
             raise DrawingError(
                 "the PDF is encrypted", code="encrypted", fix="save it without a password", file=file
             ) from error
-        except (pikepdf.PdfError, pikepdf.PikepdfError, RuntimeError, ValueError) as error:
+        except _own_errors(RuntimeError, ValueError) as error:
             raise DrawingError(
                 f"the PDF is broken: {_reason(error)}",
                 code="broken-pdf",
@@ -71,7 +71,7 @@ class Document:
             pdf = pikepdf.open(io.BytesIO(data), attempt_recovery=False, inherit_page_attributes=False)
         except pikepdf.PasswordError:
             raise
-        except (pikepdf.PdfError, pikepdf.PikepdfError, RuntimeError, ValueError):
+        except _own_errors(RuntimeError, ValueError):
             if len(data) > _MAX_MENDED:
                 raise
         else:
@@ -142,11 +142,9 @@ class Document:
         Raises:
             LimitError: it stands for more than the limits allow.
         """
-        import pikepdf
-
         try:
             data: bytes = stream.read_raw_bytes()
-        except (pikepdf.PdfError, pikepdf.PikepdfError, AttributeError, TypeError, ValueError, RuntimeError) as error:
+        except _own_errors(AttributeError, TypeError, ValueError, RuntimeError) as error:
             return b"", _reason(error)
         damage = ""
         filters_used = _filters_of(stream)
@@ -308,9 +306,13 @@ def _reason(error: Exception) -> str:
     return re.sub(r"^.*<[^>]*>[^:]*: *", "", text.splitlines()[0][:500])[:200]
 
 
-def _library_errors() -> tuple[type[Exception], ...]:
-    """Give what the PDF library raises for an object that is not what it should be: it counts as absent."""
+def _own_errors(*others: type[Exception]) -> tuple[type[Exception], ...]:
+    """Give the errors of the PDF library itself and others; its versions up to 10.12 have no class for all."""
     import pikepdf
 
-    wrong = (KeyError, IndexError, AttributeError, TypeError, ValueError, RuntimeError)
-    return (pikepdf.PdfError, pikepdf.PikepdfError, *wrong)
+    return pikepdf.PdfError, getattr(pikepdf, "PikepdfError", pikepdf.PdfError), *others
+
+
+def _library_errors() -> tuple[type[Exception], ...]:
+    """Give what the PDF library raises for an object that is not what it should be: it counts as absent."""
+    return _own_errors(KeyError, IndexError, AttributeError, TypeError, ValueError, RuntimeError)

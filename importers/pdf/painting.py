@@ -20,6 +20,7 @@ from importers.regions import ALL, reach_of, region_of
 
 Operands = list[Any]  # numbers as bytes, names as Name, texts as None
 Handler = Callable[[Operands], None]
+_CLIP_COSTS = 12  # operators' worth of work
 # Opacity of fills, of strokes, line width, and whether there is a soft mask
 State = tuple[float | None, float | None, float | None, bool | None]
 
@@ -61,7 +62,8 @@ class Painter:
         self._reopen: Segment | None = None
         self._spoiled = False
         self._clip: FillRule | None = None
-        self._count = 0
+        self._count = 0  # of segments and paths
+        self._operators = 0  # taken, and what costs as much
 
     def begin_page(self, right: float, up: float) -> None:
         """Begin anew with plain paint and units, moved by so much."""
@@ -164,6 +166,7 @@ class Painter:
 
     def _clip_to(self, subpaths: list[Subpath], rule: FillRule) -> None:
         """Let nothing be seen outside of a path, until ``Q``; its open subpaths count as closed."""
+        self._operators += _CLIP_COSTS
         graphics, own = self._graphics, region_of([DrawnPath(subpaths, fill_rule=rule)])
         if not own.cuts(graphics.region.box):
             return  # a rectangle around all that is seen: programs write the page's over and over

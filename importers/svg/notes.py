@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Any
 
+from importers.limits import good_coordinate
 from importers.problems import Problem, Severity
 from importers.svg.source import Source
 
@@ -54,7 +55,7 @@ class Notes:
             self.count(code, severity, "more of the same", element, fix=fix)
             return
         line, column, text = self._source.place(element, attribute, offset)
-        x, y = at if at is not None else (None, None)
+        x, y = at if at is not None and all(map(good_coordinate, at)) else (None, None)
         self._problems.append(Problem(code, severity, message, fix, layer, name, line, column, x, y, text))
 
     def count(

@@ -19,6 +19,7 @@ import tinycss2
 from importers.limits import Work
 
 STEPS = 40  # of work for a part that is compiled
+STEPS_OF_A_TEST = 2  # of an element by a chain of parts, besides those of the way
 MOST_NESTED = (
     10  # blanks within blanks of ``:is(...)`` and its like: Python 3.14 compiles 2 ** 10 copies of the innermost
 )
@@ -172,7 +173,7 @@ class Chain:
 
     def test(self, element: Any) -> bool:
         """Tell whether an element is what the last part stands for, with others before it as the combinators say."""
-        self.work.charge("selectors", self.steps)
+        self.work.charge("selectors", STEPS_OF_A_TEST + self.steps)
         if not self.parts[-1].test(element):
             return False
         those = [element]

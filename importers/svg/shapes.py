@@ -109,10 +109,13 @@ class Shape:
     fault: Fault | None = None
     attribute: str = ""
     nothing: str = ""
+    _boxes: list[Box | None] = field(default_factory=list, repr=False, compare=False)
 
     def box(self) -> Box | None:
-        """Give the box of what it draws; None where that is nothing."""
-        return box_of_segments(segment for sub in self.subpaths for segment in sub.segments)
+        """Give the box of what it draws, worked out once; None where that is nothing."""
+        if not self._boxes:
+            self._boxes.append(box_of_segments(segment for sub in self.subpaths for segment in sub.segments))
+        return self._boxes[0]
 
 
 class Shapes:

@@ -133,14 +133,15 @@ def test_a_file_without_a_catalogue_is_broken_in_words(root):
     [
         (b"%PDF-1.4\n", "broken-pdf"),
         (b"%PDF-1.4\n1 0 obj\n" + b"[" * 100_000, "broken-pdf"),
-        (b"%PDF-1.4\n1 0 obj<</Type/Catalog>>endobj\ntrailer<</Root 1 0 R>>", "broken-pdf"),
+        (b"%PDF-1.4\n1 0 obj<</Type/Catalog>>endobj\ntrailer<</Root 1 0 R>>", "broken-pdf no-pages"),  # older qpdf
         (saved(pikepdf.new()), "no-pages"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_opened_is_refused_with_advice(data, code):
     with pytest.raises(DrawingError) as caught:
         read_pdf(data, "plan.ai")
-    assert (caught.value.code, caught.value.file) == (code, "plan.ai")
+    assert caught.value.code in code.split()
+    assert caught.value.file == "plan.ai"
     assert caught.value.fix
 
 

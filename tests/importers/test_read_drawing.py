@@ -6,6 +6,7 @@ import sys
 import pytest
 
 import wallkit
+from importers.errors import LimitError
 from importers.read import read_drawing, read_drawing_text
 
 ROOM = '<svg xmlns="http://www.w3.org/2000/svg"><rect id="room" width="30" height="20"/></svg>'
@@ -117,3 +118,15 @@ def test_reading_leaves_the_cycle_collector_as_it_was():
     wallkit.read_drawing_text(text)
     assert gc.isenabled()
     assert gc.get_freeze_count() == 0
+
+
+def test_names_are_counted_for_each_path_that_bears_them(monkeypatch):
+    monkeypatch.setattr("importers.read.MAX_NAME_LETTERS", 10_000)
+    group = f'<svg xmlns="http://www.w3.org/2000/svg"><g id="{"a" * 100}">%s</g></svg>'
+    rectangle = '<rect width="1" height="1"/>'
+    assert len(read_drawing_text(group % (rectangle * 40)).paths) == 40
+    with pytest.raises(LimitError, match="letters of names"):
+        read_drawing_text(group % (rectangle * 100))
+    layer = f"1 1 1 1 0 0 79 128 255 Lb\n({'a' * 100}) Ln\n" + "0 0 m 1 0 l 1 1 l s\n" * 101 + "LB\n"
+    with pytest.raises(LimitError, match="letters of names"):
+        read_drawing_text(layer)

@@ -1,5 +1,7 @@
 """What a small file can ask for grows no faster than the file, or ends in an error that names the limit."""
 
+import json
+
 import pytest
 
 from importers.errors import LimitError
@@ -125,6 +127,21 @@ def test_more_than_the_budget_is_refused_by_the_name_of_the_limit(kind, monkeypa
     with pytest.raises(LimitError, match=named.replace("()", "")):
         Reader(source).read()
     assert source.work.done < 2 * source.work.most
+
+
+def test_a_chain_of_parts_is_charged_for_each_element_that_it_is_tested_on():
+    text = svg("<style>" + ".b .a{fill:red}" * 50 + "</style>" + '<rect class="a"/>' * 100)
+    source = parse(text, "")
+    Reader(source).read()
+    assert source.work.spent["selectors"] > 2 * 50 * 100
+
+
+def test_a_place_that_overflows_is_no_place():
+    shape = '<path d="M0 0l-0,3.25.5.5.5"/>'
+    drawing = Reader(parse(f'<svg {NS} viewBox="1e3 1e308 .5 .5" width="1" height="9">{shape}</svg>', "")).read()
+    assert {problem.code for problem in drawing.problems} == {"bad-path-data", "bad-coordinate"}
+    assert all(problem.y is None for problem in drawing.problems)
+    json.dumps(drawing.to_json(), allow_nan=False)
 
 
 def test_a_budget_says_what_most_of_it_was_spent_on():

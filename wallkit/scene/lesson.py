@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import math
+import reprlib
+import sys
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,12 +49,12 @@ def read_lesson(value: Any, wrong: list[str]) -> Lesson:
     if way and way not in FRAME_WAYS:
         wrong.append(f"lesson.way: {way!r} is not {', '.join(FRAME_WAYS[:-1])} or {FRAME_WAYS[-1]}")
     dt = value.get("dt", 1 / 60)
-    real = isinstance(dt, int | float) and not isinstance(dt, bool)
-    if not (real and 0 < dt < math.inf):
-        wrong.append(f"lesson.dt: {dt!r} is not a finite number above 0")
+    good = isinstance(dt, int | float) and not isinstance(dt, bool) and 0 < dt <= sys.float_info.max
+    if not good:
+        wrong.append(f"lesson.dt: {reprlib.repr(dt)} is not a finite number above 0")
     elif "dt" in value and not way:
         wrong.append("lesson.dt: only goes with lesson.way")
-    return Lesson(title, text, tuple(_questions(value.get("questions", []), wrong)), way, float(dt) if real else 1 / 60)
+    return Lesson(title, text, tuple(_questions(value.get("questions", []), wrong)), way, float(dt) if good else 1 / 60)
 
 
 def _questions(value: Any, wrong: list[str]) -> list[tuple[str, str]]:

@@ -8,21 +8,24 @@ from __future__ import annotations
 import json
 import math
 import re
+import reprlib
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from importers.limits import check_input_size
+from importers.limits import Work, check_input_size
 from wallkit.geometry.arrays import FloatArray
+from wallkit.globs import fits as like
+from wallkit.globs import steps_of
 from wallkit.scene.drawn_scene import apart, drawn_scene, together
 from wallkit.scene.lesson import Lesson, read_lesson
 from wallkit.scene.scene import Balls, Scene, SceneError, area_of, downwards
-from wallkit.scene.scene_rules import FIT_KEYS, RULE_KEYS, Fit, Rule, Ruled, say_roles
+from wallkit.scene.scene_rules import FIT_KEYS, MATCHING, RULE_KEYS, Fit, Rule, Ruled, say_roles
+from wallkit.toml_text import parse_toml
 from wallkit.walls import Material, Walls
 from wallkit.walls.fields import MOST_RESTITUTION
 from wallkit.walls.import_options import ImportOptions, option_names
@@ -40,6 +43,7 @@ FileKind = Literal["drawing", "walls", "scene"]
 
 BALL_RESTITUTIONS = ("ball_restitution", "ball_tangential_restitution")
 _TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
+_SHORTER = "write a shorter number, such as 1e30"
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
 
 
@@ -118,12 +122,13 @@ def read_scene(
 
     Raises:
         SceneError: as :func:`load_scene`.
+        LimitError: it is larger, or its keys are longer, than the limits allow.
     """
     check_input_size(len(data), file)
     table = _parsed(data, file)
     if table.get("format") == "wallkit-run":
         table = table.get("scene", {}) if isinstance(table.get("scene"), dict) else {}
-    reader = _Reader(file, folder, importing or {}, balls)
+    reader = _Reader(Work(file, len(data)), folder, importing or {}, balls)
     result = reader.scene_file(table)
     reader.finish()
     return result
@@ -137,7 +142,7 @@ def _parsed(data: bytes, file: str) -> dict[str, Any]:
     try:
         if text.lstrip().startswith("{"):
             return dict(json.loads(text, parse_constant=_no_constant))
-        return tomllib.loads(text)
+        return parse_toml(text, file)
     except json.JSONDecodeError as error:
         raise SceneError(error.msg, code="bad-json", file=file, line=error.lineno, column=error.colno) from error
     except tomllib.TOMLDecodeError as error:
@@ -146,6 +151,8 @@ def _parsed(data: bytes, file: str) -> dict[str, Any]:
         raise SceneError(_PLACE.sub("", str(error)), code="bad-toml", file=file, line=line, column=column) from error
     except RecursionError as error:
         raise SceneError("it is nested too deeply", code="not-a-scene", file=file) from error
+    except ValueError as error:  # from Python's own reader of whole numbers
+        raise SceneError(str(error).partition(";")[0], code="bad-number", file=file, fix=_SHORTER) from error
 
 
 def _no_constant(word: str) -> None:
@@ -155,8 +162,9 @@ def _no_constant(word: str) -> None:
 class _Reader:
     """Turns the parsed table into a scene and collects what is wrong on the way, each with its key."""
 
-    def __init__(self, file: str, folder: Path | None, importing: Mapping[str, Any], balls: FloatArray | None) -> None:
-        self.file = file
+    def __init__(self, work: Work, folder: Path | None, importing: Mapping[str, Any], balls: FloatArray | None) -> None:
+        self.work = work
+        self.file = work.file
         self.folder = folder
         self.importing = importing
         self.places = balls
@@ -229,8 +237,12 @@ class _Reader:
         return [(f"{key}[{index}]", self.table(row, f"{key}[{index}]")) for index, row in enumerate(value)]
 
     def number(self, value: Any, key: str, least: float = -math.inf, most: float = math.inf) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-            self.wrong.append(f"{key}: {value!r} is not a finite number")
+        try:
+            finite = not isinstance(value, bool) and isinstance(value, int | float) and math.isfinite(value)
+        except OverflowError:  # a whole number that no double reaches
+            finite = False
+        if not finite:
+            self.wrong.append(f"{key}: {reprlib.repr(value)} is not a finite number")
             return max(least, 0.0)
         if not least <= value <= most:
             bound = f"from {least:g} to {most:g}" if math.isfinite(most) else f"at least {least:g}"
@@ -304,7 +316,7 @@ class _Reader:
         from importers.read import read_drawing
 
         self.drawing = read_drawing(path, page=self.options.page, via=self.options.via)
-        say_roles(self.drawing, self.roles(table))
+        say_roles(self.drawing, self.roles(table), self.work)
         return drawn_scene(self.drawing, self.options, balls if self.places is None else self.places)
 
     def path(self, value: Any, key: str) -> Path | None:
@@ -345,7 +357,8 @@ class _Reader:
             return walls, from_json(value, self.file)
         if not isinstance(value, list) or not all(isinstance(glob, str) for glob in value):
             return walls, together(drawn, self.polylines(value, "sensors"))
-        fits = [any(fnmatchcase(word, glob) for word in (walls.layers[index], walls.names[index]) for glob in value)
+        self.work.charge(MATCHING, len(value) * (steps_of(walls.layers) + steps_of(walls.names)))
+        fits = [any(like(word, glob) for word in (walls.layers[index], walls.names[index]) for glob in value)
                 for index in range(len(walls))]  # fmt: skip
         if len(walls) and not any(fits):
             self.wrong.append(f"sensors: no wall has a name or layer like {', '.join(map(repr, value))}")
@@ -375,7 +388,9 @@ class _Reader:
         row = self.table(value, key)
         self.known_keys(row, {*RULE_KEYS, *(FIT_KEYS if fit.colour is None else ())}, f"{key}.")
         sides = self.one_of(row["sides"], f"{key}.sides", ("both", "outward")) if "sides" in row else None
+        self.work.charge(MATCHING, ruled.steps)
         fits = fit.walls(walls)
+        self.work.charge(MATCHING, 2 * len(fits))
         ruled.apply(Rule(**self.restitutions(row, key), sides=sides), fits)
         if "role" in row:
             self.one_of(self.text(row["role"], f"{key}.role").partition(":")[0], f"{key}.role", ROLES)

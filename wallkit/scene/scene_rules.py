@@ -9,16 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from fnmatch import fnmatchcase
 
 from importers.drawing import Drawing, DrawnPath, Level
-from wallkit.walls import Walls
+from importers.limits import Work
+from wallkit.globs import fits, steps_of
+from wallkit.walls import Material, Walls
 from wallkit.walls.fields import Sides
 from wallkit.walls.roles import levels_of, material_keys_of, plain_name, sides_of
 from wallkit.walls.tags import MATERIAL_KEYS
 
 RULE_KEYS = (*MATERIAL_KEYS, "sides", "role")
 FIT_KEYS = ("layer", "group", "wall")
+MATCHING = "rules matched with walls"
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,21 +34,29 @@ class Rule:
 
 
 class Ruled:
-    """Walls while rules are applied to them."""
+    """Walls while rules are applied to them.
+
+    Attributes:
+        steps: of work that it takes to find those that one rule fits.
+    """
 
     def __init__(self, walls: Walls) -> None:
         self._walls = walls
+        groups = (word for origin in walls.origins for word in origin.groups)
+        self.steps = steps_of(walls.layers) + steps_of(walls.names) + steps_of(groups)
         self._materials = list(walls.materials)
         self._sides = list(walls.sides)
 
     def apply(self, rule: Rule, walls: Iterable[int]) -> None:
         """Let a rule hold for walls, but for what their tags say."""
+        said = {key: getattr(rule, key) for key in MATERIAL_KEYS if getattr(rule, key) is not None}
+        made: dict[tuple[Material, frozenset[str]], Material] = {}
         for index in walls:
-            tags = self._walls.origins[index].tags
-            given = {key: getattr(rule, key) for key in MATERIAL_KEYS if key not in material_keys_of(tags)}
-            given = {key: value for key, value in given.items() if value is not None}
-            if given:
-                self._materials[index] = replace(self._materials[index], **given)
+            tags, before = self._walls.origins[index].tags, self._materials[index]
+            own = frozenset(material_keys_of(tags)) if tags else frozenset()
+            if (before, own) not in made:
+                made[before, own] = replace(before, **{key: said[key] for key in said if key not in own})
+            self._materials[index] = made[before, own]
             if rule.sides is not None and sides_of(tags) is None:
                 self._sides[index] = rule.sides
 
@@ -88,9 +98,9 @@ class Fit:
         if self.colour is not None:
             return colour == _six_digits(self.colour)
         return (
-            fnmatchcase(layer, self.layer)
-            and fnmatchcase(name, self.wall)
-            and (self.group == "*" or any(fnmatchcase(one, self.group) for one in groups))
+            fits(layer, self.layer)
+            and fits(name, self.wall)
+            and (self.group == "*" or any(fits(one, self.group) for one in groups))
         )
 
 
@@ -101,13 +111,15 @@ def _six_digits(colour: str) -> str:
     return wanted
 
 
-def say_roles(drawing: Drawing, roles: Iterable[tuple[Fit, str]]) -> None:
+def say_roles(drawing: Drawing, roles: Iterable[tuple[Fit, str]], work: Work) -> None:
     """Let paths of a drawing be what a scene file says (``sensor``, ``target:left`` ...), the last that fits winning.
 
     It is said of them as of a layer around all others, so that every word in the drawing goes before it.
     """
     said: dict[int, str] = {}
+    steps = steps_of(word for path in drawing.paths for word in (path.layer, path.name, *path.groups))
     for fit, role in roles:
+        work.charge(MATCHING, steps)
         said |= dict.fromkeys(fit.paths(drawing), role)
     for index, role in said.items():
         path = drawing.paths[index]

@@ -64,7 +64,7 @@ def load(path: str | Path, digest: str, work: Work[Any], balls: int) -> tuple[Do
             raise ValueError("another format")
         known, done = value["work"], Done([(int(start), int(stop)) for start, stop in value["ranges"]])
         part = work.read(value["result"]) if known == digest else None
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError) as error:
         what = getattr(error, "strerror", None) or str(error)
         raise WallkitError(f"this is no checkpoint: {what}", code="bad-checkpoint", file=str(path), fix=fix) from error
     if part is None:

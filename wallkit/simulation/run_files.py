@@ -93,7 +93,7 @@ def load(source: str | Path | IO[bytes] | IO[str]) -> Run:
         if value["format"] != "wallkit-run":
             raise WallkitError("this is no run", code="bad-run", file=name, fix=fix)
         return _run_of(value, read_scene(data, file=name).scene)
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError) as error:
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError, OverflowError) as error:
         raise WallkitError(f"this is no run: {error}", code="bad-run", file=name, fix=fix) from error
 
 

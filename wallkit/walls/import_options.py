@@ -14,6 +14,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Literal, NamedTuple, TypedDict
 
 from importers.page_choice import PageChoice
+from wallkit import arguments
 from wallkit.walls.repairing.passes import Repairs
 from wallkit.walls.walls import Sides, WallsError
 
@@ -184,11 +185,10 @@ class ImportOptions:
         return {name: value for name, value in pairs if value != getattr(usual, name)}
 
     def _number(self, name: str, least: float, above: bool = False) -> None:
-        value = getattr(self, name)
-        real = not isinstance(value, bool) and isinstance(value, int | float) and math.isfinite(value)
-        if not real or value < least or (above and value == least):
-            raise self._wrong(name, f"give a number {'above' if above else 'from'} {least:g}")
-        object.__setattr__(self, name, float(value))
+        may_be = f"a number {'above' if above else 'from'} {least:g}"
+        at_least = math.nextafter(least, math.inf) if above else least
+        found = arguments.number(getattr(self, name), name, may_be, error=WallsError, code="bad-option", least=at_least)
+        object.__setattr__(self, name, found)
 
     def _word(self, name: str, words: tuple[str, ...]) -> None:
         if getattr(self, name) not in words:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -94,9 +95,11 @@ class Marker:
         """Read one.
 
         Raises:
-            ValueError: the kind is none.
+            ValueError: the kind is none, or a number is not finite.
         """
         if entry["kind"] not in ("spawn", "target"):
             raise ValueError(f"a marker's kind is {entry['kind']!r}, not spawn or target")
         x, y, radius = float(entry["x"]), float(entry["y"]), float(entry.get("radius", 0))
+        if not all(map(math.isfinite, (x, y, radius))):
+            raise ValueError(f"a marker is at {x}, {y} with radius {radius}")
         return Marker(entry["kind"], str(entry.get("name", "")), x, y, radius)

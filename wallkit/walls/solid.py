@@ -14,13 +14,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from importers.drawing import DrawnPath
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.globs import fits
 
 if TYPE_CHECKING:
     from wallkit.walls.edge_tree import Edges
@@ -156,17 +156,17 @@ def _named(nested: Nested, name: str) -> Solid:
     from wallkit.walls.walls import WallsError
 
     closed = np.flatnonzero(nested.edges.closed).tolist()
-    fits = [
+    named = [
         index
         for index in closed
-        if any(fnmatchcase(called, name) for called in (nested.paths[index].name, plain_name(nested.paths[index].name)))
+        if any(fits(called, name) for called in (nested.paths[index].name, plain_name(nested.paths[index].name)))
     ]
-    if not fits:
+    if not named:
         known = ", ".join(sorted({repr(nested.paths[index].name) for index in closed if nested.paths[index].name}))
         raise WallsError(
             f"no closed wall has the name {name!r}", code="no-such-wall", fix=f"the names are: {known[:500] or 'none'}"
         )
-    odd = nested.depth[fits] % 2 == 1
+    odd = nested.depth[named] % 2 == 1
     if odd.any() and not odd.all():
         raise WallsError(
             f"of the walls named {name!r} one is inside another: not all can be rooms",

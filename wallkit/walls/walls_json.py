@@ -127,7 +127,7 @@ def from_json(value: Any, file: str = "") -> Walls:
     except WallsError as error:
         error.file = error.file or file
         raise
-    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError, OverflowError) as error:
         what = f"{error.args[0]!r} is missing" if isinstance(error, KeyError) else str(error)
         raise WallsError(f"not walls: {what}", code="bad-walls", file=file, fix="see docs/walls.md") from error
 
@@ -145,7 +145,7 @@ def _from_json(value: Any) -> Walls:
     walls.measured_normal_error = None if normal_error is None else float(normal_error)
     source = value.get("source", {})
     walls.source_file, walls.source_sha256 = str(source.get("file", "")), str(source.get("sha256", ""))
-    walls.problems = [Problem(**problem) for problem in value.get("problems", [])]
+    walls.problems = [Problem.of_json(problem) for problem in value.get("problems", [])]
     solid = value.get("solid")
     walls.solid = None if solid is None else Solid(bool(solid["room"]), solid["how"], str(solid["why"]))
     walls.markers = tuple(Marker.of_json(marker) for marker in value.get("markers", []))

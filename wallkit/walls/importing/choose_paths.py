@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 
 from importers.drawing import Drawing, DrawnPath
 from importers.problems import Problem
+from wallkit.globs import fits
 from wallkit.walls.import_options import ImportOptions
 from wallkit.walls.importing.drawn_balls import DrawnBall, marks_a_ball
 from wallkit.walls.roles import plain_name, role_of, tag_problems
@@ -107,7 +107,7 @@ def _on_layer(path: DrawnPath, globs: Sequence[str]) -> bool:
 
 def _fits(name: str, glob: str) -> bool:
     """Tell whether a glob fits a name, with the words in it or without."""
-    return fnmatchcase(name, glob) or fnmatchcase(plain_name(name), glob)
+    return fits(name, glob) or fits(plain_name(name), glob)
 
 
 def _check_globs(drawing: Drawing, globs: Sequence[str] | None) -> None:
