@@ -2,7 +2,7 @@
 
 Left alone, Numba makes machine code of each function that a kernel calls, and links what is optimised already into each
 of its callers, which optimise it again: as often as calls are deep. Here the kernels that are called are only lowered;
-passes over many balls alone are optimised before, for in the midst of their callers fewer vector instructions serve them.
+passes over many balls alone are optimised before: in the midst of their callers vector instructions serve them less.
 """
 
 from __future__ import annotations
