@@ -29,6 +29,7 @@ KEPT = 4
 
 _marked: list[Callable[..., Any]] = []
 _rare: list[Callable[..., Any]] = []
+_passes: list[Callable[..., Any]] = []
 _compiling, _loading = threading.Lock(), threading.Lock()
 _refusing = threading.local()
 
@@ -42,6 +43,12 @@ def kernel(function: Function) -> Function:
 def rare_kernel(function: Function) -> Function:
     """Mark a kernel that is seldom called: it stays a call, which keeps compiling short."""
     _rare.append(function)
+    return function
+
+
+def pass_kernel(function: Function) -> Function:
+    """Mark a kernel that is a loop over many balls: vector instructions serve it best where it is optimised alone."""
+    _passes.append(function)
     return function
 
 
@@ -111,15 +118,17 @@ def _compile(entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Code:
     import numba  # no kernel allocates, so none counts references (_nrt): that alone is a factor of two
     from numba.extending import register_jitable
 
+    from wallkit.kernels.one_module import PartCompiler, whole_of
+
     _register_all(register_jitable)
     intrinsics.register()
-    dispatcher: Any = numba.njit(nogil=True, error_model="numpy", **BARE)(entry)
+    dispatcher: Any = numba.njit(nogil=True, error_model="numpy", pipeline_class=PartCompiler, **BARE)(entry)
     types = tuple(map(numba_type, kinds))
     dispatcher.compile(types)
     made = dispatcher.overloads[types]
-    library, (name, image) = made.library, entry_of(made.fndesc.llvm_func_name, kinds)
-    images = library._get_compiled_object(), image
-    return Code(name, result_of(made.signature.return_type), images, needs_of(library._final_module))
+    image, module = whole_of(made.library)
+    name, called = entry_of(made.fndesc.llvm_func_name, kinds)
+    return Code(name, result_of(made.signature.return_type), (image, called), needs_of(module))
 
 
 BARE: dict[str, Any] = {"_nrt": False, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
@@ -153,10 +162,14 @@ def never_compiling() -> Iterator[None]:
 
 def _register_all(register: Callable[..., Any]) -> None:
     """Tell Numba of the kernels marked since the last time: some modules are imported after the first compiling."""
+    from wallkit.kernels.one_module import PartCompiler, PassCompiler
+
     while _marked:
-        register(forceinline=True, **BARE)(_marked.pop())
+        register(forceinline=True, pipeline_class=PartCompiler, **BARE)(_marked.pop())
+    while _passes:
+        register(forceinline=True, pipeline_class=PassCompiler, **BARE)(_passes.pop())
     while _rare:
-        register(**BARE)(_rare.pop())
+        register(pipeline_class=PartCompiler, **BARE)(_rare.pop())
 
 
 def cache_folder() -> Path:

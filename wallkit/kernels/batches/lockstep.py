@@ -56,7 +56,7 @@ from wallkit.kernels.batches.lockstep_straight import WIDER, ask_straight, bounc
 from wallkit.kernels.flight.damping import free_time
 from wallkit.kernels.flight.flight import FALLING_OVER, flown_on, fly, has_left, tolerance_of
 from wallkit.kernels.flight.gravity import kept_energy
-from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.jit import kernel, pass_kernel, rare_kernel
 from wallkit.kernels.records import (
     AT_REST,
     BOUNCE_LIMIT,
@@ -186,7 +186,7 @@ def _list_rows(model, restitution, rows):
             rows[k, 4], rows[k, 5] = restitution[2 * wall], restitution[2 * wall + 1]
 
 
-@kernel
+@pass_kernel
 def _look_up(gravity, restitution, s, met, rows):
     """Fetch the rows of what the balls meet; any for those that meet nothing."""
     # A gather. What is no row is below 0 and takes row 0, whose normal nobody uses.
@@ -270,7 +270,7 @@ def _finish(model, damping, s, i, until):
     s[ENDING + i] = float(ending)
 
 
-@kernel
+@pass_kernel
 def _list_ended(s, ended, flying):
     """List the lanes whose balls have ended: how many."""
     count = 0

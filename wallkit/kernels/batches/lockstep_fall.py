@@ -61,7 +61,7 @@ from wallkit.kernels.impact.gravity_impact import fall_corners, hull_of
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.impact.line_impact import slack_of
 from wallkit.kernels.impact.polynomial_roots import NEVER, first_fall_quadratic
-from wallkit.kernels.jit import kernel
+from wallkit.kernels.jit import kernel, pass_kernel
 from wallkit.kernels.records import BOUNCE_LIMIT, FREE, LEFT_SCENE, RUNNING, TIME_REACHED
 
 SMALL = 2.0**-20
@@ -88,7 +88,7 @@ def ask_falling(model, gravity, radius, s, flying):
                 s[ASK + i] = 0.0
 
 
-@kernel
+@pass_kernel
 def _pass_line(s, row, line, one_way, gravity, radius):
     """Let the near side of a line ask all balls, as ``fall_line`` does: how many may meet the far side."""
     ax, ay, nx, ny, length = line.ax, line.ay, line.nx, line.ny, line.length
@@ -138,7 +138,7 @@ def _may_come_back(a, b, c, best):
     return (a < 0.0) & (b > 0.0) & above & (b <= -2.0 * WIDER * a * best) & (by_then <= SMALL * size)
 
 
-@kernel
+@pass_kernel
 def _ask_far_side(s, row, line, gravity, radius):
     """Let the far side of a line ask the few balls that may meet it, as ``fall_line`` does."""
     gx, gy, nx, ny = gravity[0], gravity[1], line.nx, line.ny
@@ -171,7 +171,7 @@ def _from_behind(a, b, c):
     return t if rises else NEVER
 
 
-@kernel
+@pass_kernel
 def _outline(s, gravity, radius):
     """Find the hull of each disc's flight until the contact that it has found, and the box of that."""
     for i in range(LANES):
@@ -188,7 +188,7 @@ def _outline(s, gravity, radius):
         s[ASK + i] = 0.0 if size < math.inf else 2.0 * MANY  # a flight without end may meet all
 
 
-@kernel
+@pass_kernel
 def _pass_corner(s, row, corner):
     """Note which discs may meet a corner before what they have found, by the hull of their flights: ``fall_corners``.
 
@@ -247,7 +247,7 @@ def least_of(ax, ay, bx, by, cx, cy):
     return first if first < last else last
 
 
-@kernel
+@pass_kernel
 def bounce_falling(model, gravity, s, radius, until, limit):
     """Move every ball, turn its velocity where it meets something, and tell which have ended; as ``flight.fly``."""
     lines, most_still = float(model.cells[0].corners), float(still_limit(model.restitution))

@@ -49,7 +49,7 @@ from wallkit.kernels.flight.flight import still_limit
 from wallkit.kernels.flight.motion import NEARLY_ALL, bounced, reflect, squared_after
 from wallkit.kernels.flight.point_in_corner import settle
 from wallkit.kernels.impact.line_impact import scan_corners, scan_point, slack_of
-from wallkit.kernels.jit import kernel, rare_kernel
+from wallkit.kernels.jit import kernel, pass_kernel, rare_kernel
 from wallkit.kernels.records import (
     AMBIGUOUS,
     AMBIGUOUS_CORNER,
@@ -89,7 +89,7 @@ def ask_straight(model, radius, s, until, flying):
                 _answer_disc(model, radius, s, i)
 
 
-@kernel
+@pass_kernel
 def _pass_point(s, row, line, one_way):
     """Let one line ask all points, as ``line_impact.scan_point`` does."""
     ax, ay, bx, by, nx, ny, length = line.ax, line.ay, line.bx, line.by, line.nx, line.ny, line.length
@@ -116,7 +116,7 @@ def _pass_point(s, row, line, one_way):
         s[ASK + i] = 1.0 if (near & other) | (crosses & (closing <= 0.0)) else s[ASK + i]
 
 
-@kernel
+@pass_kernel
 def _pass_disc(s, row, line, one_way, radius):
     """Let one line ask all discs, as ``line_impact.scan_disc`` does."""
     ax, ay, nx, ny, length = line.ax, line.ay, line.nx, line.ny, line.length
@@ -141,14 +141,14 @@ def _pass_disc(s, row, line, one_way, radius):
         s[ROW + i] = row if met else s[ROW + i]
 
 
-@kernel
+@pass_kernel
 def _reach(s):
     """Set how far against its velocity a corner may lie that a disc meets in time: see ``_pass_corner``."""
     for i in range(LANES):
         s[REACH + i] = -(s[BEST + i] * s[ENERGY + i] + s[ROOM + i]) * WIDER
 
 
-@kernel
+@pass_kernel
 def _pass_corner(s, row, corner):
     """Note which discs may meet a corner before what they have found.
 
@@ -202,7 +202,7 @@ def _answer_point(model, s, i, until):
     s[BEST + i], s[ROW + i] = t, row_of(model, feature)
 
 
-@kernel
+@pass_kernel
 def _slow(damping, s, until):
     """Tell what each ball's flight takes, and what part of its speed that leaves, where something slows it down."""
     if damping is None:
@@ -218,7 +218,7 @@ def _slow(damping, s, until):
             s[PASSED + i], s[KEPT + i] = slowed_rolling(damping, s[ENERGY + i], s[BEST + i], most)
 
 
-@kernel
+@pass_kernel
 def _look_ahead(damping, s, until):
     """Begin the next flights: contacts count until time is up, or something has stopped the ball."""
     if damping is None:
@@ -231,7 +231,7 @@ def _look_ahead(damping, s, until):
             s[BEST + i] = free_time_rolling(damping, s[ENERGY + i], s[BEST + i])
 
 
-@kernel
+@pass_kernel
 def bounce_straight(model, damping, restitution, s, radius, until, limit):
     """Move every ball, turn its velocity where it meets something, and tell which have ended; as ``flight.fly``."""
     lines, most_still = float(model.cells[0].corners), float(still_limit(restitution))
