@@ -89,11 +89,11 @@ def doubled(x):
 
 @pytest.mark.parametrize("damage", [lambda told: told[:-40], lambda told: b"", lambda told: b"{}\n" + told])
 def test_a_damaged_file_is_compiled_anew(damage, tmp_path, monkeypatch):
-    from wallkit.kernels.jit import MachineCode, cache_folder
+    from wallkit.kernels.jit import MachineCode, own_folder
 
     monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
     assert MachineCode(doubled)(3) == 6
-    file = file_of(cache_folder(), doubled, kinds_of((3,)))
+    file = file_of(own_folder(), doubled, kinds_of((3,)))
     good = file.read_bytes()
     file.write_bytes(damage(good))
     assert read(file) is None
@@ -103,11 +103,11 @@ def test_a_damaged_file_is_compiled_anew(damage, tmp_path, monkeypatch):
 
 
 def test_machine_code_that_needs_what_nobody_provides_is_compiled_anew(tmp_path, monkeypatch):
-    from wallkit.kernels.jit import MachineCode, cache_folder
+    from wallkit.kernels.jit import MachineCode, own_folder
 
     monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
     assert MachineCode(doubled)(3) == 6
-    file = file_of(cache_folder(), doubled, kinds_of((3,)))
+    file = file_of(own_folder(), doubled, kinds_of((3,)))
     code = read(file)
     assert code is not None
     write(file, code._replace(needs=("no_library_has_this_function",)))
@@ -162,11 +162,11 @@ def mantissa(x):
 
 
 def test_what_machine_code_needs_is_noted(tmp_path, monkeypatch):
-    from wallkit.kernels.jit import MachineCode, cache_folder
+    from wallkit.kernels.jit import MachineCode, own_folder
 
     monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
     assert MachineCode(mantissa)(3.0) == 0.75
-    code = read(file_of(cache_folder(), mantissa, kinds_of((3.0,))))
+    code = read(file_of(own_folder(), mantissa, kinds_of((3.0,))))
     assert code is not None
     assert code.needs == ("numba_frexp",)
 

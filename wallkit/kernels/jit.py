@@ -8,7 +8,6 @@ point; kernels that it calls are compiled with it. No fastmath: both forms give 
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import os
 import shutil
 import sys
@@ -19,7 +18,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from wallkit.kernels import intrinsics
-from wallkit.kernels.machine_code import Code, entry_of, file_of, loaded, needs_of, read, write
+from wallkit.kernels.machine_code import Code, entry_of, file_of, loaded, needs_of, processor, read, sources, write
+from wallkit.kernels.shipped_code import shipped_folders
 from wallkit.kernels.signatures import Kind, Told, numba_type, result_of, taken
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -63,15 +63,16 @@ class MachineCode:
         Raises:
             NotCompiledError: where nothing may be compiled, see :func:`never_compiling`.
         """
-        file = file_of(cache_folder(), self._entry, kinds)
-        if (code := read(file)) is not None:
-            return self._load(code, kinds)
+        for folder in _folders():
+            if (code := read(file_of(folder, self._entry, kinds))) is not None:
+                return self._load(code, kinds)
         if getattr(_refusing, "now", False):
             raise NotCompiledError
+        file = file_of(own_folder(), self._entry, kinds)
         with _compiling:
             if kinds not in self._ready:  # no other thread has compiled it meanwhile
                 if (code := read(file)) is None:
-                    _tell_once(file.parent)
+                    _tell_once(cache_folder())
                     code = _compile(self._entry, kinds)
                     write(file, code)
                 self._load(code, kinds)
@@ -82,6 +83,17 @@ class MachineCode:
             if kinds not in self._ready:
                 self._ready[kinds] = loaded(code, kinds)
             return self._ready[kinds]
+
+
+def _folders() -> Iterator[Path]:
+    """Give the folders in which machine code may lie: those of the wheel, then the user's, which need not be there."""
+    yield from shipped_folders()
+    yield own_folder()
+
+
+def own_folder() -> Path:
+    """Give the folder of what is compiled here; of one cache, several kinds of machines may have their own."""
+    return cache_folder() / processor()
 
 
 @cache
@@ -97,8 +109,9 @@ def _tell_once(folder: Path) -> None:
 def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     """Give the machine-code twin of a kernel; the first call of a new signature compiles, or loads from disk.
 
-    Machine code lies in a folder named by a digest of all kernel sources, for a kernel changes with those that it
-    calls. ``WALLKIT_CACHE_DIR`` moves it; where no folder can be written, compiled code lasts as long as the process.
+    What does not come with the wheel is kept in a folder named by a digest of all kernel sources, for a kernel changes
+    with those that it calls. ``WALLKIT_CACHE_DIR`` moves it; where no folder can be written, compiled code lasts as
+    long as the process.
     With ``NUMBA_DISABLE_JIT`` set there is none, and the kernel itself is called.
     """
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
@@ -161,18 +174,9 @@ def _register_all(register: Callable[..., Any]) -> None:
 
 def cache_folder() -> Path:
     """Give the folder of the machine code of these very kernels."""
-    own = _cache_home() / f"kernels-{_sources()}"
+    own = _cache_home() / f"kernels-{sources()}"
     _clear_older(own)
     return own
-
-
-@cache
-def _sources() -> str:
-    digest = hashlib.sha256()
-    folder = Path(__file__).parent
-    for path in sorted(folder.rglob("*.py")):  # kernels live in subfolders too
-        digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 @cache

@@ -26,6 +26,10 @@ def warm(scene: Scene) -> None:
     """
     if not len(scene.balls):
         return
+    if scene.meeting:  # all its balls, which must not overlap
+        simulate(scene, bounces=1, mode="compiled")
+        survey(scene, bounces=1)
+        return
     simulate(_with_balls(scene, 1), bounces=1, mode="compiled")
     for count in (1, max(WORTH_A_WAVE, WORTH_LOCKSTEP)):  # one by one, and in lockstep or as a wave
         survey(_with_balls(scene, count), bounces=1)

@@ -1,0 +1,56 @@
+"""Machine code that comes with a wheel: compiled when it was made, for each of a few levels of processors.
+
+A wheel made on Linux for x86-64 has it (``build_backend.py``); a checkout has not. All levels give the same bits: LLVM
+fuses, reorders and approximates nothing that it is not told to, and kernels do not tell it to (no fastmath).
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from functools import cache
+from pathlib import Path
+
+LEVELS = {
+    "x86-64-v3": "avx avx2 bmi bmi2 cx16 f16c fma lzcnt movbe popcnt sahf sse3 sse4.1 sse4.2 ssse3",
+    "x86-64-v2": "cx16 popcnt sahf sse3 sse4.1 sse4.2 ssse3",
+}
+"""The levels of processors that wheels have machine code for, best first, with what each has as LLVM names it: those
+that the x86-64 psABI defines. None has AVX-512: for kernels it is no faster."""
+SHIPPED = Path(__file__).parent / "shipped"
+
+
+def has_levels() -> bool:
+    """Tell whether this is where machine code is shipped for: Linux on x86-64."""
+    return sys.platform == "linux" and os.uname().machine == "x86_64" and sys.maxsize > 2**32
+
+
+def settings_for(level: str) -> dict[str, str]:
+    """Give what to set for Numba so that it compiles for a level, whatever processor compiles."""
+    return {"NUMBA_CPU_NAME": level, "NUMBA_CPU_FEATURES": "", "NUMBA_DISABLE_INTEL_SVML": "1"}
+
+
+@cache
+def shipped_folders() -> tuple[Path, ...]:
+    """Give the folders of shipped machine code that this processor can run, the fastest first.
+
+    Those of other sources do not count: the digest of the kernels' sources, which are how they are called too, is in
+    the name. Nor do any where something is set for Numba, which compiles something else then.
+    """
+    from wallkit.kernels.machine_code import settings, sources  # NumPy, which is not yet there when a wheel is begun
+
+    made = SHIPPED / f"kernels-{sources()}"
+    if not has_levels() or settings() or not made.is_dir():
+        return ()
+    features = _features()
+    return tuple(made / level for level, needs in LEVELS.items() if features.issuperset(needs.split()))
+
+
+def _features() -> set[str]:
+    """What this processor has, and the system lets programs use."""
+    from llvmlite import binding
+
+    try:
+        return {name for name, there in binding.get_host_cpu_features().items() if there}
+    except RuntimeError:  # LLVM does not know
+        return set()
