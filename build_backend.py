@@ -65,7 +65,7 @@ class Kernels(BuildHookInterface):
         told = f"with kernels for {' and '.join(done)}" if done else "pure: no kernels could be compiled"
         self.app.display_info(f"wallkit: the wheel is {told}")
 
-    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:  # noqa: ARG002
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
         """Tidy up."""
         if (made := getattr(self, "_made", None)) is not None:
             shutil.rmtree(made, ignore_errors=True)
@@ -76,8 +76,8 @@ class Kernels(BuildHookInterface):
         paths = os.pathsep.join(filter(None, [str(ROOT), *sys.path]))
         here = {"WALLKIT_CACHE_DIR": str(self._made / level), "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"}
         with (self._made / f"{level}.log").open("wb") as log:
-            command = [sys.executable, "-m", "wallkit", "warm"]
-            return subprocess.Popen(command, cwd=ROOT, env={**others, **here, **settings_for(level)}, stdout=log, stderr=log)
+            command, env = [sys.executable, "-m", "wallkit", "warm"], {**others, **here, **settings_for(level)}
+            return subprocess.Popen(command, cwd=ROOT, env=env, stdout=log, stderr=log)
 
     def _taken(self, level: str, process: subprocess.Popen[bytes]) -> bool:
         """Wait for what compiles, and take over what it made."""

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from wallkit.kernels import intrinsics
+from wallkit.kernels.compile_whole import BARE, compile_whole
 from wallkit.kernels.machine_code import Code, entry_of, file_of, loaded, needs_of, processor, read, sources, write
 from wallkit.kernels.shipped_code import shipped_folders
 from wallkit.kernels.signatures import Kind, Told, numba_type, result_of, taken
@@ -120,23 +121,14 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _compile(entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Code:
-    """Let Numba compile a kernel: its function alone, without what would call it from Python."""
-    import numba  # no kernel allocates, so none counts references (_nrt): that alone is a factor of two
+    """Compile a kernel, and what calls it with words."""
     from numba.extending import register_jitable
 
     _register_all(register_jitable)
     intrinsics.register()
-    dispatcher: Any = numba.njit(nogil=True, error_model="numpy", **BARE)(entry)
-    types = tuple(map(numba_type, kinds))
-    dispatcher.compile(types)
-    made = dispatcher.overloads[types]
-    library, (name, image) = made.library, entry_of(made.fndesc.llvm_func_name, kinds)
-    images = library._get_compiled_object(), image
-    return Code(name, result_of(made.signature.return_type), images, needs_of(library._final_module))
-
-
-BARE: dict[str, Any] = {"_nrt": False, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-"""Kernels allocate nothing, so that none counts references, and are called by other kernels or by their address."""
+    made = compile_whole(entry, tuple(map(numba_type, kinds)))
+    name, image = entry_of(made.symbol, kinds)
+    return Code(name, result_of(made.returned), (made.image, image), needs_of(made.module))
 
 
 def compile_for(entry: Callable[..., Any], *kinds: Kind) -> None:

@@ -42,8 +42,13 @@ def shipped_folders() -> tuple[Path, ...]:
     made = SHIPPED / f"kernels-{sources()}"
     if not has_levels() or settings() or not made.is_dir():
         return ()
+    return tuple(made / level for level in levels_here())
+
+
+def levels_here() -> list[str]:
+    """Give the levels that this processor belongs to, best first."""
     features = _features()
-    return tuple(made / level for level, needs in LEVELS.items() if features.issuperset(needs.split()))
+    return [level for level, needs in LEVELS.items() if features.issuperset(needs.split())]
 
 
 def _features() -> set[str]:

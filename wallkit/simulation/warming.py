@@ -7,9 +7,30 @@ from dataclasses import replace
 import numpy as np
 
 from wallkit.scene.scene import Balls, Scene
+from wallkit.simulation.modelled import BRUTE_FORCE
 from wallkit.simulation.simulate import simulate
 from wallkit.simulation.survey import survey
 from wallkit.simulation.survey_backends import WORTH_A_WAVE, WORTH_LOCKSTEP
+from wallkit.walls import Walls
+
+
+def plain_scenes() -> list[tuple[str, Scene]]:
+    """Give the scenes that people begin with, one of each kind: a name, and a ball between walls where nothing more acts.
+
+    Where walls are many there is an index, which points and discs among few do without.
+    """
+    room = Walls.from_polylines([[(-9.0, -9.0), (-9.0, 9.0), (9.0, 9.0), (9.0, -9.0)]])
+    stadium = Walls.from_polylines([room.vertices], bulges=[[-1.0, 0.0, -1.0, 0.0]])
+    angle = np.linspace(0.0, 2.0 * np.pi, 2 * BRUTE_FORCE, endpoint=False)
+    ring = Walls.from_polylines([9.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1)])
+    kinds = (("few lines", room, 0.0), ("few lines", room, 1.0), ("arcs", stadium, 0.0), ("arcs", stadium, 1.0),
+             ("many lines", ring, 0.0), ("many lines", ring, 1.0))  # fmt: skip
+    found = []
+    for gravity in (None, (0.0, -1.0)):
+        for name, walls, radius in kinds:
+            what = f"{name}, {'a disc' if radius else 'a point'}{'' if gravity is None else ', gravity'}"
+            found.append((what, Scene(walls, Balls([(1.0, 2.0)], [(3.0, 4.0)], radius), gravity=gravity)))
+    return found
 
 
 def warm(scene: Scene) -> None:
