@@ -15,7 +15,7 @@ from wallkit.walls import Walls
 
 
 def plain_scenes() -> list[tuple[str, Scene]]:
-    """Give the scenes that people begin with, one of each kind: a name, and a ball between walls where nothing more acts.
+    """Give the scenes that people begin with, one of each kind: a name, and a ball between walls, with gravity or not.
 
     Where walls are many there is an index, which points and discs among few do without.
     """
