@@ -190,3 +190,36 @@ def test_once_compiled_a_survey_needs_no_numba(tmp_path):
     )
     assert first == [again[0], True]
     assert again[1] is False
+
+
+@kernel
+def inner(x):
+    return x * x + 1.0
+
+
+@kernel
+def outer(x):
+    return inner(x) - inner(0.5 * x)
+
+
+def test_a_kernel_is_optimised_once_with_all_that_it_calls(tmp_path, monkeypatch):
+    import numba
+    from numba.core import codegen
+    from numba.core.registry import cpu_target
+
+    from wallkit.kernels.jit import MachineCode
+
+    optimised = []
+    optimise = codegen.CPUCodeLibrary._optimize_final_module
+
+    def counted(library):
+        optimised.append(library.name)
+        optimise(library)
+
+    monkeypatch.setattr(codegen.CPUCodeLibrary, "_optimize_final_module", counted)
+    monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
+    theirs = cpu_target.typing_context, cpu_target.target_context
+    assert MachineCode(outer)(3.0) == outer(3.0)
+    assert optimised == ["outer"]
+    assert (cpu_target.typing_context, cpu_target.target_context) == theirs
+    assert numba.njit(lambda x: 2 * x)(3) == 6

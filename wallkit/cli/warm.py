@@ -35,7 +35,7 @@ def warm(
         if not scene.meeting:
             warm_aim(scene)
         typer.echo(f"{time.perf_counter() - began:.1f} s" if len(scene.balls) else "no ball, nothing to compile")
-    typer.echo(f"what was compiled is kept in {cache_folder()}")
+    typer.echo(f"what is compiled here is kept in {cache_folder()}")
 
 
 def _scenes(files: list[str]) -> Iterator[tuple[str, Scene]]:
