@@ -81,12 +81,12 @@ class Kernels(BuildHookInterface):
 
     def _taken(self, level: str, process: subprocess.Popen[bytes]) -> bool:
         """Wait for what compiles, and take over what it made."""
-        if process.wait():
+        failed, found = process.wait(), [*(self._made / level).glob("kernels-*/*/")]
+        if failed or len(found) != 1:
             told = (self._made / f"{level}.log").read_text(errors="replace")
             self.app.display_warning(f"wallkit: kernels could not be compiled for {level}:\n{told[-2000:]}")
             return False
-        (made,) = (self._made / level).glob("kernels-*/*/")
-        target = self._made / "shipped" / made.parent.name / level
+        target = self._made / "shipped" / found[0].parent.name / level
         target.parent.mkdir(parents=True, exist_ok=True)
-        made.rename(target)
+        found[0].rename(target)
         return True
