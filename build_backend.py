@@ -23,7 +23,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 ROOT = Path(__file__).resolve().parent
 sys.path.insert(0, str(ROOT))
 
-from wallkit.kernels.shipped_code import LEVELS, has_levels, settings_for  # noqa: E402  needs nothing but Python
+from wallkit.kernels.shipped_code import has_levels, levels_here, settings_for  # noqa: E402  needs nothing but Python
 
 TAG = "py3-none-manylinux_2_17_x86_64"
 """Any Python; machine code takes square roots and copies of memory from the C library, which all versions have."""
@@ -57,7 +57,7 @@ class Kernels(BuildHookInterface):
             self.app.display_info("wallkit: a pure wheel; kernels are compiled when they are first used")
             return
         self._made = Path(tempfile.mkdtemp(prefix="wallkit-kernels-"))
-        running = {level: self._begin(level) for level in LEVELS}  # side by side
+        running = {level: self._begin(level) for level in levels_here()}  # side by side
         done = [level for level, process in running.items() if self._taken(level, process)]
         if done:
             build_data["force_include"][str(self._made / "shipped")] = "wallkit/kernels/shipped"

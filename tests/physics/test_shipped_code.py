@@ -74,7 +74,7 @@ def compiled_here(home):
 @pytest.mark.parametrize("level", LEVELS)
 def test_each_level_gives_the_bits_of_the_interpreted_kernel(level, installed, monkeypatch):
     if not shipped_code._features().issuperset(LEVELS[level].split()):
-        pytest.skip(f"this processor is none of {level}")
+        pytest.skip(f"this processor is not of {level}")
     monkeypatch.setattr(shipped_code, "LEVELS", {level: LEVELS[level]})
     here, there = arguments(), arguments()
     assert MachineCode(blended)(*here) == blended(*there)
@@ -83,7 +83,8 @@ def test_each_level_gives_the_bits_of_the_interpreted_kernel(level, installed, m
 
 
 @pytest.mark.parametrize(
-    ("lacks", "levels"), [([], list(LEVELS)), (["avx2"], [BASELINE]), (["sse4.2"], [])], ids=["none", "avx2", "sse4.2"]
+    ("lacks", "levels"),
+    [([], list(LEVELS)), (["avx512f"], ["x86-64-v3", BASELINE]), (["avx2"], [BASELINE]), (["sse4.2"], [])],
 )
 def test_a_processor_gets_the_levels_of_which_it_has_everything(lacks, levels, installed, monkeypatch):
     everything = {name for needs in LEVELS.values() for name in needs.split()}

@@ -11,12 +11,11 @@ import sys
 from functools import cache
 from pathlib import Path
 
-LEVELS = {
-    "x86-64-v3": "avx avx2 bmi bmi2 cx16 f16c fma lzcnt movbe popcnt sahf sse3 sse4.1 sse4.2 ssse3",
-    "x86-64-v2": "cx16 popcnt sahf sse3 sse4.1 sse4.2 ssse3",
-}
+_V2 = "cx16 popcnt sahf sse3 sse4.1 sse4.2 ssse3"
+_V3 = f"{_V2} avx avx2 bmi bmi2 f16c fma lzcnt movbe"
+LEVELS = {"x86-64-v4": f"{_V3} avx512bw avx512cd avx512dq avx512f avx512vl", "x86-64-v3": _V3, "x86-64-v2": _V2}
 """The levels of processors that wheels have machine code for, best first, with what each has as LLVM names it: those
-that the x86-64 psABI defines. None has AVX-512: for kernels it is no faster."""
+that the x86-64 psABI defines. Vectors of 8, 4 and 2 numbers: each halves what a bounce among many walls takes."""
 SHIPPED = Path(__file__).parent / "shipped"
 
 
@@ -27,7 +26,8 @@ def has_levels() -> bool:
 
 def settings_for(level: str) -> dict[str, str]:
     """Give what to set for Numba so that it compiles for a level, whatever processor compiles."""
-    return {"NUMBA_CPU_NAME": level, "NUMBA_CPU_FEATURES": "", "NUMBA_DISABLE_INTEL_SVML": "1"}
+    wide = "-prefer-256-bit" if level == "x86-64-v4" else ""  # LLVM would take vectors of 4 where there are 8
+    return {"NUMBA_CPU_NAME": level, "NUMBA_CPU_FEATURES": wide, "NUMBA_DISABLE_INTEL_SVML": "1"}
 
 
 @cache

@@ -32,12 +32,14 @@ def plain_scenes() -> list[tuple[str, Scene]]:
         ("points, gravity", 0.0, 1.0, {"gravity": (0.0, -1.0)}),
         ("discs, gravity", 1.0, 1.0, {"gravity": (0.0, -1.0)}),
         ("restitution", 1.0, 0.9, {}),
+    ]
+    slowed_or_seen: list[tuple[str, float, float, dict[str, Any]]] = [  # among few lines
         ("rolling friction", 1.0, 1.0, {"rolling_friction": 0.1}),
         ("a sensor", 1.0, 1.0, {"sensors": Walls.from_polylines([[(0.1 * x, 0.1 * y) for x, y in SQUARE]])}),
     ]
     found = []
     for shape, vertices, bulges in shapes:
-        for what, radius, restitution, acts in kinds:
+        for what, radius, restitution, acts in (*kinds, *(slowed_or_seen if shape == "few lines" else ())):
             walls = Walls.from_polylines([vertices], bulges=bulges, material=Material(restitution, restitution))
             found.append((f"{shape}, {what}", Scene(walls, Balls([(1.0, 2.0)], [(3.0, 4.0)], radius), **acts)))
     return found
