@@ -15,7 +15,7 @@ _V2 = "cx16 popcnt sahf sse3 sse4.1 sse4.2 ssse3"
 _V3 = f"{_V2} avx avx2 bmi bmi2 f16c fma lzcnt movbe"
 LEVELS = {"x86-64-v4": f"{_V3} avx512bw avx512cd avx512dq avx512f avx512vl", "x86-64-v3": _V3, "x86-64-v2": _V2}
 """The levels of processors that wheels have machine code for, best first, with what each has as LLVM names it: those
-that the x86-64 psABI defines. Vectors of 8, 4 and 2 numbers: each halves what a bounce among many walls takes."""
+that the x86-64 psABI defines. Vectors of 8, 4 and 2 numbers: what they bring is in docs/performance.md."""
 SHIPPED = Path(__file__).parent / "shipped"
 
 
