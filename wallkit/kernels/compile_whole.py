@@ -95,27 +95,28 @@ def _parts_stay_as_they_are() -> Iterator[None]:
 @cache
 def _contexts() -> tuple[Any, Any]:
     """Give Numba's contexts of typing and translating, in which parts are neither optimised nor made ready to run."""
-    from numba.core import codegen, cpu, typing
+    from numba.core import codegen, cpu
+    from numba.core.typing.context import Context as Typing
 
-    class Part(codegen.JITCodeLibrary):  # type: ignore[misc]
+    class Part(codegen.JITCodeLibrary):
         def finalize(self) -> None:
             self._finalized = True
 
         def get_pointer_to_function(self, name: str) -> int:
             return 0  # as of what has no wrapper for Python
 
-    class Translating(codegen.JITCPUCodegen):  # type: ignore[misc]
+    class Translating(codegen.JITCPUCodegen):
         _library_class = Part
 
         def set_env(self, name: str, env: Any) -> None:
             """What is not made ready to run has no environment."""
 
-    class Context(cpu.CPUContext):  # type: ignore[misc]
+    class Context(cpu.CPUContext):
         def init(self) -> None:
             super().init()
             self._internal_codegen = Translating("wallkit")
 
-    ours = typing.Context()
+    ours = Typing()
     return ours, Context(ours, "cpu")
 
 
