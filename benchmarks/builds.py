@@ -49,7 +49,7 @@ def beside(commit: str, *, same_environment: bool = False) -> Iterator[tuple[Bui
         tree = folder / "build"
         subprocess.run(["git", "worktree", "add", "-q", "--detach", str(tree), commit], cwd=ROOT, check=True)
         try:
-            python = sys.executable if same_environment else _environment(folder / "environment", tree)
+            python = sys.executable if same_environment else environment(folder / "environment", tree)
             yield (
                 Build(ROOT, sys.executable, {"WALLKIT_CACHE_DIR": str(folder / "kernels-here")}),
                 Build(tree, python, {"WALLKIT_CACHE_DIR": str(folder / "kernels-there")}),
@@ -58,7 +58,8 @@ def beside(commit: str, *, same_environment: bool = False) -> Iterator[tuple[Bui
             subprocess.run(["git", "worktree", "remove", "--force", str(tree)], cwd=ROOT, check=True)
 
 
-def _environment(folder: Path, tree: Path) -> str:
+def environment(folder: Path, tree: Path) -> str:
+    """Make a virtual environment with what a tree or a wheel holds; give its Python."""
     subprocess.run([sys.executable, "-m", "venv", str(folder)], check=True)
     python = str(folder / ("Scripts" if sys.platform == "win32" else "bin") / "python")
     subprocess.run([python, "-m", "pip", "install", "-q", str(tree)], check=True)

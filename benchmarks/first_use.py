@@ -1,22 +1,25 @@
 """What people wait for before balls fly, beside another build: ``python benchmarks/first_use.py COMMIT``.
 
     python benchmarks/first_use.py COMMIT [--same-environment] [NAME ...]
+    python benchmarks/first_use.py COMMIT [--same-environment] --wheel WHEEL [NAME ...]
 
 Processor seconds of whole processes, the median of turns in which both builds run one after the other: a survey with an
 empty kernel cache (once), the same again, ``simulate`` of a small drawing (with its kernels on the disk), ``check`` of
-10,000 edges, and surveys of 10,000 edges with the index made in each call. ``report`` is ``report --quick`` with an
-empty cache; name it to have it, it takes minutes.
+10,000 edges, and surveys of 10,000 edges with the index made in each call. ``aside`` is what else one may begin with,
+an aim, a ``World(compile=True)`` and ``simulate``, and ``report`` is ``report --quick``, both with an empty cache; name
+them to have them, they take minutes. With ``--wheel`` this build is that wheel, installed into a new environment.
 """
 
 from __future__ import annotations
 
 import json
 import math
+import shutil
 import sys
 import tempfile
 from pathlib import Path
 
-from builds import Build, beside, medians
+from builds import ROOT, Build, beside, environment, medians
 
 TURNS = 5
 
@@ -33,6 +36,19 @@ angle = np.random.default_rng(1).uniform(0, 2 * np.pi, 20000)
 velocity = 50 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 balls = wallkit.Balls(np.tile([start], (20000, 1)), velocity, 2)
 wallkit.survey(wallkit.Scene(walls, balls, gravity=(0, -100) if kind == "gravity" else None), until=20.0)
+"""
+
+ASIDE = """
+import sys
+import wallkit
+walls = wallkit.Walls.from_polylines([[[0, 0], [0, 300], [400, 300], [400, 0]]])
+scene = wallkit.Scene(walls, wallkit.Balls([(200, 150)], [(30, 40)], 2))
+if sys.argv[1] == "aim":
+    wallkit.aim(scene, (200, 150), (50, 60, 5), bounces=3, radius=2)
+elif sys.argv[1] == "world":
+    wallkit.World(scene, compile=True).step(10)
+else:
+    wallkit.simulate(scene, bounces=50)
 """
 
 WHOLE = """
@@ -68,6 +84,19 @@ def surveys(builds: tuple[Build, Build]) -> None:
         arguments = ["-c", SURVEY, kind, "samples"]
         row(f"first survey, {kind}", [[build.seconds(arguments)[0] for build in builds]])
         row(f"again, {kind}", [[build.seconds(arguments)[0] for build in builds] for _ in range(TURNS)])
+
+
+def aside(builds: tuple[Build, Build]) -> None:
+    """What else one may begin with, each with a cache of its own."""
+    for kind in ("aim", "world", "simulate"):
+        with tempfile.TemporaryDirectory() as folder:
+            cache = [str(Path(folder) / str(number)) for number in range(2)]
+            turns = [
+                [build.seconds(["-c", ASIDE, kind], WALLKIT_CACHE_DIR=cache[k])[0] for k, build in enumerate(builds)]
+                for _ in range(2)
+            ]
+            row(f"first {kind}", turns[:1])
+            row(f"{kind} again", turns[1:])
 
 
 def commands(builds: tuple[Build, Build]) -> None:
@@ -111,16 +140,29 @@ def report(builds: tuple[Build, Build]) -> None:
         row("report --quick, first", [turns])
 
 
-PARTS = {"surveys": surveys, "commands": commands, "whole": whole, "report": report}
+PARTS = {"surveys": surveys, "aside": aside, "commands": commands, "whole": whole, "report": report}
+
+
+def installed(wheel: str, folder: Path) -> Build:
+    """Give a wheel as a build: in an environment of its own, beside the samples, with a cache that is empty."""
+    here = folder / "installed"
+    here.mkdir()
+    shutil.copytree(ROOT / "samples", here / "samples")
+    return Build(here, environment(folder / "venv", Path(wheel)), {"WALLKIT_CACHE_DIR": str(here / "kernels")})
 
 
 def main() -> None:
     """Print the table."""
+    wheel = sys.argv.pop(sys.argv.index("--wheel") + 1) if "--wheel" in sys.argv else None
     words = [word for word in sys.argv[1:] if not word.startswith("--")]
     if not words:
         sys.exit(__doc__)
     print("| | this build | that build | times faster |\n|" + "---|" * 4)
-    with beside(words[0], same_environment="--same-environment" in sys.argv) as builds:
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        beside(words[0], same_environment="--same-environment" in sys.argv) as (here, there),
+    ):
+        builds = (installed(wheel, Path(folder)) if wheel else here, there)
         for name in words[1:] or ["surveys", "commands", "whole"]:
             PARTS[name](builds)
 

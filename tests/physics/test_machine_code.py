@@ -89,11 +89,11 @@ def doubled(x):
 
 @pytest.mark.parametrize("damage", [lambda told: told[:-40], lambda told: b"", lambda told: b"{}\n" + told])
 def test_a_damaged_file_is_compiled_anew(damage, tmp_path, monkeypatch):
-    from wallkit.kernels.jit import MachineCode, cache_folder
+    from wallkit.kernels.jit import MachineCode, own_folder
 
     monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
     assert MachineCode(doubled)(3) == 6
-    file = file_of(cache_folder(), doubled, kinds_of((3,)))
+    file = file_of(own_folder(), doubled, kinds_of((3,)))
     good = file.read_bytes()
     file.write_bytes(damage(good))
     assert read(file) is None
@@ -103,11 +103,11 @@ def test_a_damaged_file_is_compiled_anew(damage, tmp_path, monkeypatch):
 
 
 def test_machine_code_that_needs_what_nobody_provides_is_compiled_anew(tmp_path, monkeypatch):
-    from wallkit.kernels.jit import MachineCode, cache_folder
+    from wallkit.kernels.jit import MachineCode, own_folder
 
     monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
     assert MachineCode(doubled)(3) == 6
-    file = file_of(cache_folder(), doubled, kinds_of((3,)))
+    file = file_of(own_folder(), doubled, kinds_of((3,)))
     code = read(file)
     assert code is not None
     write(file, code._replace(needs=("no_library_has_this_function",)))
@@ -162,11 +162,11 @@ def mantissa(x):
 
 
 def test_what_machine_code_needs_is_noted(tmp_path, monkeypatch):
-    from wallkit.kernels.jit import MachineCode, cache_folder
+    from wallkit.kernels.jit import MachineCode, own_folder
 
     monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
     assert MachineCode(mantissa)(3.0) == 0.75
-    code = read(file_of(cache_folder(), mantissa, kinds_of((3.0,))))
+    code = read(file_of(own_folder(), mantissa, kinds_of((3.0,))))
     assert code is not None
     assert code.needs == ("numba_frexp",)
 
@@ -190,3 +190,36 @@ def test_once_compiled_a_survey_needs_no_numba(tmp_path):
     )
     assert first == [again[0], True]
     assert again[1] is False
+
+
+@kernel
+def inner(x):
+    return x * x + 1.0
+
+
+@kernel
+def outer(x):
+    return inner(x) - inner(0.5 * x)
+
+
+def test_a_kernel_is_optimised_once_with_all_that_it_calls(tmp_path, monkeypatch):
+    import numba
+    from numba.core import codegen
+    from numba.core.registry import cpu_target
+
+    from wallkit.kernels.jit import MachineCode
+
+    optimised = []
+    optimise = codegen.CPUCodeLibrary._optimize_final_module
+
+    def counted(library):
+        optimised.append(library.name)
+        optimise(library)
+
+    monkeypatch.setattr(codegen.CPUCodeLibrary, "_optimize_final_module", counted)
+    monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path))
+    theirs = cpu_target.typing_context, cpu_target.target_context
+    assert MachineCode(outer)(3.0) == outer(3.0)
+    assert optimised == ["outer"]
+    assert (cpu_target.typing_context, cpu_target.target_context) == theirs
+    assert numba.njit(lambda x: 2 * x)(3) == 6

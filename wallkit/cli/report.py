@@ -37,7 +37,7 @@ def report(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Write the figures as JSON on standard output.")] = False,
     quick: Annotated[
-        bool, typer.Option("--quick", help="Fewer scenes and settings: some 15 s, on first use a minute more.")
+        bool, typer.Option("--quick", help="Fewer scenes and settings: some 15 s, more on first use without a wheel.")
     ] = False,
     hard: Annotated[bool, typer.Option("--hard", help="Run the cases with known answers instead.")] = False,
     scene: Annotated[

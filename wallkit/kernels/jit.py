@@ -8,7 +8,6 @@ point; kernels that it calls are compiled with it. No fastmath: both forms give 
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import os
 import shutil
 import sys
@@ -19,7 +18,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from wallkit.kernels import intrinsics
-from wallkit.kernels.machine_code import Code, entry_of, file_of, loaded, needs_of, read, write
+from wallkit.kernels.machine_code import Code, entry_of, file_of, loaded, needs_of, processor, read, sources, write
+from wallkit.kernels.shipped_code import shipped_folders
 from wallkit.kernels.signatures import Kind, Told, numba_type, result_of, taken
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -70,15 +70,16 @@ class MachineCode:
         Raises:
             NotCompiledError: where nothing may be compiled, see :func:`never_compiling`.
         """
-        file = file_of(cache_folder(), self._entry, kinds)
-        if (code := read(file)) is not None:
-            return self._load(code, kinds)
+        for folder in _folders():
+            if (code := read(file_of(folder, self._entry, kinds))) is not None:
+                return self._load(code, kinds)
         if getattr(_refusing, "now", False):
             raise NotCompiledError
+        file = file_of(own_folder(), self._entry, kinds)
         with _compiling:
             if kinds not in self._ready:  # no other thread has compiled it meanwhile
                 if (code := read(file)) is None:
-                    _tell_once(file.parent)
+                    _tell_once(cache_folder())
                     code = _compile(self._entry, kinds)
                     write(file, code)
                 self._load(code, kinds)
@@ -89,6 +90,17 @@ class MachineCode:
             if kinds not in self._ready:
                 self._ready[kinds] = loaded(code, kinds)
             return self._ready[kinds]
+
+
+def _folders() -> Iterator[Path]:
+    """Give the folders in which machine code may lie: those of the wheel, then the user's, which need not be there."""
+    yield from shipped_folders()
+    yield own_folder()
+
+
+def own_folder() -> Path:
+    """Give the folder of what is compiled here; of one cache, several kinds of machines may have their own."""
+    return cache_folder() / processor()
 
 
 @cache
@@ -104,8 +116,9 @@ def _tell_once(folder: Path) -> None:
 def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     """Give the machine-code twin of a kernel; the first call of a new signature compiles, or loads from disk.
 
-    Machine code lies in a folder named by a digest of all kernel sources, for a kernel changes with those that it
-    calls. ``WALLKIT_CACHE_DIR`` moves it; where no folder can be written, compiled code lasts as long as the process.
+    What does not come with the wheel is kept in a folder named by a digest of all kernel sources, for a kernel changes
+    with those that it calls. ``WALLKIT_CACHE_DIR`` moves it; where no folder can be written, compiled code lasts as
+    long as the process.
     With ``NUMBA_DISABLE_JIT`` set there is none, and the kernel itself is called.
     """
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
@@ -114,25 +127,16 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _compile(entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Code:
-    """Let Numba compile a kernel: its function alone, without what would call it from Python."""
-    import numba  # no kernel allocates, so none counts references (_nrt): that alone is a factor of two
+    """Compile a kernel, and what calls it with words."""
     from numba.extending import register_jitable
 
-    from wallkit.kernels.one_module import PartCompiler, whole_of
+    from wallkit.kernels.one_module import compile_whole
 
     _register_all(register_jitable)
     intrinsics.register()
-    dispatcher: Any = numba.njit(nogil=True, error_model="numpy", pipeline_class=PartCompiler, **BARE)(entry)
-    types = tuple(map(numba_type, kinds))
-    dispatcher.compile(types)
-    made = dispatcher.overloads[types]
-    image, module = whole_of(made.library)
-    name, called = entry_of(made.fndesc.llvm_func_name, kinds)
-    return Code(name, result_of(made.signature.return_type), (image, called), needs_of(module))
-
-
-BARE: dict[str, Any] = {"_nrt": False, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-"""Kernels allocate nothing, so that none counts references, and are called by other kernels or by their address."""
+    made = compile_whole(entry, tuple(map(numba_type, kinds)))
+    name, called = entry_of(made.symbol, kinds)
+    return Code(name, result_of(made.returned), (made.image, called), needs_of(made.module))
 
 
 def compile_for(entry: Callable[..., Any], *kinds: Kind) -> None:
@@ -162,7 +166,7 @@ def never_compiling() -> Iterator[None]:
 
 def _register_all(register: Callable[..., Any]) -> None:
     """Tell Numba of the kernels marked since the last time: some modules are imported after the first compiling."""
-    from wallkit.kernels.one_module import PartCompiler, PassCompiler
+    from wallkit.kernels.one_module import BARE, PartCompiler, PassCompiler
 
     while _marked:
         register(forceinline=True, pipeline_class=PartCompiler, **BARE)(_marked.pop())
@@ -174,18 +178,9 @@ def _register_all(register: Callable[..., Any]) -> None:
 
 def cache_folder() -> Path:
     """Give the folder of the machine code of these very kernels."""
-    own = _cache_home() / f"kernels-{_sources()}"
+    own = _cache_home() / f"kernels-{sources()}"
     _clear_older(own)
     return own
-
-
-@cache
-def _sources() -> str:
-    digest = hashlib.sha256()
-    folder = Path(__file__).parent
-    for path in sorted(folder.rglob("*.py")):  # kernels live in subfolders too
-        digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 @cache

@@ -25,7 +25,7 @@ FINE = (0, -2)
 """What a kernel's call returns when nothing was raised: it has a result, or it has none."""
 WORD = 8
 """Bytes of a word."""
-SILENT = ("NUMBA_CACHE_DIR", "NUMBA_NUM_THREADS")
+SILENT = ("NUMBA_CACHE_DIR", "NUMBA_DISABLE_JIT", "NUMBA_NUM_THREADS")
 """Settings of Numba that make no difference to machine code."""
 
 
@@ -46,25 +46,38 @@ class Code(NamedTuple):
 
 
 def file_of(folder: Path, entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Path:
-    """Name the file of a kernel's machine code for this processor."""
-    digest = hashlib.sha256(f"{_processor()}{kinds!r}".encode()).hexdigest()
+    """Name the file of a kernel's machine code, in a folder of what is made for one processor."""
+    digest = hashlib.sha256(repr(kinds).encode()).hexdigest()
     return folder / f"{entry.__module__.rpartition('.')[2]}.{entry.__qualname__}-{digest[:24]}.code"
 
 
 @cache
-def _processor() -> str:
-    """Describe what machine code is made for: the processor, and what may have been set for Numba."""
+def sources() -> str:
+    """Give the digest of all kernels' sources: a kernel changes with those that it calls, and with how it is called."""
+    digest = hashlib.sha256()
+    folder = Path(__file__).parent
+    for path in sorted(folder.rglob("*.py")):  # kernels live in subfolders too
+        digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+@cache
+def processor() -> str:
+    """Name what machine code is made for here: a digest of the processor, and of what may have been set for Numba."""
     import llvmlite
     from llvmlite import binding
 
-    told = [
-        f"{name}={value}"
-        for name, value in sorted(os.environ.items())
-        if name.startswith("NUMBA_") and name not in SILENT
-    ]
+    told = settings()
     with contextlib.suppress(RuntimeError):  # LLVM does not know what this processor has
         told.append(binding.get_host_cpu_features().flatten())
-    return "\n".join([llvmlite.__version__, binding.get_process_triple(), binding.get_host_cpu_name(), *told])
+    told += [llvmlite.__version__, binding.get_process_triple(), binding.get_host_cpu_name()]
+    return hashlib.sha256("\n".join(told).encode()).hexdigest()[:12]
+
+
+def settings() -> list[str]:
+    """Give what is set for Numba and makes a difference to machine code."""
+    named = sorted((name, value) for name, value in os.environ.items() if name.startswith("NUMBA_"))
+    return [f"{name}={value}" for name, value in named if name not in SILENT]
 
 
 def needs_of(module: Any) -> tuple[str, ...]:

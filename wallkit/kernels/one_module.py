@@ -7,16 +7,22 @@ passes over many balls alone are optimised before: in the midst of their callers
 
 from __future__ import annotations
 
+import contextlib
+import gc
 import operator
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
+import numba
 from numba.core import ir, types
 from numba.core.codegen import CodeLibrary, JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import FunctionPass, register_pass
 from numba.core.untyped_passes import RewriteSemanticConstants
+
+BARE: dict[str, Any] = {"_nrt": False, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+"""Kernels allocate nothing, so that none counts references, and are called by other kernels or by their address."""
 
 
 class Part(JITCodeLibrary):
@@ -105,10 +111,44 @@ class PassCompiler(PartCompiler):
     library = PassPart
 
 
-def whole_of(library: Part) -> tuple[bytes, Any]:
-    """Link a kernel with all that it calls: its object file, and the module that it was made from."""
-    _link(library)
-    return library._codegen._tm.emit_object(library._final_module), library._final_module
+class Whole(NamedTuple):
+    """A kernel that is compiled.
+
+    Attributes:
+        symbol: its name.
+        returned: Numba's type of what it returns.
+        image: the object file, as bytes.
+        module: of LLVM, optimised.
+    """
+
+    symbol: str
+    returned: Any
+    image: bytes
+    module: Any
+
+
+def compile_whole(entry: Callable[..., Any], kinds: tuple[Any, ...]) -> Whole:
+    """Compile a kernel, with all that it calls, for arguments of Numba's types."""
+    with _no_garbage_collected():
+        dispatcher: Any = numba.njit(nogil=True, error_model="numpy", pipeline_class=PartCompiler, **BARE)(entry)
+        dispatcher.compile(kinds)
+        made = dispatcher.overloads[kinds]
+        _link(made.library)
+        module = made.library._final_module
+        image = made.library._codegen._tm.emit_object(module)
+    return Whole(made.fndesc.llvm_func_name, made.signature.return_type, image, module)
+
+
+@contextlib.contextmanager
+def _no_garbage_collected() -> Iterator[None]:
+    """What Numba makes is kept anyway: looking through all of it again and again takes a sixth of the time."""
+    was = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was:
+            gc.enable()
 
 
 def _link(library: Part) -> None:

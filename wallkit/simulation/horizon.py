@@ -41,7 +41,8 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import circles
 from wallkit.kernels.flight.error_growth import BOUNCES, LEAVES, PASSES, SLIDES, SLOWS, STOPS, carry, stretch
 from wallkit.kernels.flight.flight import FALLING_TOLERANCE
-from wallkit.kernels.jit import compiled
+from wallkit.kernels.jit import compile_for, compiled
+from wallkit.kernels.signatures import kinds_of
 from wallkit.scene.scene import Scene
 from wallkit.simulation.damping import damping_of, on_a_free_clock, slowing_of
 from wallkit.simulation.glide_errors import COLUMNS, glides_of
@@ -142,13 +143,24 @@ def predicted_errors(
     Returns:
         Two arrays (n,), in the drawing's units; infinite once that is no number any more.
     """
-    course = _course(scene, own, ball)
-    fresh = _roundings(scene, own, course, ball) if source == "rounding" else drawing_errors(scene, own)
-    variance = np.full(len(own), np.inf)
-    _kernel(carry, len(own))(*course, fresh, variance)
+    carried = _carried(scene, own, ball, source)
+    variance = carried[-1]
+    _kernel(carry, len(own))(*carried)
     variance[~(variance >= 0.0)] = np.inf  # overflown on the way: beyond any promise
     rms = np.sqrt(variance)
     return rms, SURE * rms
+
+
+def _carried(scene: Scene, own: Any, ball: int, source: ErrorSource) -> tuple[Any, ...]:
+    """What the kernel takes that carries errors along; the last is where variances go."""
+    course = _course(scene, own, ball)
+    fresh = _roundings(scene, own, course, ball) if source == "rounding" else drawing_errors(scene, own)
+    return (*course, fresh, np.full(len(own), np.inf))
+
+
+def warm_horizon(scene: Scene, contacts: Any) -> None:
+    """Compile what a long run's horizon takes in scenes like this one, of which these are some ball's contacts."""
+    compile_for(carry, *kinds_of(_carried(scene, contacts[contacts["kind"] < ENTER], 0, "rounding")))
 
 
 def growth(scene: Scene, own: Any, ball: int = 0) -> FloatArray:
