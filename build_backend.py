@@ -1,8 +1,9 @@
-"""How wheels are made: hatchling's way, and on Linux x86-64 with kernels compiled for several levels of processors.
+"""How wheels are made: hatchling's way, and on Linux x86-64 with compiled kernels.
 
-Nobody who installs such a wheel waits for a compiler. Wherever kernels cannot be compiled (another platform, an
-editable install, a compiler that fails, ``WALLKIT_PURE_WHEEL`` set) a pure wheel comes out, whose kernels are compiled
-when they are first used.
+Nobody who installs such a wheel waits for a compiler. ``WALLKIT_WHEEL_KERNELS`` says for which levels of processors:
+``here`` for the best one of this machine, which is what is done unless it is set, ``all`` for those up to it, as
+releases have them, ``none`` for none. Then, and wherever kernels cannot be compiled (another platform, an editable
+install, a compiler that fails), a pure wheel comes out, whose kernels are compiled when they are first used.
 """
 
 from __future__ import annotations
@@ -43,7 +44,14 @@ def _dependencies() -> list[str]:
 
 
 def _compiles() -> bool:
-    return has_levels() and platform.libc_ver()[0] == "glibc" and not os.environ.get("WALLKIT_PURE_WHEEL")
+    wanted = os.environ.get("WALLKIT_WHEEL_KERNELS", "here")
+    if wanted not in ("here", "all", "none"):
+        raise SystemExit(f"WALLKIT_WHEEL_KERNELS is {wanted!r}: make it here, all or none")
+    return has_levels() and platform.libc_ver()[0] == "glibc" and wanted != "none"
+
+
+def _levels() -> list[str]:
+    return levels_here() if os.environ.get("WALLKIT_WHEEL_KERNELS") == "all" else levels_here()[:1]
 
 
 class Kernels(BuildHookInterface):
@@ -57,8 +65,7 @@ class Kernels(BuildHookInterface):
             self.app.display_info("wallkit: a pure wheel; kernels are compiled when they are first used")
             return
         self._made = Path(tempfile.mkdtemp(prefix="wallkit-kernels-"))
-        running = {level: self._begin(level) for level in levels_here()}  # side by side
-        done = [level for level, process in running.items() if self._taken(level, process)]
+        done = [level for level in _levels() if self._compile(level)]
         if done:
             build_data["force_include"][str(self._made / "shipped")] = "wallkit/kernels/shipped"
             build_data["pure_python"], build_data["tag"] = False, TAG
@@ -70,20 +77,16 @@ class Kernels(BuildHookInterface):
         if (made := getattr(self, "_made", None)) is not None:
             shutil.rmtree(made, ignore_errors=True)
 
-    def _begin(self, level: str) -> subprocess.Popen[bytes]:
-        """Compile what ``wallkit warm`` does, for a level instead of this processor."""
+    def _compile(self, level: str) -> bool:
+        """Compile what ``wallkit warm`` does, for a level instead of this processor; take over what it made."""
         others = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
         paths = os.pathsep.join(filter(None, [str(ROOT), *sys.path]))
         here = {"WALLKIT_CACHE_DIR": str(self._made / level), "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"}
-        with (self._made / f"{level}.log").open("wb") as log:
-            command, env = [sys.executable, "-m", "wallkit", "warm"], {**others, **here, **settings_for(level)}
-            return subprocess.Popen(command, cwd=ROOT, env=env, stdout=log, stderr=log)
-
-    def _taken(self, level: str, process: subprocess.Popen[bytes]) -> bool:
-        """Wait for what compiles, and take over what it made."""
-        failed, found = process.wait(), [*(self._made / level).glob("kernels-*/*/")]
-        if failed or len(found) != 1:
-            told = (self._made / f"{level}.log").read_text(errors="replace")
+        command, env = [sys.executable, "-m", "wallkit", "warm"], {**others, **here, **settings_for(level)}
+        ran = subprocess.run(command, cwd=ROOT, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        found = [*(self._made / level).glob("kernels-*/*/")]
+        if ran.returncode or len(found) != 1:
+            told = ran.stdout.decode(errors="replace")
             self.app.display_warning(f"wallkit: kernels could not be compiled for {level}:\n{told[-2000:]}")
             return False
         target = self._made / "shipped" / found[0].parent.name / level

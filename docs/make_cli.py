@@ -37,7 +37,8 @@ def _section(name: str, command: Any) -> str:
 
 def _argument(one: Any) -> str:
     word = (one.metavar or one.name.upper()).strip("{}[]")
-    return word if one.required else f"[{word}]"
+    many = "..." if one.nargs != 1 else ""
+    return f"{word}{many}" if one.required else f"[{word}]{many}"
 
 
 def _names(one: Any) -> str:

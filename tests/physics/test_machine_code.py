@@ -223,3 +223,31 @@ def test_a_kernel_is_optimised_once_with_all_that_it_calls(tmp_path, monkeypatch
     assert optimised == ["outer"]
     assert (cpu_target.typing_context, cpu_target.target_context) == theirs
     assert numba.njit(lambda x: 2 * x)(3) == 6
+
+
+COMPILE_AND_NOTE = """
+import sys
+import wallkit.kernels.jit as jit
+from tests.physics.test_machine_code import doubled
+
+really = jit._compile
+
+
+def compile_and_note(*arguments):
+    with open(sys.argv[1], "a") as notes:
+        notes.write("compiled\\n")
+    return really(*arguments)
+
+
+jit._compile = compile_and_note
+assert jit.MachineCode(doubled)(3) == 6
+"""
+
+
+def test_of_processes_that_want_the_same_kernel_one_compiles(tmp_path):
+    path = {"WALLKIT_CACHE_DIR": str(tmp_path / "home"), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    command = [sys.executable, "-c", COMPILE_AND_NOTE, str(tmp_path / "notes")]
+    processes = [subprocess.Popen(command, env={**os.environ, **path}) for _ in range(3)]
+    assert [process.wait() for process in processes] == [0, 0, 0]
+    assert (tmp_path / "notes").read_text() == "compiled\n"
+    assert not [*tmp_path.rglob("*.lock")]

@@ -30,7 +30,7 @@ def register(app: typer.Typer) -> None:
 def play(
     files: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[FILE]...", help="Drawing, walls or scene to open; without one, lessons and samples."),
+        typer.Argument(metavar="FILE", help="Drawing, walls or scene to open; without one, lessons and samples."),
     ] = None,
     port: Annotated[int, typer.Option(help="Port on this machine; 0 is any free one.", min=0, max=65535)] = 0,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open it in the browser.")] = True,

@@ -29,7 +29,7 @@ def register(app: typer.Typer) -> None:
 @options.with_import_options()
 def report(
     file: Annotated[
-        str | None, typer.Argument(metavar="[FILE]", help="Drawing, walls or scene; without one the built-in scenes.")
+        str | None, typer.Argument(metavar="FILE", help="Drawing, walls or scene; without one the built-in scenes.")
     ] = None,
     out: Annotated[
         list[str] | None,

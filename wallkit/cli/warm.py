@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import time
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
     from wallkit.scene.scene import Scene
+
+FITTING = "arcs for drawings of many curves"
+MEMORY = 4
+"""Processes that compile at once, at most, where nobody says how many: each takes up to a gigabyte."""
 
 
 def register(app: typer.Typer) -> None:
@@ -20,41 +24,62 @@ def register(app: typer.Typer) -> None:
 def warm(
     files: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[FILE]...", help="Drawings, walls or scenes; if none, plain rooms and the samples."),
+        typer.Argument(metavar="FILE", help="Drawings, walls or scenes; if none, plain rooms and the samples."),
+    ] = None,
+    processes: Annotated[
+        int | None,
+        typer.Option(
+            min=1, help=f"Processes that compile, each a gigabyte; as many as processors, up to {MEMORY}, if not given."
+        ),
     ] = None,
 ) -> None:
     """Compile what flights and aims in such levels need and keep it on disk: for images, CI and the first lesson."""
-    from wallkit.kernels.jit import cache_folder
-    from wallkit.levels.aim import warm_aim
-    from wallkit.simulation.warming import warm as warm_scene
-    from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_a_few
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
 
-    for name, scene in _scenes(files) if files else _usual_scenes():
-        typer.echo(f"{name} ... ", nl=False)
-        began = time.perf_counter()
-        warm_scene(scene)
-        if not scene.meeting:
-            warm_aim(scene)
-        typer.echo(f"{time.perf_counter() - began:.1f} s" if len(scene.balls) else "no ball, nothing to compile")
-    typer.echo("arcs for drawings of many curves ... ", nl=False)
-    began = time.perf_counter()
-    fit_a_few()
-    typer.echo(f"{time.perf_counter() - began:.1f} s")
+    from wallkit.kernels.jit import cache_folder
+
+    names = [*(files or _usual()), FITTING]
+    if files:
+        for file in files:
+            _opened(file)  # what cannot be opened is told before anything is compiled
+    count = min(processes or min(os.cpu_count() or 1, MEMORY), len(names))
+    with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as workers:
+        for name, said in zip(names, workers.map(warmed, names), strict=True):
+            typer.echo(f"{name} ... {said}")
     typer.echo(f"what is compiled here is kept in {cache_folder()}")
 
 
-def _scenes(files: list[str]) -> Iterator[tuple[str, Scene]]:
+def warmed(name: str) -> str:
+    """Compile for a scene or a task of that name; how long it took, in words."""
+    from wallkit.levels.aim import warm_aim
+    from wallkit.simulation.warming import plain_scenes
+    from wallkit.simulation.warming import warm as warm_scene
+    from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_a_few
+
+    began = time.perf_counter()
+    if name == FITTING:
+        fit_a_few()
+    else:
+        scene = dict(plain_scenes()).get(name) or _opened(name)
+        if not len(scene.balls):
+            return "no ball, nothing to compile"
+        warm_scene(scene)
+        if not scene.meeting:
+            warm_aim(scene)
+    return f"{time.perf_counter() - began:.1f} s"
+
+
+def _opened(file: str) -> Scene:
     from wallkit.cli.scene_input import opened
     from wallkit.scene.wishes import Wishes
 
-    for file in files:
-        yield file, opened(file, Wishes(may_be_empty=True)).scene
+    return opened(file, Wishes(may_be_empty=True)).scene
 
 
-def _usual_scenes() -> Iterator[tuple[str, Scene]]:
-    """Give what most people meet; a wheel comes with the kernels for it."""
+def _usual() -> list[str]:
+    """Name what most people meet; a wheel comes with the kernels for it."""
     from wallkit.scene.samples import shown
     from wallkit.simulation.warming import plain_scenes
 
-    yield from plain_scenes()
-    yield from _scenes([str(sample.path) for sample in shown()])
+    return [*(name for name, _ in plain_scenes()), *(str(sample.path) for sample in shown())]

@@ -18,7 +18,18 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from wallkit.kernels import intrinsics
-from wallkit.kernels.machine_code import Code, entry_of, file_of, loaded, needs_of, processor, read, sources, write
+from wallkit.kernels.machine_code import (
+    Code,
+    alone,
+    entry_of,
+    file_of,
+    loaded,
+    needs_of,
+    processor,
+    read,
+    sources,
+    write,
+)
 from wallkit.kernels.shipped_code import shipped_folders
 from wallkit.kernels.signatures import Kind, Told, numba_type, result_of, taken
 
@@ -78,10 +89,11 @@ class MachineCode:
         file = file_of(own_folder(), self._entry, kinds)
         with _compiling:
             if kinds not in self._ready:  # no other thread has compiled it meanwhile
-                if (code := read(file)) is None:
-                    _tell_once(cache_folder())
-                    code = _compile(self._entry, kinds)
-                    write(file, code)
+                _tell_once(cache_folder())
+                with alone(file):
+                    if (code := read(file)) is None:  # nor another process
+                        code = _compile(self._entry, kinds)
+                        write(file, code)
                 self._load(code, kinds)
             return self._ready[kinds]
 

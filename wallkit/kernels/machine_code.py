@@ -11,9 +11,10 @@ import hashlib
 import json
 import os
 import struct
+import sys
 import threading
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from itertools import accumulate, pairwise
 from pathlib import Path
@@ -133,6 +134,27 @@ def write(file: Path, code: Code) -> None:
             part.replace(file)
         finally:
             part.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def alone(file: Path) -> Iterator[None]:
+    """Wait until no other process makes this file; where files cannot be locked, two may do the same work.
+
+    The lock goes when its process ends, however that is. Who waited for one that is taken away finds the file made.
+    """
+    if sys.platform == "win32":
+        yield
+        return
+    import fcntl
+
+    beside = file.with_suffix(".lock")
+    with contextlib.ExitStack() as held:
+        with contextlib.suppress(OSError):
+            beside.parent.mkdir(parents=True, exist_ok=True)
+            lock = held.enter_context(beside.open("wb"))
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            held.callback(beside.unlink, missing_ok=True)
+        yield
 
 
 def entry_of(symbol: str, kinds: tuple[Kind, ...]) -> tuple[str, bytes]:
