@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from importers.drawing import Layer
 from importers.illustrator import findings as common
 from importers.illustrator.text import MAX_STRING_BYTES, string_end
-from importers.limits import MAX_DECODED_BYTES, MAX_DEPTH, MAX_ELEMENTS, MAX_OPERATORS, MAX_REFERENCES, limit_error
+from importers.limits import MAX_DECODED_BYTES, MAX_DEPTH, MAX_ELEMENTS, MAX_OPERATORS, limit_error
 from importers.pdf import findings
 from importers.pdf.document import Document, get, is_stream, items, number, word
 from importers.pdf.layers import OptionalContent
@@ -291,7 +291,6 @@ class PageReader(Painter):
         (name,) = operands[-1:]
         if not isinstance(name, Name):
             raise TypeError(name)
-        self.document.follow("forms drawn on a page", MAX_REFERENCES)
         here = self._frames[-1]
         known = (here.key, name.text)
         if known not in self._drawn:

@@ -102,7 +102,10 @@ REFUSED = {
         "definitions of a PostScript program, at most 100,000",
     ),
     "a name in disguise": ("packed_structure(b'X#52ef', 200_000_000)", "one compressed stream, at most 75 MB"),
-    "nothing, four times, twenty times over": ("pdf(b'/X Do', [b' '] + [b'/X Do ' * 4] * 20)", "forms drawn on a page"),
+    "nothing, four times, twenty times over": (
+        "pdf(b'/X Do', [b' '] + [b'/X Do ' * 4] * 20)",
+        "operators of a drawing, at most 2,000,000",
+    ),
 }
 
 READ = {
