@@ -1,16 +1,20 @@
 """Machine code from the disk: the kinds of arguments that it is found by, and calls without Numba."""
 
+import contextlib
 import io
 import json
 import math
 import os
 import subprocess
 import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 
+from wallkit.kernels import machine_code
 from wallkit.kernels.jit import compiled, kernel
 from wallkit.kernels.machine_code import file_of, read, write
 from wallkit.kernels.signatures import Told, kinds_of, numba_type
@@ -223,6 +227,26 @@ def test_a_kernel_is_optimised_once_with_all_that_it_calls(tmp_path, monkeypatch
     assert optimised == ["outer"]
     assert (cpu_target.typing_context, cpu_target.target_context) == theirs
     assert numba.njit(lambda x: 2 * x)(3) == 6
+
+
+def test_threads_that_load_first_at_the_same_time_load_into_one_engine(monkeypatch):
+    from llvmlite import binding
+
+    both, made = threading.Barrier(2), []
+
+    def make_slowly(*_arguments):
+        with contextlib.suppress(threading.BrokenBarrierError):
+            both.wait(0.5)  # until the other thread is here as well, which it must never be
+        made.append(object())
+        return made[-1]
+
+    monkeypatch.setattr(binding, "create_mcjit_compiler", make_slowly)
+    monkeypatch.setattr(machine_code, "_engines", [])
+    machine_code._machine()
+    with ThreadPoolExecutor(2) as threads:
+        asked = [threads.submit(machine_code._engine) for _ in range(2)]
+    assert {id(one.result()) for one in asked} == {id(made[0])}
+    assert len(made) == 1
 
 
 COMPILE_AND_NOTE = """

@@ -135,7 +135,10 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     """
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
         return lambda *arguments: entry(*(one.value if isinstance(one, Told) else one for one in arguments))
-    return MachineCode(entry)
+    return _twins.setdefault(entry, MachineCode(entry))  # one for all threads, which a cache alone does not promise
+
+
+_twins: dict[Callable[..., Any], MachineCode] = {}
 
 
 def _compile(entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Code:

@@ -222,9 +222,18 @@ def _machine() -> Any:
     return binding.Target.from_triple(binding.get_process_triple()).create_target_machine(jit=True)
 
 
-@cache
 def _engine() -> Any:
-    """Give LLVM's home of machine code: for this process, for good."""
+    """Give LLVM's home of machine code: for this process, for good.
+
+    There is one, whichever threads ask for it first. ``functools.cache`` would make one for each of them and keep the
+    last: with the others the code that was loaded into them would go, while it is called.
+    """
     from llvmlite import binding
 
-    return binding.create_mcjit_compiler(binding.parse_assembly(""), _machine())
+    with _making:
+        if not _engines:
+            _engines.append(binding.create_mcjit_compiler(binding.parse_assembly(""), _machine()))
+        return _engines[0]
+
+
+_making, _engines = threading.Lock(), list[Any]()
