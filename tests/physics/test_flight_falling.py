@@ -7,7 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from wallkit import Balls, Ending, Scene, Walls, simulate, survey
+from wallkit import Balls, Ending, Material, Scene, Walls, simulate, survey
 from wallkit.kernels.impact.gravity_impact import fall_arcs, fall_corners
 from wallkit.kernels.impact.polynomial_roots import NEVER
 from wallkit.kernels.records import NO_HIT, Corner, in_lists
@@ -103,3 +103,57 @@ def test_a_window_of_time_leaves_out_no_contact_in_it(seed):
             assert ask(before * free[0], after * free[0], math.inf) == free
         assert ask(0.0, NEVER, math.nextafter(free[0], math.inf)) == free
     assert found > 100
+
+
+def into_the_tip(seed, restitution, bulge):
+    """A point thrown up into the tip of a random tent, below which there is a floor at y = 0: the tip and its run."""
+    rng = np.random.default_rng(seed)
+    left, opening = rng.uniform(-160.0, -95.0), rng.uniform(20.0, 80.0)
+    sides = np.radians([left, max(left + opening, -85.0)])
+    tip = np.array([rng.uniform(-3.0, 3.0), rng.uniform(8.0, 12.0)])
+    feet = [(tip[0] + tip[1] * math.cos(side) / -math.sin(side), 0.0) for side in sides]
+    walls = Walls.from_polylines([[feet[0], tip, feet[1]]], bulges=[[0.0, bulge, 0.0]], material=Material(restitution))
+    down = np.stack([np.cos(sides), np.sin(sides)], axis=1).sum(axis=0)
+    up = -down / np.hypot(*down) + rng.uniform(-0.01, 0.01, 2)
+    return tip, simulate(Scene(walls, Balls([tip - 2.0 * up], [40.0 * up]), gravity=(0.0, -30.0)), until=20.0)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.1])
+def test_a_point_that_stops_in_the_tip_of_a_ceiling_falls_straight_down_from_it(restitution):
+    # Straight down is within the tip: nothing holds the point there, and it falls h to the floor in sqrt(2 h / g).
+    stopped = 0
+    for seed in range(60):
+        tip, run = into_the_tip(seed, restitution, 0.0)
+        contacts = run.contacts
+        there = np.flatnonzero(np.hypot(contacts["x"] - tip[0], contacts["y"] - tip[1]) < 1e-8)
+        if len(there):
+            last, landed = contacts[there[-1] : there[-1] + 2]
+            assert landed["x"] == pytest.approx(tip[0], abs=1e-6)
+            assert landed["y"] == pytest.approx(0.0, abs=1e-12)
+            assert landed["time"] - last["time"] == pytest.approx(math.sqrt(2.0 * tip[1] / 30.0), abs=1e-6)
+            stopped += 1
+    assert stopped >= 20
+
+
+@pytest.mark.parametrize("bulge", [-0.1, 0.08])
+@pytest.mark.parametrize("restitution", [0.0, 0.1, 0.5])
+def test_points_thrown_into_the_tip_of_a_line_and_an_arc_stay_in_the_tent(restitution, bulge):
+    for seed in range(60):
+        _tip, run = into_the_tip(seed, restitution, bulge)
+        assert run.ending[0] != Ending.LEFT_SCENE, seed
+        assert run.contacts["y"].min() > -1e-9, seed
+
+
+@pytest.mark.parametrize("bulge", [0.0, -0.3, 0.3])
+def test_a_point_that_runs_along_an_overhang_off_its_end_meets_no_face_that_looks_away(bulge):
+    # Restitution 0 sends it along the overhang, 1e-6 before its end: exactly by the corner, from which the room goes
+    # on upwards. It flies on as if nothing were there, and comes down to the floor at (10, 0) to (40, 0).
+    room = [(0.0, 0.0), (0.0, 10.0), (10.0, 14.0), (20.0, 40.0), (40.0, 40.0), (40.0, 0.0)]
+    walls = Walls.from_polylines([room], bulges=[[0.0, bulge / 10, bulge, 0.0, 0.0, 0.0]], material=Material(0.0))
+    for back in np.geomspace(1e-9, 1e-3, 40):
+        way = np.array([10.0, 4.0]) / math.hypot(10.0, 4.0)
+        start = np.array([10.0, 14.0]) - back * way + np.array([0.5, -2.0])
+        velocity = 30.0 * (np.array([10.0, 14.0]) - back * way - start) + (0.0, 0.5)
+        run = simulate(Scene(walls, Balls([start], [velocity]), gravity=(0.0, -30.0)), until=30.0)
+        assert run.ending[0] != Ending.LEFT_SCENE, back
+        assert run.contacts["x"].min() > 0.0, back

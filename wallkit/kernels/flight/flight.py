@@ -8,8 +8,9 @@ from wallkit.kernels.flight.damping import free_time, last_flight, slowed
 from wallkit.kernels.flight.gravity import bounce, facing, fall, first_contact, kept_energy, lifted
 from wallkit.kernels.flight.guide import guide
 from wallkit.kernels.flight.motion import advance
-from wallkit.kernels.flight.point_in_corner import settle
-from wallkit.kernels.flight.resting import held_after, keep, stopped_between
+from wallkit.kernels.flight.obstacles import following, side_after
+from wallkit.kernels.flight.point_in_corner import settle, touching
+from wallkit.kernels.flight.resting import held_after, keep, side_of, stopped_between
 from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.records import (
@@ -24,6 +25,7 @@ from wallkit.kernels.records import (
     EDGE,
     JOINING,
     LEAVING,
+    LEFT,
     LEFT_SCENE,
     LOG,
     LOG_STRIDE,
@@ -98,6 +100,9 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                     break
             if t > 0.0:
                 ball, clock, start = flown(model, gravity, radius, ball, clock, grip, t, passed, slower)
+                if gravity is not None and runs_off(model, gravity, radius, grip, feature, ball, start, tolerance):
+                    grip, last = (grip[0], LEAVING, grip[2], grip[3], grip[4]), grip[0]
+                    continue
         if gravity is not None:
             still = still_now(model.restitution, feature, still, clock, passed, t, ball, tolerance)
             if still > still_limit(model.restitution):
@@ -229,6 +234,40 @@ def flown(model, gravity, radius, ball, clock, grip, t, passed, slower):
 
 
 @kernel
+def runs_off(model, gravity, radius, grip, feature, ball, start, tolerance):
+    """Tell whether a point that left a wall along it only passes that wall's end, where it seems to meet an edge.
+
+    So near to the wall it is on neither side of its end, and may seem to meet the edge that begins there on the face
+    that looks away from it. Round the end, on the point's side of the wall, comes one face: it can meet no other one.
+    """
+    held, hold, side = grip[0], grip[1], grip[2]
+    if radius > 0.0 or hold != LEFT or feature < 0 or feature == held or held < 0:
+        return False
+    x, y, vx, vy, _energy = ball
+    touches, starts, ends = touching(model, model.arcs, held, x, y, tolerance)
+    _touched, from_start, from_end = touching(model, model.arcs, held, start[0], start[1], tolerance)
+    if not touches or not ((starts and not from_start) or (ends and not from_end)):
+        return False
+    end = _end_of(model.arcs, held, starts)
+    joint = model.joints[2 * held + end]
+    if joint.place not in (model.joints[2 * feature].place, model.joints[2 * feature + 1].place):
+        return False
+    next_end = int(following(joint, end, side))
+    nx, ny, _twice = normal_at(model, model.arcs, feature, x, y)
+    nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny)
+    met = side_of(model, model.arcs, feature, x, y, nx, ny)
+    return feature != next_end >> 1 or met != side_after(next_end, end, side)
+
+
+@kernel
+def _end_of(arcs, edge, starts):
+    """Which end of an edge, in the order of its wall, lies where its line or arc starts, or else ends: 0 or 1."""
+    if arcs is not None:
+        starts = starts if arcs[edge].sweep >= 0.0 else not starts
+    return 0 if starts else 1
+
+
+@kernel
 def still_now(restitution, feature, still, clock, passed, t, ball, tolerance):
     """How many contacts in a row, with this one, passed neither time nor space; a collapse counts as too many."""
     # A bounce that moves the clock or the ball by more than rounding starts the count anew.
@@ -247,7 +286,20 @@ def caught(model, gravity, radius, ball, start, grip, last, before, tolerance):
     # Endless bounces in no time take all speed at a wall with restitution: what is left is where forces push it.
     x, y = ball[0], ball[1]
     held, hold, side, ending = stopped_between(model, gravity, radius, last, grip[2], before, x, y, start, tolerance)
-    return (x, y, 0.0, 0.0, kept_energy(gravity, x, y, 0.0, 0.0)), (held, hold, side, grip[3], grip[4]), 0, ending
+    vx, vy = fallen(gravity, tolerance) if hold == LEFT else (0.0, 0.0)
+    return (x, y, vx, vy, kept_energy(gravity, x, y, vx, vy)), (held, hold, side, grip[3], grip[4]), 0, ending
+
+
+@kernel
+def fallen(gravity, tolerance):
+    """Velocity of a ball that has fallen from rest for next to no time: which way it goes from walls that it touches.
+
+    A point at rest on a wall lies on the side from which it is pressed; one that falls out of a corner does not. It
+    falls the tolerance in sqrt(2 tolerance / g); 2^-40 of that is far below the rounding of any clock.
+    """
+    strength = math.sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1])
+    time = 2.0**-40 * math.sqrt(2.0 * tolerance / strength)
+    return time * gravity[0], time * gravity[1]
 
 
 @kernel

@@ -57,8 +57,9 @@ def came_from(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance):
     if side == 0.0 and not touching(model, model.arcs, edge, from_x, from_y, tolerance)[0]:
         side = _side(model, model.arcs, edge, from_x, from_y, 0.0)
     if side == 0.0:
-        # It began on the edge, too: it flew off to the side to which its velocity points.
-        nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
+        # It began on the edge, too: it flew off to the side to which its velocity points there. (Here an arc has turned
+        # by the angle of the way between, far more than what lifts a ball off it that leaves along it.)
+        nx, ny, _twice = normal_at(model, model.arcs, edge, from_x, from_y)
         side = from_vx * nx + from_vy * ny
     return 1.0 if side > 0.0 else -1.0
 
