@@ -2,11 +2,13 @@
 
     python benchmarks/soak.py 1e9
     python benchmarks/soak.py 1e9 --falling
+    python benchmarks/soak.py 1e8 --falling --corners
 
 Each drawing is a star-shaped ring, every second one with some edges bowed into arcs; points and discs take turns. A
 ball is lost if it ends outside its ring by more than the rounding of coordinates, or leaves the scene. With
 ``--falling`` balls fall, walls take from them what they like (restitution 0 to 1, along the wall too), half of the
-drawings have rolling friction or drag, and balls slide, glide, pivot and rest; their energy must never grow.
+drawings have rolling friction or drag, and balls slide, glide, pivot and rest; their energy must never grow. With
+``--corners`` they are thrown at vertices from nearby, some of them exactly.
 """
 
 from __future__ import annotations
@@ -68,7 +70,27 @@ def energies(position, velocity, acts):
     return (velocity**2).sum(axis=1) / 2 - position @ pull
 
 
-def fly(rng, number, falling):
+def scattered(rng, free):
+    """Places anywhere, and velocities of one speed in all directions."""
+    tries = rng.uniform(-100, 100, (200 * BALLS, 2))
+    position = tries[shapely.contains_xy(free, tries[:, 0], tries[:, 1])][:BALLS]
+    angle = rng.uniform(0, 2 * np.pi, len(position))
+    return position, 50.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def thrown_at_corners(rng, points, free, pull):
+    """Places near vertices, and velocities that bring a ball there, exactly or nearly."""
+    corner = points[rng.integers(0, len(points), BALLS)]
+    angle = rng.uniform(0, 2 * np.pi, BALLS)
+    position = corner + rng.uniform(0.5, 8.0, (BALLS, 1)) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    there = shapely.contains_xy(free, position[:, 0], position[:, 1])
+    position, way = position[there], (corner - position)[there]
+    time = np.hypot(*way.T)[:, None] / rng.uniform(5.0, 60.0, (len(way), 1))
+    velocity = way / time - np.array(pull) * time / 2
+    return position, velocity + rng.choice([0.0, 1e-9, 1e-6, 1e-4, 0.05]) * rng.normal(size=way.shape)
+
+
+def fly(rng, number, falling, corners):
     """Fly one drawing: (bounces, lost, drift of the energy, balls that ended in an ambiguous corner)."""
     points, bulges = ring(rng, bowed=number % 2 == 1)
     radius = float(rng.choice([0.0, 0.3, 1.5])) if number % 4 < 2 else 0.0
@@ -76,11 +98,13 @@ def fly(rng, number, falling):
     free = region.buffer(-radius - missed - 1e-6)
     if not region.is_valid or free.is_empty:
         return 0, 0, 0.0, 0
-    tries = rng.uniform(-100, 100, (200 * BALLS, 2))
-    position = tries[shapely.contains_xy(free, tries[:, 0], tries[:, 1])][:BALLS]
-    angle = rng.uniform(0, 2 * np.pi, len(position))
-    velocity = 50.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    if corners:
+        position, velocity = thrown_at_corners(rng, points, free, PULL if falling else (0.0, 0.0))
+    else:
+        position, velocity = scattered(rng, free)
     material, acts = acting(rng) if falling else (wallkit.Material(), {})
+    if not len(position):
+        return 0, 0, 0.0, 0
     walls = wallkit.Walls.from_polylines([points], bulges=[bulges], material=material)
     scene = wallkit.Scene(walls, wallkit.Balls(position, velocity, radius), **acts)
     totals = wallkit.survey(scene, LAST if falling else None, BOUNCES)
@@ -95,6 +119,7 @@ def main():
     options = argparse.ArgumentParser(description="Look for lost balls.")
     options.add_argument("bounces", nargs="?", type=float, default=1e7)
     options.add_argument("--falling", action="store_true")
+    options.add_argument("--corners", action="store_true")
     options.add_argument("--seed", type=int, default=2026)
     given = options.parse_args()
     wanted = int(given.bounces)
@@ -102,7 +127,7 @@ def main():
     bounces = lost = corners = number = 0
     drift, began, told = 0.0, time.time(), 0.0
     while bounces < wanted:
-        more, gone, drifted, ambiguous = fly(rng, number, given.falling)
+        more, gone, drifted, ambiguous = fly(rng, number, given.falling, given.corners)
         bounces, lost, corners, number = bounces + more, lost + gone, corners + ambiguous, number + 1
         drift = max(drift, drifted)
         if time.time() - told > 20 or bounces >= wanted:
