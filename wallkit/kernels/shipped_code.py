@@ -32,7 +32,7 @@ def settings_for(level: str) -> dict[str, str]:
 
 @cache
 def shipped_folders() -> tuple[Path, ...]:
-    """Give the folders of shipped machine code that this processor can run, the fastest first.
+    """Give the folders of shipped machine code that are here and that this processor can run, the fastest first.
 
     Those of other sources do not count: the digest of the kernels' sources, which are how they are called too, is in
     the name. Nor do any where something is set for Numba, which compiles something else then.
@@ -42,7 +42,7 @@ def shipped_folders() -> tuple[Path, ...]:
     made = SHIPPED / f"kernels-{sources()}"
     if not has_levels() or settings() or not made.is_dir():
         return ()
-    return tuple(made / level for level in levels_here())
+    return tuple(folder for level in levels_here() if (folder := made / level).is_dir())
 
 
 def levels_here() -> list[str]:
