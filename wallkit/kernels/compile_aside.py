@@ -12,11 +12,12 @@ import os
 import pickle
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from wallkit.kernels.jit import NotCompiledError, cache_folder, never_compiling
+from wallkit.kernels.machine_code import alone
 
 Task = Callable[..., None]
 _processes: dict[tuple[Any, ...], subprocess.Popen[bytes] | None] = {}
@@ -84,7 +85,7 @@ def main() -> None:
     """Be that process."""
     _be_modest()
     task, *arguments = pickle.load(sys.stdin.buffer)  # of at_hand: nobody else holds the pipe
-    with _alone(cache_folder()):
+    with alone(cache_folder() / "compiling"):
         task(*arguments)
 
 
@@ -97,16 +98,3 @@ def _be_modest() -> None:
     os.nice(NICE)
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
-
-
-@contextlib.contextmanager
-def _alone(folder: Path) -> Iterator[None]:
-    """Wait until nobody else compiles into a folder; where files cannot be locked two may do the same work."""
-    if sys.platform == "win32":
-        yield
-        return
-    import fcntl
-
-    with (folder / "compiling.lock").open("wb") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        yield

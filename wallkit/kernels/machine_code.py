@@ -26,6 +26,8 @@ FINE = (0, -2)
 """What a kernel's call returns when nothing was raised: it has a result, or it has none."""
 WORD = 8
 """Bytes of a word."""
+MOST_WAITING = 100
+"""Processes that may go before one that waits for a lock: beyond, or where links are not counted, it does not wait."""
 SILENT = ("NUMBA_CACHE_DIR", "NUMBA_DISABLE_JIT", "NUMBA_NUM_THREADS")
 """Settings of Numba that make no difference to machine code."""
 
@@ -140,21 +142,27 @@ def write(file: Path, code: Code) -> None:
 def alone(file: Path) -> Iterator[None]:
     """Wait until no other process makes this file; where files cannot be locked, two may do the same work.
 
-    The lock goes when its process ends, however that is. Who waited for one that is taken away finds the file made.
+    The lock goes when its process ends, however that is.
     """
-    if sys.platform == "win32":
-        yield
-        return
-    import fcntl
-
-    beside = file.with_suffix(".lock")
     with contextlib.ExitStack() as held:
         with contextlib.suppress(OSError):
-            beside.parent.mkdir(parents=True, exist_ok=True)
-            lock = held.enter_context(beside.open("wb"))
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            held.callback(beside.unlink, missing_ok=True)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            any(_locked(file.with_suffix(".lock"), held) for _ in range(MOST_WAITING))
         yield
+
+
+def _locked(path: Path, held: contextlib.ExitStack) -> bool:
+    """Lock a file that is made for it, and taken away afterwards; False if who had it before has taken it away."""
+    if sys.platform == "win32":
+        return True
+    import fcntl
+
+    lock = held.enter_context(path.open("wb"))
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    if os.fstat(lock.fileno()).st_nlink == 0:
+        return False
+    held.callback(path.unlink, missing_ok=True)
+    return True
 
 
 def entry_of(symbol: str, kinds: tuple[Kind, ...]) -> tuple[str, bytes]:
