@@ -12,9 +12,9 @@ import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.box_tree import BoxTree
 from wallkit.geometry.ragged import numbered
 from wallkit.geometry.rings import signed_areas
+from wallkit.walls.near_boxes import NearBoxes
 
 _RUN = 8  # edges at most: long enough that runs are few, short enough that their boxes are small
 _FIRST_PORTION = 16  # runs; the next portions are as large as the pairs found let expect
@@ -126,7 +126,7 @@ class EdgeTree:
             self.first, self.goes_on = np.arange(len(rows)), np.zeros(len(rows), dtype=np.bool_)
             self.run_low, self.run_high = self.low, self.high
         self.sizes = np.diff(self.first, append=len(rows))
-        self.tree = BoxTree(self.run_low, self.run_high)
+        self.tree = NearBoxes(self.run_low, self.run_high)
 
     def _boxes(self) -> tuple[FloatArray, FloatArray]:
         """Lowest and highest corner of each run: (2, m) each."""
