@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from importers.drawing import Segment
+from importers.drawing import Segment, Subpath
 
 Matrix = tuple[float, float, float, float, float, float]
 
@@ -76,6 +76,23 @@ def transform(segments: list[Segment], matrix: Matrix) -> list[Segment]:
         else:
             add(_transform_arc(segment, matrix))
     return result
+
+
+def transformed(subpath: Subpath, matrix: Matrix) -> Subpath:
+    """Apply a matrix to a subpath, as :func:`transform` does; one of columns stays one."""
+    if subpath.columns is None:
+        return Subpath(transform(subpath.segments, matrix), subpath.closed)
+    letters, numbers = subpath.columns  # of lines and Bezier curves
+    a, b, c, d, e, f = matrix
+    if matrix == IDENTITY:
+        return Subpath.of_columns(letters, numbers, subpath.closed)
+    if matrix[:4] == IDENTITY[:4]:
+        points = numbers.reshape(-1, 2) + (e, f)
+    else:
+        points = numbers.reshape(-1, 2).copy()
+        x, y = numbers[0::2], numbers[1::2]
+        points[:, 0], points[:, 1] = a * x + c * y + e, b * x + d * y + f
+    return Subpath.of_columns(letters, points.ravel(), subpath.closed)
 
 
 def _moved(segment: Segment, e: float, f: float) -> Segment:

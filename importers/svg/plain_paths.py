@@ -1,0 +1,153 @@
+"""Path data of a whole document at once: the numbers of its long, plain paths, read in whole arrays.
+
+Plain is what drawing programs write most: one subpath of absolute M, L and C, closed by Z or open, and numbers without
+an exponent and of at most 15 digits. Anything else, a fault above all, is left to ``path_data``, which reads letter by
+letter, knows all of the grammar, and says what is wrong where. Both give the same numbers to the bit.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from importers.drawing import Subpath
+
+LEAST = 100
+"""Letters of path data from which on whole arrays are quicker."""
+_AT_ONCE = 1 << 18  # letters: what is made of them stays in the cache
+_MOST_DIGITS = 15
+"""A mantissa of so many is below 2^53 and exact, as is the power of ten below it: their quotient is rounded once."""
+_TENS = 10.0 ** np.arange(_MOST_DIGITS + 1)
+_BETWEEN = b"\0"
+
+# What a byte is
+_OTHER, _SPACE, _COMMA, _LETTER, _DIGIT, _POINT, _MINUS = range(7)
+_KINDS = np.full(256, _OTHER, dtype=np.uint8)
+for _bytes, _kind in ((b" \t\r\n\f", _SPACE), (b",", _COMMA), (b"MLCZz" + _BETWEEN, _LETTER), (b"0123456789", _DIGIT)):
+    _KINDS[list(_bytes)] = _kind
+_KINDS[ord(".")], _KINDS[ord("-")] = _POINT, _MINUS
+# Numbers that a letter takes at a time; 0 for none
+_TAKES = np.zeros(256, dtype=np.int64)
+_TAKES[list(b"MLC")] = 2, 2, 6
+
+_Bools = NDArray[np.bool_]
+_Ints = NDArray[np.int64]
+_Floats = NDArray[np.float64]
+
+
+class PlainPaths:
+    """The plain ones of some path data, read."""
+
+    def __init__(self, texts: Iterable[str]) -> None:
+        """Read those that are long enough."""
+        self._read: dict[str, tuple[bytes, _Floats, bool]] = {}
+        for some in _portions(text for text in texts if LEAST <= len(text) <= _AT_ONCE):
+            self._read.update(_read(some))
+
+    def get(self, text: str) -> Subpath | None:
+        """Give what path data draw; None where they are not among the plain ones."""
+        found = self._read.get(text)
+        return None if found is None else Subpath.of_columns(*found)
+
+
+def _portions(texts: Iterable[str]) -> Iterator[list[str]]:
+    """Give texts some at a time."""
+    some: list[str] = []
+    letters = 0
+    for text in texts:
+        some.append(text)
+        letters += len(text)
+        if letters > _AT_ONCE:
+            yield some
+            some, letters = [], 0
+    if some:
+        yield some
+
+
+def _read(texts: list[str]) -> Iterator[tuple[str, tuple[bytes, _Floats, bool]]]:
+    """Read texts: each plain one with the letters of its segments, its numbers, and whether it closes."""
+    joined = "".join(_BETWEEN.decode() + text for text in texts)
+    data = np.frombuffer(joined.encode("ascii", "replace"), dtype=np.uint8)  # letter by letter
+    kinds = _KINDS[data]
+    in_number = kinds >= _DIGIT
+    starts, stops = _numbers(kinds, in_number)
+    numbers, broken = _values(data, starts, stops)
+    letters = np.flatnonzero(kinds == _LETTER)
+    begins = np.cumsum([0, *(len(text) + 1 for text in texts)])  # of each text, and of what is behind all
+    first = np.searchsorted(letters, begins)  # letter of each text
+    taken = np.searchsorted(starts, letters)  # the number behind each letter
+    counts = np.diff(taken, append=len(starts))
+    plain = np.logical_and.reduceat(_in_order(data[letters], counts), first[:-1])
+    wrong = np.concatenate([_misplaced(kinds), starts[broken]])
+    plain[np.searchsorted(begins, wrong, side="right") - 1] = False
+    takes = np.maximum(_TAKES[data[letters]], 1)
+    drawn = counts // takes  # segments of each letter
+    words = np.repeat(data[letters], drawn).tobytes()
+    at = np.concatenate([[0], np.cumsum(drawn)])[first].tolist()
+    ends = np.append(taken, len(starts))[first].tolist()
+    closed = (data[letters[first[1:] - 1]] | 0x20) == ord("z")
+    columns = zip(texts, plain.tolist(), closed.tolist(), itertools.pairwise(at), itertools.pairwise(ends), strict=True)
+    for text, good, closes, (low, high), (begin, end) in columns:
+        if good and high - low > 1:
+            yield text, (words[low:high], numbers[begin:end], closes)
+
+
+def _numbers(kinds: NDArray[np.uint8], in_number: _Bools) -> tuple[_Ints, _Ints]:
+    """Where numbers begin, and where they end: at what no number has in it, or where a sign begins the next one."""
+    before = np.concatenate([[False], in_number[:-1]])
+    begins = in_number & (~before | (kinds == _MINUS))
+    goes_on = np.concatenate([in_number[1:] & ~begins[1:], [False]])
+    return np.flatnonzero(begins), np.flatnonzero(in_number & ~goes_on) + 1
+
+
+def _values(data: NDArray[np.uint8], starts: _Ints, stops: _Ints) -> tuple[_Floats, _Bools]:
+    """Give the numbers, and mark those that are none or need more care."""
+    sizes = stops - starts
+    negative = data[starts] == ord("-")
+    whole, point = np.zeros(len(starts), dtype=np.int64), np.full(len(starts), -1, dtype=np.int64)
+    points = np.zeros(len(starts), dtype=np.int64)
+    rows, at = np.arange(len(starts)), starts + negative
+    for _ in range(_MOST_DIGITS + 1):
+        left = at < stops[rows]
+        if not left.all():
+            rows, at = rows[left], at[left]
+        if not len(rows):
+            break
+        digit = data[at].astype(np.int64) - ord("0")
+        is_point = digit < 0
+        dotted = rows[is_point]
+        point[dotted], points[dotted] = at[is_point], points[dotted] + 1
+        whole[rows] = np.where(is_point, whole[rows], 10 * whole[rows] + digit)
+        at = at + 1
+    digits = sizes - negative - points
+    places = np.where(points > 0, stops - 1 - point, 0)
+    broken = (points > 1) | (digits < 1) | (digits > _MOST_DIGITS) | (data[stops - 1] == ord("."))
+    broken |= negative & (whole == 0)  # -0, which is 0 or -0 by what is around it
+    numbers = whole / _TENS[np.where(broken, 0, places)]
+    return np.where(negative, -numbers, numbers), broken
+
+
+def _misplaced(kinds: NDArray[np.uint8]) -> _Ints:
+    """Where a byte is that plain path data have not, or a comma that is not between two numbers, one space behind."""
+    commas = np.flatnonzero(kinds == _COMMA)
+    padded = np.concatenate([kinds, [_LETTER, _LETTER]])
+    behind = padded[commas + 1]
+    behind = np.where(behind == _SPACE, padded[commas + 2], behind)
+    good = (padded[commas - 1] == _DIGIT) & (behind >= _DIGIT)  # before the first comma is at least what is between
+    return np.concatenate([np.flatnonzero(kinds == _OTHER), commas[~good]])
+
+
+def _in_order(letters: NDArray[np.uint8], counts: _Ints) -> _Bools:
+    """Mark letters that stand, and have as many numbers, as in one plain subpath."""
+    between, move = letters == _BETWEEN[0], letters == ord("M")
+    ends = np.append(between[1:], True)
+    takes = _TAKES[letters]
+    curves = (takes > 0) & (counts > 0) & (counts % np.maximum(takes, 1) == 0)
+    draws = curves & np.where(move, counts == 2, True)
+    closes = (takes == 0) & ~between & (counts == 0) & ends
+    after = np.concatenate([[False], between[:-1]])
+    result: _Bools = (move == after) & (between & (counts == 0) | draws | closes)
+    return result
