@@ -86,13 +86,14 @@ def transformed(subpath: Subpath, matrix: Matrix) -> Subpath:
     a, b, c, d, e, f = matrix
     if matrix == IDENTITY:
         return Subpath.of_columns(letters, numbers, subpath.closed)
+    moved = numbers.copy()
     if matrix[:4] == IDENTITY[:4]:
-        points = numbers.reshape(-1, 2) + (e, f)
+        moved[0::2] += e + 0.0  # 0 for -0, as there
+        moved[1::2] += f + 0.0
     else:
-        points = numbers.reshape(-1, 2).copy()
         x, y = numbers[0::2], numbers[1::2]
-        points[:, 0], points[:, 1] = a * x + c * y + e, b * x + d * y + f
-    return Subpath.of_columns(letters, points.ravel(), subpath.closed)
+        moved[0::2], moved[1::2] = a * x + c * y + e, b * x + d * y + f
+    return Subpath.of_columns(letters, moved, subpath.closed)
 
 
 def _moved(segment: Segment, e: float, f: float) -> Segment:

@@ -1,8 +1,9 @@
 """Path data of a whole document at once: the numbers of its long, plain paths, read in whole arrays.
 
-Plain is what drawing programs write most: one subpath of absolute M, L and C, closed by Z or open, and numbers without
-an exponent and of at most 15 digits. Anything else, a fault above all, is left to ``path_data``, which reads letter by
-letter, knows all of the grammar, and says what is wrong where. Both give the same numbers to the bit.
+Plain is what drawing programs write most: one subpath of M, L and C, all of them absolute or all relative, closed by Z
+or open, and numbers without an exponent and of at most 15 digits. Anything else, a fault above all, is left to
+``path_data``, which reads letter by letter, knows all of the grammar, and says what is wrong where. Both give the same
+numbers to the bit.
 """
 
 from __future__ import annotations
@@ -26,12 +27,15 @@ _BETWEEN = b"\0"
 # What a byte is
 _OTHER, _SPACE, _COMMA, _LETTER, _DIGIT, _POINT, _MINUS = range(7)
 _KINDS = np.full(256, _OTHER, dtype=np.uint8)
-for _bytes, _kind in ((b" \t\r\n\f", _SPACE), (b",", _COMMA), (b"MLCZz" + _BETWEEN, _LETTER), (b"0123456789", _DIGIT)):
+for _bytes, _kind in ((b" \t\r\n\f", _SPACE), (b"MmLlCcZz" + _BETWEEN, _LETTER), (b"0123456789", _DIGIT)):
     _KINDS[list(_bytes)] = _kind
-_KINDS[ord(".")], _KINDS[ord("-")] = _POINT, _MINUS
+_KINDS[list(b",.-")] = _COMMA, _POINT, _MINUS
 # Numbers that a letter takes at a time; 0 for none
 _TAKES = np.zeros(256, dtype=np.int64)
-_TAKES[list(b"MLC")] = 2, 2, 6
+_TAKES[list(b"MmLlCc")] = 2, 2, 2, 2, 6, 6
+_RELATIVE = np.zeros(256, dtype=np.int64)
+_RELATIVE[list(b"LlCc")] = -1, 1, -1, 1
+_CASE = 0x20  # what makes a letter a small one
 
 _Bools = NDArray[np.bool_]
 _Ints = NDArray[np.int64]
@@ -44,7 +48,8 @@ class PlainPaths:
     def __init__(self, texts: Iterable[str]) -> None:
         """Read those that are long enough."""
         self._read: dict[str, tuple[bytes, _Floats, bool]] = {}
-        for some in _portions(text for text in texts if LEAST <= len(text) <= _AT_ONCE):
+        long_enough = (text for text in texts if LEAST <= len(text) <= _AT_ONCE and _BETWEEN.decode() not in text)
+        for some in _portions(long_enough):
             self._read.update(_read(some))
 
     def get(self, text: str) -> Subpath | None:
@@ -81,18 +86,33 @@ def _read(texts: list[str]) -> Iterator[tuple[str, tuple[bytes, _Floats, bool]]]
     taken = np.searchsorted(starts, letters)  # the number behind each letter
     counts = np.diff(taken, append=len(starts))
     plain = np.logical_and.reduceat(_in_order(data[letters], counts), first[:-1])
+    drawing = _RELATIVE[data[letters]]
+    relative = np.add.reduceat(drawing, first[:-1])
+    plain &= np.abs(relative) == np.add.reduceat(np.abs(drawing), first[:-1])
     wrong = np.concatenate([_misplaced(kinds), starts[broken]])
     plain[np.searchsorted(begins, wrong, side="right") - 1] = False
     takes = np.maximum(_TAKES[data[letters]], 1)
     drawn = counts // takes  # segments of each letter
-    words = np.repeat(data[letters], drawn).tobytes()
+    words = np.repeat(data[letters] & ~np.uint8(_CASE), drawn).tobytes()
     at = np.concatenate([[0], np.cumsum(drawn)])[first].tolist()
     ends = np.append(taken, len(starts))[first].tolist()
-    closed = (data[letters[first[1:] - 1]] | 0x20) == ord("z")
-    columns = zip(texts, plain.tolist(), closed.tolist(), itertools.pairwise(at), itertools.pairwise(ends), strict=True)
-    for text, good, closes, (low, high), (begin, end) in columns:
+    closed = (data[letters[first[1:] - 1]] | _CASE) == ord("z")
+    told = texts, plain.tolist(), (relative > 0).tolist(), closed.tolist()
+    for text, good, moves, closes, (low, high), (begin, end) in zip(
+        *told, itertools.pairwise(at), itertools.pairwise(ends), strict=True
+    ):
         if good and high - low > 1:
-            yield text, (words[low:high], numbers[begin:end], closes)
+            own = _absolute(words[low:high], numbers[begin:end]) if moves else numbers[begin:end]
+            yield text, (words[low:high], own, closes)
+
+
+def _absolute(words: bytes, numbers: _Floats) -> _Floats:
+    """Add to the numbers of relative segments, all but the first, where each begins: sums in the order of the file."""
+    pairs = numbers.reshape(-1, 2)
+    sizes = _TAKES[np.frombuffer(words, dtype=np.uint8)] // 2
+    ends = np.add.accumulate(pairs[np.cumsum(sizes) - 1], axis=0)
+    begins = np.repeat(ends[:-1], sizes[1:], axis=0)
+    return np.concatenate([pairs[:1], pairs[1:] + begins]).ravel()
 
 
 def _numbers(kinds: NDArray[np.uint8], in_number: _Bools) -> tuple[_Ints, _Ints]:
@@ -142,12 +162,12 @@ def _misplaced(kinds: NDArray[np.uint8]) -> _Ints:
 
 def _in_order(letters: NDArray[np.uint8], counts: _Ints) -> _Bools:
     """Mark letters that stand, and have as many numbers, as in one plain subpath."""
-    between, move = letters == _BETWEEN[0], letters == ord("M")
+    between, move = letters == _BETWEEN[0], (letters | _CASE) == ord("m")
     ends = np.append(between[1:], True)
     takes = _TAKES[letters]
     curves = (takes > 0) & (counts > 0) & (counts % np.maximum(takes, 1) == 0)
     draws = curves & np.where(move, counts == 2, True)
     closes = (takes == 0) & ~between & (counts == 0) & ends
     after = np.concatenate([[False], between[:-1]])
-    result: _Bools = (move == after) & (between & (counts == 0) | draws | closes)
+    result: _Bools = np.where(between, counts == 0, (move == after) & (draws | closes))
     return result

@@ -239,7 +239,7 @@ def cut_evenly(cubics, rows, t, tolerance, halvings, room, cuts, counts, shares)
 @kernel
 def piece_count(ideal, extra):
     """Pieces that are tried: the predicted number, and ``extra`` times some more."""
-    wanted = int(math.ceil(ideal))
+    wanted = math.ceil(ideal)
     return max(wanted + extra * max(wanted // 64, 1), 1)
 
 

@@ -1,4 +1,4 @@
-"""Cubics to lines by compiled kernels: the same bits as ``curves_to_lines`` gives by NumPy, in a fraction of the time."""
+"""Cubics to lines by compiled kernels: the bits of ``curves_to_lines`` by NumPy, in a fraction of the time."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from wallkit.kernels.jit import compiled
 
 
 def halving_counts(cubics: FloatArray, tolerance: float, most: int) -> tuple[IntArray, int]:
-    """How many cuts halving takes for each cubic (n,), and all of them; not all are counted where they are above most."""
+    """How many cuts halving takes for each cubic (n,), and all of them; where they are above most it stops counting."""
     counts = np.zeros(len(cubics), dtype=np.int64)
     total = compiled(count_halvings)(cubics, tolerance, most, np.empty((DEEPEST, 11)), counts)
     return counts, int(total)
