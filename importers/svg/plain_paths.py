@@ -26,10 +26,9 @@ _BETWEEN = b"\0"
 
 # What a byte is
 _OTHER, _SPACE, _COMMA, _LETTER, _DIGIT, _POINT, _MINUS = range(7)
-_KINDS = np.full(256, _OTHER, dtype=np.uint8)
-for _bytes, _kind in ((b" \t\r\n\f", _SPACE), (b"MmLlCcZz" + _BETWEEN, _LETTER), (b"0123456789", _DIGIT)):
-    _KINDS[list(_bytes)] = _kind
-_KINDS[list(b",.-")] = _COMMA, _POINT, _MINUS
+_SIGNS = {b" \t\r\n\f": _SPACE, b",": _COMMA, b"MmLlCcZz" + _BETWEEN: _LETTER}
+_SIGNS |= {b"0123456789": _DIGIT, b".": _POINT, b"-": _MINUS}
+_KINDS = bytes(next((kind for signs, kind in _SIGNS.items() if byte in signs), _OTHER) for byte in range(256))
 # Numbers that a letter takes at a time; 0 for none
 _TAKES = np.zeros(256, dtype=np.int64)
 _TAKES[list(b"MmLlCc")] = 2, 2, 2, 2, 6, 6
@@ -75,8 +74,8 @@ def _portions(texts: Iterable[str]) -> Iterator[list[str]]:
 def _read(texts: list[str]) -> Iterator[tuple[str, tuple[bytes, _Floats, bool]]]:
     """Read texts: each plain one with the letters of its segments, its numbers, and whether it closes."""
     joined = "".join(_BETWEEN.decode() + text for text in texts)
-    data = np.frombuffer(joined.encode("ascii", "replace"), dtype=np.uint8)  # letter by letter
-    kinds = _KINDS[data]
+    raw = joined.encode("ascii", "replace")  # letter by letter
+    data, kinds = (np.frombuffer(part, dtype=np.uint8) for part in (raw, raw.translate(_KINDS)))
     in_number = kinds >= _DIGIT
     starts, stops = _numbers(kinds, in_number)
     numbers, broken = _values(data, starts, stops)
@@ -129,22 +128,18 @@ def _values(data: NDArray[np.uint8], starts: _Ints, stops: _Ints) -> tuple[_Floa
     negative = data[starts] == ord("-")
     whole, point = np.zeros(len(starts), dtype=np.int64), np.full(len(starts), -1, dtype=np.int64)
     points = np.zeros(len(starts), dtype=np.int64)
-    rows, at = np.arange(len(starts)), starts + negative
-    for _ in range(_MOST_DIGITS + 1):
-        left = at < stops[rows]
-        if not left.all():
-            rows, at = rows[left], at[left]
-        if not len(rows):
-            break
-        digit = data[at].astype(np.int64) - ord("0")
-        is_point = digit < 0
-        dotted = rows[is_point]
-        point[dotted], points[dotted] = at[is_point], points[dotted] + 1
-        whole[rows] = np.where(is_point, whole[rows], 10 * whole[rows] + digit)
-        at = at + 1
+    at, last = starts + negative, stops - 1
+    for _ in range(min(int(sizes.max(initial=0)), _MOST_DIGITS + 1)):  # and a point
+        digit = data[np.minimum(at, last)].astype(np.int64) - ord("0")
+        inside = at <= last
+        is_point = inside & (digit < 0)
+        whole = np.where(inside & (digit >= 0), 10 * whole + digit, whole)
+        point = np.where(is_point, at, point)
+        points += is_point
+        at += 1
     digits = sizes - negative - points
-    places = np.where(points > 0, stops - 1 - point, 0)
-    broken = (points > 1) | (digits < 1) | (digits > _MOST_DIGITS) | (data[stops - 1] == ord("."))
+    places = np.where(points > 0, last - point, 0)
+    broken = (points > 1) | (digits < 1) | (digits > _MOST_DIGITS) | (data[last] == ord("."))
     broken |= negative & (whole == 0)  # -0, which is 0 or -0 by what is around it
     numbers = whole / _TENS[np.where(broken, 0, places)]
     return np.where(negative, -numbers, numbers), broken

@@ -95,7 +95,8 @@ def _strung(subpaths: Iterable[Subpath]) -> tuple[NDArray[np.uint8], FloatArray,
 
 def _columns(numbers: FloatArray, last: IntArray, width: int) -> FloatArray:
     """Give the numbers (n, width) of segments, of which those of each end before ``last``."""
-    return numbers[last[:, None] + np.arange(-width, 0)]
+    columns: FloatArray = numbers[last[:, None] + np.arange(-width, 0)]
+    return columns
 
 
 def _cubics(letters: NDArray[np.uint8], numbers: FloatArray, last: IntArray, begins: FloatArray) -> FloatArray:
