@@ -57,7 +57,8 @@ class Reader:
         self.references = References(root, self.prefix, source.file, source.work)
         head = source.text[:4000]
         self.illustrator = "Adobe Illustrator" in head or "ns.adobe.com/AdobeIllustrator" in head
-        self.inkscape_layers = bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
+        named = "groupmode" in source.text  # in names of attributes nothing stands for anything else
+        self.inkscape_layers = named and bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
         self.paints = Paints(self.references, self.cascade, source)
         self.clips = Clips(self.references, self.cascade, source, self.prefix)
         self.layers: dict[str, Layer] = {}
