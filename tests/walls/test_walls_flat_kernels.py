@@ -60,14 +60,23 @@ def test_a_kernel_finds_the_near_boxes_that_numpy_finds(count):
     low = np.round(random.uniform(0, 100, (2, count)), 1)
     high = low + np.round(random.uniform(0, 40, (2, count)) * (random.random(count) < 0.1), 1)
     wanted = BoxTree(low, high)._answers(np.arange(count), low, high)
-    for one, other in zip(NearBoxes(low, high).by_kernel(np.arange(count), low, high), wanted, strict=True):
+    for one, other in zip(NearBoxes(low, high).by_kernel(low, high), wanted, strict=True):
         assert np.array_equal(one, other)
+
+
+def test_a_large_tree_is_asked_by_the_kernel_alike_about_others_and_about_itself(monkeypatch):
+    monkeypatch.setattr(near_boxes, "at_hand", lambda task: True)
+    low = np.random.default_rng(2).uniform(0, 1000, (2, 1 << 14))
+    plain, tree = BoxTree(low, low + 5), NearBoxes(low, low + 5)
+    asked = low[:, :300] + 2
+    for one, other in ((plain.among(9000, 9900), tree.among(9000, 9900)), (plain.query(asked, asked), tree.query(asked, asked))):
+        assert [part.tolist() for part in one] == [part.tolist() for part in other]
 
 
 def test_an_interpreted_kernel_finds_the_same_boxes(monkeypatch):
     monkeypatch.setattr(near_boxes, "compiled", lambda kernel: kernel)
     low = np.random.default_rng(1).uniform(0, 9, (2, 60))
-    found = NearBoxes(low, low + 1).by_kernel(np.arange(60), low, low + 1)
+    found = NearBoxes(low, low + 1).by_kernel(low, low + 1)
     assert [one.tolist() for one in found] == [
         one.tolist() for one in BoxTree(low, low + 1)._answers(np.arange(60), low, low + 1)
     ]

@@ -14,34 +14,46 @@ from wallkit.kernels.jit import compiled
 
 _KERNEL_PAYS = 1 << 14
 """Boxes of a tree that take NumPy longer than a kernel that has to be loaded."""
-_ROOM = 4
+_ROOM = 8
 """Pairs a question that there is room for at first."""
 
 
 class NearBoxes(BoxTree):
     """A tree of boxes that asks a compiled kernel where it is large, once that is compiled."""
 
-    def _answers(self, asked: IntArray, low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
-        if self.low.shape[1] < _KERNEL_PAYS or not at_hand(ask_a_few):
-            return super()._answers(asked, low, high)
-        return self.by_kernel(asked, low, high)
+    def query(self, low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
+        """Pairs of a box in question, (2, m) corners, and a box of the tree that meet, both rising."""
+        return self.by_kernel(low, high) if self._is_large() else super().query(low, high)
 
-    def by_kernel(self, asked: IntArray, low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
-        """Answer questions of the numbers ``asked`` (m,) about boxes, (2, m) corners: pairs, both rising."""
+    def among(self, first: int, stop: int) -> tuple[IntArray, IntArray]:
+        """The same for the boxes of the tree itself from the number ``first`` to before ``stop``."""
+        if not self._is_large():
+            return super().among(first, stop)
+        question, box = self.by_kernel(self.low[:, first:stop], self.high[:, first:stop])
+        return question + first, box
+
+    def _is_large(self) -> bool:
+        return self.low.shape[1] >= _KERNEL_PAYS and at_hand(ask_a_few)
+
+    def by_kernel(self, low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
+        """Answer questions about boxes, (2, m) corners: pairs, both rising."""
         low, high = np.ascontiguousarray(low), np.ascontiguousarray(high)
-        state, waiting = np.zeros(2, dtype=np.int64), np.empty((2, WIDTH * DEEPEST), dtype=np.int64)
+        state, waiting = np.zeros(3, dtype=np.int64), np.empty((2, WIDTH * DEEPEST), dtype=np.int64)
         meets = np.empty(WIDTH, dtype=np.bool_)
-        room, found = _ROOM * len(asked) + WIDTH, [np.empty(0, dtype=np.int64)]
-        while state[0] < len(asked):
-            question, place = np.empty(room, dtype=np.int64), np.empty(room, dtype=np.int64)
+        none = np.empty(0, dtype=np.int64)
+        room, questions, boxes = _ROOM * low.shape[1] + WIDTH, [none], [none]
+        while state[0] < low.shape[1]:
+            question, box = np.empty(room, dtype=np.int64), np.empty(room, dtype=np.int64)
             state[1] = 0
-            compiled(boxes_met)(*self._packed, low, high, state, waiting, meets, question, place)
-            question, place = question[: state[1]], place[: state[1]]
-            found.append(asked[question] * len(self._order) + self._order[place])
+            compiled(boxes_met)(*self._packed, self._order, low, high, state, waiting, meets, question, box)
+            questions.append(question[: state[1]])
+            boxes.append(box[: state[1]])
             room *= 2
-        key = np.sort(np.concatenate(found))
-        which = key // len(self._order)
-        return which, key - which * len(self._order)
+        question, box = np.concatenate(questions), np.concatenate(boxes)
+        if state[2]:
+            key = np.sort(question * len(self._order) + box)
+            question, box = np.divmod(key, len(self._order))
+        return question, box
 
     @cached_property
     def _packed(self) -> tuple[FloatArray, IntArray]:
@@ -53,4 +65,4 @@ class NearBoxes(BoxTree):
 def ask_a_few() -> None:
     """Ask a tree by the kernel: the task of its compiling."""
     low = np.arange(2.0 * WIDTH).reshape(2, WIDTH)
-    NearBoxes(low, low).by_kernel(np.arange(WIDTH), low, low)
+    NearBoxes(low, low).by_kernel(low, low)
