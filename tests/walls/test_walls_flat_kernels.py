@@ -69,7 +69,10 @@ def test_a_large_tree_is_asked_by_the_kernel_alike_about_others_and_about_itself
     low = np.random.default_rng(2).uniform(0, 1000, (2, 1 << 14))
     plain, tree = BoxTree(low, low + 5), NearBoxes(low, low + 5)
     asked = low[:, :300] + 2
-    for one, other in ((plain.among(9000, 9900), tree.among(9000, 9900)), (plain.query(asked, asked), tree.query(asked, asked))):
+    for one, other in (
+        (plain.among(9000, 9900), tree.among(9000, 9900)),
+        (plain.query(asked, asked), tree.query(asked, asked)),
+    ):
         assert [part.tolist() for part in one] == [part.tolist() for part in other]
 
 

@@ -39,13 +39,12 @@ class NearBoxes(BoxTree):
         """Answer questions about boxes, (2, m) corners: pairs, both rising."""
         low, high = np.ascontiguousarray(low), np.ascontiguousarray(high)
         state, waiting = np.zeros(3, dtype=np.int64), np.empty((2, WIDTH * DEEPEST), dtype=np.int64)
-        meets = np.empty(WIDTH, dtype=np.bool_)
         none = np.empty(0, dtype=np.int64)
         room, questions, boxes = _ROOM * low.shape[1] + WIDTH, [none], [none]
         while state[0] < low.shape[1]:
             question, box = np.empty(room, dtype=np.int64), np.empty(room, dtype=np.int64)
             state[1] = 0
-            compiled(boxes_met)(*self._packed, self._order, low, high, state, waiting, meets, question, box)
+            compiled(boxes_met)(*self._packed, self._order, low, high, state, waiting, question, box)
             questions.append(question[: state[1]])
             boxes.append(box[: state[1]])
             room *= 2

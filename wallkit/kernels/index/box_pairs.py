@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from wallkit.kernels.intrinsics import lowest
 from wallkit.kernels.jit import kernel
 
 WIDTH = 16
@@ -26,7 +27,7 @@ def put_in_order(values, first, stop):
 
 
 @kernel
-def boxes_met(corners, firsts, order, low, high, state, waiting, meets, question, box):
+def boxes_met(corners, firsts, order, low, high, state, waiting, question, box):
     """Find boxes that meet those in question, each question going down the tree by itself.
 
     Args:
@@ -39,7 +40,6 @@ def boxes_met(corners, firsts, order, low, high, state, waiting, meets, question
         state: the question to begin with, how many pairs are written, and how many questions have more boxes than are
             put in order; all are written. It ends before a question whose pairs may not have room.
         waiting: (2, WIDTH DEEPEST) for rows that wait: their level, and their number in it.
-        meets: (WIDTH,) of bool, for the work: a row is compared as a whole, by vector instructions.
         question: written, the question of each pair, rising.
         box: written, the box of each pair, rising for each question but for those.
     """
@@ -56,16 +56,18 @@ def boxes_met(corners, firsts, order, low, high, state, waiting, meets, question
                 whole = False
                 break
             at = corners[own]
+            met = 0  # a bit each, by vector instructions
             for k in range(WIDTH):
-                meets[k] = (at[0, k] <= x1) & (at[1, k] <= y1) & (at[2, k] >= x0) & (at[3, k] >= y0)
-            for k in range(WIDTH):
-                if meets[k]:
-                    if level == 0:
-                        question[count], box[count] = asked, order[WIDTH * row + k]
-                        count += 1
-                    else:
-                        waiting[0, height], waiting[1, height] = level - 1, WIDTH * row + k
-                        height += 1
+                met |= ((at[0, k] <= x1) & (at[1, k] <= y1) & (at[2, k] >= x0) & (at[3, k] >= y0)) << k
+            while met != 0:
+                child = WIDTH * row + lowest(met)
+                met &= met - 1
+                if level == 0:
+                    question[count], box[count] = asked, order[child]
+                    count += 1
+                else:
+                    waiting[0, height], waiting[1, height] = level - 1, child
+                    height += 1
         if not whole:
             count = before
             break
