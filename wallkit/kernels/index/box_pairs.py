@@ -58,7 +58,8 @@ def boxes_met(corners, firsts, order, low, high, state, waiting, question, box):
             at = corners[own]
             met = 0  # a bit each, by vector instructions
             for k in range(WIDTH):
-                met |= ((at[0, k] <= x1) & (at[1, k] <= y1) & (at[2, k] >= x0) & (at[3, k] >= y0)) << k
+                meets = (at[0, k] <= x1) & (at[1, k] <= y1) & (at[2, k] >= x0) & (at[3, k] >= y0)
+                met |= int(meets) << k
             while met != 0:
                 child = WIDTH * row + lowest(met)
                 met &= met - 1
