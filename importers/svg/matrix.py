@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from importers.drawing import Segment, Subpath
 
 Matrix = tuple[float, float, float, float, float, float]
@@ -92,7 +94,8 @@ def transformed(subpath: Subpath, matrix: Matrix) -> Subpath:
         moved[1::2] += f + 0.0
     else:
         x, y = numbers[0::2], numbers[1::2]
-        moved[0::2], moved[1::2] = a * x + c * y + e, b * x + d * y + f
+        with np.errstate(over="ignore", invalid="ignore"):  # what is too large is told by whoever draws it
+            moved[0::2], moved[1::2] = a * x + c * y + e, b * x + d * y + f
     return Subpath.of_columns(letters, moved, subpath.closed)
 
 

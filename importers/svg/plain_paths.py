@@ -15,9 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from importers.drawing import Subpath
+from importers.limits import MAX_ELEMENTS
 
 LEAST = 100
 """Letters of path data from which on whole arrays are quicker."""
+_MOST = 1 << 21  # letters of a path, which bound the memory
 _AT_ONCE = 1 << 18  # letters: what is made of them stays in the cache
 _MOST_DIGITS = 15
 """A mantissa of so many is below 2^53 and exact, as is the power of ten below it: their quotient is rounded once."""
@@ -47,9 +49,14 @@ class PlainPaths:
     def __init__(self, texts: Iterable[str]) -> None:
         """Read those that are long enough."""
         self._read: dict[str, tuple[bytes, _Floats, bool]] = {}
-        long_enough = (text for text in texts if LEAST <= len(text) <= _AT_ONCE and _BETWEEN.decode() not in text)
+        segments = 0
+        long_enough = (text for text in texts if LEAST <= len(text) <= _MOST and _BETWEEN.decode() not in text)
         for some in _portions(long_enough):
-            self._read.update(_read(some))
+            found = dict(_read(some))
+            self._read.update(found)
+            segments += sum(len(letters) for letters, _, _ in found.values())
+            if segments > MAX_ELEMENTS:  # more than may be drawn: no memory for them
+                break
 
     def get(self, text: str) -> Subpath | None:
         """Give what path data draw; None where they are not among the plain ones."""

@@ -87,3 +87,18 @@ def test_columns_are_moved_as_segments_are(all_sizes, matrix):
     assert moved.start == transform(subpath.segments, matrix)[0][1:]
     assert moved == Subpath(transform(subpath.segments, matrix), subpath.closed)
     assert moved.columns is None  # its list may be changed now
+
+
+def test_no_more_is_read_ahead_than_may_be_drawn(all_sizes, monkeypatch):
+    monkeypatch.setattr(plain_paths, "MAX_ELEMENTS", 100)
+    monkeypatch.setattr(plain_paths, "_AT_ONCE", 1)
+    texts = [f"M0 {number}" + "L1 2" * 29 for number in range(9)]
+    plain = PlainPaths(texts)
+    assert [plain.get(text) is not None for text in texts] == [True] * 4 + [False] * 5
+
+
+def test_what_a_transform_throws_out_of_all_bounds_is_told_without_a_warning():
+    data = "M0,0" + "L100,200 300,400" * 20
+    text = f'<svg xmlns="http://www.w3.org/2000/svg"><path transform="scale(1e307)" d="{data}"/></svg>'
+    drawing = read_drawing_text(text)
+    assert [one.code for one in drawing.problems if one.severity == "error"] == ["bad-coordinate"]
