@@ -212,8 +212,8 @@ def _ask_again(model, arcs, radius, movers, s, pairs, k):
     last, feature = int(mover.last), int(s[FEATURE + i])
     if radius is None:
         s[BEST + i], feature, touched = scan_arcs_point(
-            arcs, pairs, at, at + 1, model.one_sided, model.edge_wall, mover.x, mover.y, mover.vx, mover.vy, mover.energy,
-            last, mover.tolerance, s[BEST + i], feature,
+            arcs, pairs, at, at + 1, model.one_sided, model.edge_wall, mover.x, mover.y, mover.vx, mover.vy,
+            mover.energy, last, mover.tolerance, s[BEST + i], feature,
         )  # fmt: skip
         s[TOUCHED + i] += float(touched)
     else:
