@@ -23,6 +23,8 @@ whether it may meet the far side of a line; of a falling disc, the hull of its f
 its box, its points but the first, and the squared reach."""
 ROOM, REACH = FROM_X, FROM_Y
 """Of discs; points alone need to know where they came from."""
+STOP = FAR
+"""Of balls that fly straight: the time after which rolling friction stops them."""
 PLAIN = 22 * LANES
 """Numbers where nothing acts."""
 SCRATCH = 42 * LANES
