@@ -46,6 +46,18 @@ def said(plain, words):
         "--quiet act a.svg",
         "act a.svg --name x --page 2 --ball 1,2 --ball 3,4",
         "act a.svg --scale 2 --count 3 --way lines --heat --no-meeting --place 3 4",
+        "act a.svg --scale 1e-1",
+        "act a.svg --scale 5e-1 --count -7",
+        "act a.svg --scale 0.30000000000000004e1 --count +12",
+        "act a.svg --scale inf",
+        "act a.svg --scale nan",
+        "act a.svg --scale 1_0",
+        "act a.svg --scale .5",
+        "act a.svg --count 99999999999999999999",
+        "act a.svg --count 0x10",
+        "act a.svg --count 007",
+        "act a.svg --count \u0661",
+        "act a.svg --way ARCS",
         "act 1 --name 2 --meeting",
         "act",
         "act a.svg --scale 0.1",
@@ -65,7 +77,8 @@ def test_a_command_is_given_what_typer_gives_it(words):
 
 def test_a_small_simulation_imports_nothing_that_converts_values():
     code = (
-        "import sys; sys.argv = ['wallkit', 'simulate', 'samples/lagoon.ai', '--ball', '396,150']\n"
+        "import sys; sys.argv = ['wallkit', 'simulate', 'samples/lagoon.ai', '--ball', '396,150', '--radius', '2.5', "
+        "'--bounces', '20', '--no-meeting']\n"
         "from wallkit.cli import main\n"
         "try: main()\n"
         "finally: print({'pydantic', 'rich', 'numba', 'llvmlite', 'scipy'} & set(sys.modules), file=sys.stderr)\n"
