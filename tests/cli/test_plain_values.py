@@ -36,7 +36,7 @@ def said(plain, words):
         given.update({key: value for key, value in locals().items() if key != "given"})
 
     result = CliRunner().invoke(app, words)
-    return result.exit_code, result.output, {key: (type(value), value) for key, value in given.items()}
+    return result.exit_code, result.output, {key: repr(value) for key, value in given.items()}
 
 
 @pytest.mark.parametrize(
