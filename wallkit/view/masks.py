@@ -18,7 +18,7 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 _FINE = 2  # strokes are drawn at twice the size and averaged
 _ROWS = 4  # rows of samples a pixel of a fill
 _PARTS = 64  # of a pixel's width that a sample of a fill tells apart; a whole pixel is _ROWS * _PARTS = 256
-_THIN = 8  # fine pixels: strokes up to that are drawn line by line
+_THIN = 10  # fine pixels: strokes up to that are drawn line by line
 _STEP = 5.0  # fine pixels between points of a curve, at least
 
 
@@ -80,10 +80,7 @@ def _hatched(line: FloatArray, width: int, rounded: bool) -> NDArray[np.float32]
     one along y likewise. Before each line, and at the end, the disc of the pen is hatched row by row.
     """
     line = _thinned(line)
-    way = np.diff(line, axis=0)
-    ahead = np.abs(way)
-    cosine = ahead.max(axis=1) / np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-9)  # of the angle to the nearer axis
-    copies = np.rint(width / np.maximum(cosine, 0.7)).astype(np.int64)
+    first, second, aside, copies = _first_rows(line, width)
     disc, counts = _hatched_disc(width), 2 * copies + 2 * width
     ends = np.cumsum(counts)
     path = np.empty((int(counts.sum()) + len(disc), 2), dtype=np.float32)
@@ -93,15 +90,34 @@ def _hatched(line: FloatArray, width: int, rounded: bool) -> NDArray[np.float32]
     if not rounded:
         discs[[0, -1]] = np.floor(line[[0, -1]])[:, None]
     path[at[:, None] + np.arange(len(disc))] = discs
-    segment = np.repeat(np.arange(len(way)), copies)
+    segment = np.repeat(np.arange(len(copies)), copies)
     rank = np.arange(len(segment)) - np.repeat(np.cumsum(copies) - copies, copies)
-    aside = np.where((ahead[:, 0] >= ahead[:, 1])[:, None], (0.0, 1.0), (1.0, 0.0))
-    first = np.floor(line[:-1] + (0.5 - copies / 2)[:, None] * aside)[segment] + rank[:, None] * aside[segment]
-    second = np.floor(line[1:] + (0.5 - copies / 2)[:, None] * aside)[segment] + rank[:, None] * aside[segment]
-    back = (rank % 2 == 1)[:, None]
+    shift = rank[:, None] * aside[segment]
+    begin, end, back = first[segment] + shift, second[segment] + shift, (rank % 2 == 1)[:, None]
     place = (ends - 2 * copies)[segment] + 2 * rank
-    path[place], path[place + 1] = np.where(back, second, first), np.where(back, first, second)
+    path[place], path[place + 1] = np.where(back, end, begin), np.where(back, begin, end)
     return path
+
+
+def _first_rows(line: FloatArray, width: int) -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
+    """Of each segment the first of its copies: begin and end (n, 2), whole numbers; the step to the next; how many.
+
+    There and back must take the same pixels, or holes are left. They differ where a line passes exactly between two
+    pixels: 2 i dy = (2 j + 1) dx for whole numbers i and j, which no odd dx allows. So an even one, dx being larger
+    than dy, is made shorter by 1.
+    """
+    way = np.diff(line, axis=0)
+    ahead = np.abs(way)
+    cosine = ahead.max(axis=1) / np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-9)  # of the angle to the nearer axis
+    copies = np.rint(width / np.maximum(cosine, 0.7)).astype(np.int64)
+    aside = np.where((ahead[:, 0] >= ahead[:, 1])[:, None], (0.0, 1.0), (1.0, 0.0))
+    before = (0.5 - copies / 2)[:, None] * aside
+    first, second = np.floor(line[:-1] + before), np.floor(line[1:] + before)
+    steps = np.abs(second - first)
+    for axis, other in ((0, 1), (1, 0)):
+        even = (steps[:, axis] > steps[:, other]) & (steps[:, axis] % 2 == 0)
+        second[even, axis] += np.sign(first - second)[even, axis]
+    return first, second, aside, copies
 
 
 def _thinned(line: FloatArray) -> FloatArray:
