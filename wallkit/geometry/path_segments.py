@@ -26,7 +26,10 @@ def polylines(commands: Sequence[tuple[Any, ...]]) -> list[FloatArray]:
     """
     if not commands:
         return []
-    kinds = np.array([command[0] for command in commands])
+    letters = "".join([command[0] for command in commands])
+    if letters == "M" + "L" * (len(letters) - 1):
+        return [np.array([command[1:] for command in commands], dtype=np.float64)]
+    kinds = np.array(list(letters))
     begins = np.flatnonzero(kinds == "M")
     opened = begins[np.cumsum(kinds == "M") - 1]  # the M that each command belongs to
     ends = np.array([command[-2:] if len(command) > 2 else (0.0, 0.0) for command in commands], dtype=np.float64)

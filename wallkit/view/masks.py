@@ -6,6 +6,7 @@ larger than the picture. A mask that would be empty is None.
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import NamedTuple
 
@@ -18,7 +19,8 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 _FINE = 2  # strokes are drawn at twice the size and averaged
 _ROWS = 4  # rows of samples a pixel of a fill
 _PARTS = 64  # of a pixel's width that a sample of a fill tells apart; a whole pixel is _ROWS * _PARTS = 256
-_THIN = 10  # fine pixels: strokes up to that are drawn line by line
+_THIN = 10  # fine pixels: strokes up to that are hatched
+_MANY = 12  # points of a faint line, a film's trail: of fewer it costs more to hatch them than to draw areas
 _STEP = 5.0  # fine pixels between points of a curve, at least
 
 
@@ -30,11 +32,22 @@ class Mask(NamedTuple):
     top: int
 
 
-def _box(low: FloatArray, high: FloatArray, size: tuple[int, int]) -> tuple[int, int, int, int] | None:
+def _box(x0: float, y0: float, x1: float, y1: float, size: tuple[int, int]) -> tuple[int, int, int, int] | None:
     """The pixels of a picture that meet a box: left, top, right, bottom; None without any."""
-    left, top = np.clip(np.floor(low), 0, size).astype(int).tolist()
-    right, bottom = np.clip(np.ceil(high), 0, size).astype(int).tolist()
-    return (left, top, right, bottom) if left < right and top < bottom else None
+    width, height = size
+    if not (x0 < width and y0 < height and x1 > 0.0 and y1 > 0.0):  # nor if one is not a number
+        return None
+    return (
+        math.floor(max(x0, 0.0)),
+        math.floor(max(y0, 0.0)),
+        math.ceil(min(x1, float(width))),
+        math.ceil(min(y1, float(height))),
+    )
+
+
+def _box_of(points: FloatArray, reach: float, size: tuple[int, int]) -> tuple[int, int, int, int] | None:
+    (x0, y0), (x1, y1) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    return _box(x0 - reach, y0 - reach, x1 + reach, y1 + reach, size)
 
 
 def stroke(lines: list[FloatArray], width: float, size: tuple[int, int], *, round_ends: bool = True) -> Mask | None:
@@ -47,7 +60,7 @@ def stroke(lines: list[FloatArray], width: float, size: tuple[int, int], *, roun
         round_ends: put half a disc behind ends, which shows twice where faint lines follow each other.
     """
     every = lines[0] if len(lines) == 1 else np.concatenate(lines)
-    box = _box(every.min(axis=0) - width, every.max(axis=0) + width, size)
+    box = _box_of(every, width, size)
     if box is None:
         return None
     left, top, right, bottom = box
@@ -58,17 +71,19 @@ def stroke(lines: list[FloatArray], width: float, size: tuple[int, int], *, roun
     near = np.array(size) * 4  # lines that go on far beyond the picture are clipped as areas
     for line in lines:
         rounded = round_ends or bool((line[0] == line[-1]).all())
-        if thick <= _THIN and (np.abs(line) < near).all():
+        many = round_ends or len(line) >= _MANY
+        if many and thick <= _THIN and (np.abs(line) < near).all():
             pen.line(_hatched((line - (left, top)) * _FINE, thick, rounded), 255, 1)
         else:
-            _thick_line(pen, (line - (left, top)) * _FINE, thick, rounded)
+            _as_areas(pen, (line - (left, top)) * _FINE, thick, rounded)
     return Mask(np.asarray(fine.reduce(_FINE)), left, top)
 
 
-def _thick_line(pen: ImageDraw.ImageDraw, line: FloatArray, width: int, rounded: bool) -> None:
-    middles, half = line - 0.5, (width - 1) / 2  # Pillow counts from the middles of pixels
-    pen.line(middles.ravel().tolist(), 255, width)
-    for x, y in (middles if rounded else middles[1:-1]).tolist():
+def _as_areas(pen: ImageDraw.ImageDraw, line: FloatArray, width: int, rounded: bool) -> None:
+    """Draw a polygon a segment, its corners rounded to whole pixels by Pillow, and a disc a joint."""
+    half, places = (width - 1) / 2, line - 0.5  # Pillow counts from the middles of pixels
+    pen.line(places.ravel().tolist(), 255, width)
+    for x, y in (places if rounded else places[1:-1]).tolist():
         pen.ellipse((x - half, y - half, x + half, y + half), 255)
 
 
@@ -138,6 +153,7 @@ def _thinned(line: FloatArray) -> FloatArray:
     return line[keep]
 
 
+@functools.lru_cache(maxsize=32)
 def _hatched_disc(width: int) -> FloatArray:
     """Rows of a disc about a pixel, or about its corner where the width is even, to and fro."""
     middle = (width - 1) / 2
@@ -158,7 +174,7 @@ def fill(lines: list[FloatArray], size: tuple[int, int]) -> Mask | None:
         return None
     a = np.concatenate(lines)
     b = np.concatenate([np.roll(line, -1, axis=0) for line in lines])
-    box = _box(a.min(axis=0), a.max(axis=0), size)
+    box = _box_of(a, 0.0, size)
     if box is None:
         return None
     left, top, right, bottom = box
@@ -194,14 +210,13 @@ def _crossings(a: FloatArray, b: FloatArray, rows: int) -> tuple[IntArray, Float
 
 def ring(x: float, y: float, outer: float, inner: float, size: tuple[int, int]) -> Mask | None:
     """A ring between two radii, or the disc where ``inner`` is 0: by the distance of each pixel's middle."""
-    place = np.array([x, y])
-    box = _box(place - outer - 1, place + outer + 1, size)
-    if box is None or not math.isfinite(outer):
+    box = _box(x - outer - 1, y - outer - 1, x + outer + 1, y + outer + 1, size)
+    if box is None or outer <= 0.0:
         return None
     left, top, right, bottom = box
     across, down = np.arange(left, right) + (0.5 - x), np.arange(top, bottom) + (0.5 - y)
     distance = np.sqrt((across * across)[None, :] + (down * down)[:, None])
-    cover = np.clip(outer + 0.5 - distance, 0.0, 1.0)
+    cover = np.minimum(np.maximum(outer + 0.5 - distance, 0.0), 1.0)
     if inner > 0.0:
-        cover -= np.clip(inner + 0.5 - distance, 0.0, 1.0)
+        cover -= np.minimum(np.maximum(inner + 0.5 - distance, 0.0), 1.0)
     return Mask((cover * 255.0 + 0.5).astype(np.uint8), left, top)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import struct
 import zlib
 from typing import TYPE_CHECKING
@@ -41,7 +42,7 @@ class Pixels:
             return
         cover, (rows, columns), hue = mask.cover, mask.cover.shape, number_of(colour)
         under = self.values[mask.top : mask.top + rows, mask.left : mask.left + columns]
-        strength = np.rint(np.arange(256) * min(max(opacity, 0.0), 1.0)).astype(np.uint32)
+        strength = _strengths(opacity)
         if cover.size <= _SMALL:
             under[...] = _mixed(under, hue, strength[cover])
             return
@@ -89,6 +90,12 @@ class Pixels:
 def number_of(colour: str) -> int:
     """Turn ``#rrggbb`` into the number of a pixel."""
     return int.from_bytes(bytes.fromhex(colour[1:]), "little")
+
+
+@functools.lru_cache(maxsize=256)
+def _strengths(opacity: float) -> NDArray[np.uint32]:
+    """What each value of a mask is worth."""
+    return np.rint(np.arange(256) * min(max(opacity, 0.0), 1.0)).astype(np.uint32)
 
 
 def _mixed(under: NDArray[np.uint32], hue: int, strength: NDArray[np.uint32]) -> NDArray[np.uint32]:
