@@ -15,7 +15,7 @@ _CURVE = 24  # chords a Bezier curve, half as many as an arc of a drawing
 
 def chords(start: FloatArray, kind: str, numbers: tuple[float, ...]) -> FloatArray:
     """Sample one segment of path data (L, Q, C or A, absolute) from ``start``, its end included and start not."""
-    return _sampled(kind, np.array([start]), np.array([numbers], dtype=np.float64))[0]
+    return np.asarray(_sampled(kind, np.array([start]), np.array([numbers], dtype=np.float64))[0])
 
 
 def polylines(commands: Sequence[tuple[Any, ...]]) -> list[FloatArray]:
@@ -40,7 +40,7 @@ def polylines(commands: Sequence[tuple[Any, ...]]) -> list[FloatArray]:
     for kind in ("Q", "C", "A"):
         found = np.flatnonzero(kinds == kind)
         if len(found):
-            numbers = np.array([commands[index][1:] for index in found], dtype=np.float64)
+            numbers = np.array([commands[index][1:] for index in found.tolist()], dtype=np.float64)
             points = _sampled(kind, ends[found - 1], numbers)
             counts[found] = points.shape[1]
             sampled.append((found, points))

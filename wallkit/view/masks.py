@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +73,8 @@ def stroke(lines: list[FloatArray], width: float, size: tuple[int, int], *, roun
         rounded = round_ends or bool((line[0] == line[-1]).all())
         many = round_ends or len(line) >= _MANY
         if many and thick <= _THIN and (np.abs(line) < near).all():
-            pen.line(_hatched((line - (left, top)) * _FINE, thick, rounded), 255, 1)
+            path: Any = _hatched((line - (left, top)) * _FINE, thick, rounded)  # Pillow takes float32 as it lies there
+            pen.line(path, 255, 1)
         else:
             _as_areas(pen, (line - (left, top)) * _FINE, thick, rounded)
     return Mask(np.asarray(fine.reduce(_FINE)), left, top)

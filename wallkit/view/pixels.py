@@ -95,7 +95,7 @@ def number_of(colour: str) -> int:
 @functools.lru_cache(maxsize=256)
 def _strengths(opacity: float) -> NDArray[np.uint32]:
     """What each value of a mask is worth."""
-    return np.rint(np.arange(256) * min(max(opacity, 0.0), 1.0)).astype(np.uint32)
+    return np.asarray(np.rint(np.arange(256) * min(max(opacity, 0.0), 1.0)), dtype=np.uint32)
 
 
 def _mixed(under: NDArray[np.uint32], hue: int, strength: NDArray[np.uint32]) -> NDArray[np.uint32]:

@@ -107,7 +107,7 @@ class Raster:
         width, height = self.pixels.size
 
         def cell_of(start: float, count: int, pixels: int) -> FloatArray:
-            return np.floor(((np.arange(pixels) + 0.5) / self.zoom - start) / cells.size).clip(-1, count)
+            return np.asarray(np.floor(((np.arange(pixels) + 0.5) / self.zoom - start) / cells.size).clip(-1, count))
 
         column, row = cell_of(cells.x, steps.shape[1], width), cell_of(cells.y, steps.shape[0], height)
         around = np.pad(steps, 1, constant_values=-1)
