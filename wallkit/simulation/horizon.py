@@ -333,9 +333,8 @@ def _flights(scene: Scene, own: Any, ball: int) -> FlightTable:
     first, path, _, _, pull, drag, _ = _course(scene, own, ball)
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
     ends = np.stack([own["x"], own["y"]], axis=1)
-    slides = np.concatenate(
-        [[False], np.isin(path[:-1, 5], (SLIDES, PASSES, STOPS, SLOWS))]
-    )  # a ball that slides misses nothing
+    held = (path[:-1, 5, None] == (SLIDES, PASSES, STOPS, SLOWS)).any(axis=1)
+    slides = np.concatenate([[False], held])  # a ball that slides misses nothing
     return FlightTable(
         start=np.concatenate([begin[None], ends[:-1]]),
         end=ends,

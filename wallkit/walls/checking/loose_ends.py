@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 import shapely
 
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
 from wallkit.walls.checking.meetings import meetings, on_edge
@@ -101,7 +101,7 @@ def settled_places(walls: Walls) -> ComplexArray:
     scene = Surroundings.of(walls)
     ends = scene.ends()
     near = _near(scene, ends, scene.there)
-    places: ComplexArray = ends.at[np.unique(near.end[near.distance <= scene.there])]
+    places: ComplexArray = ends.at[distinct(near.end[near.distance <= scene.there])]
     return places
 
 
