@@ -26,6 +26,7 @@ from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
 
 if TYPE_CHECKING:
     from wallkit.scene.scene_files import SceneFile
+    from wallkit.scene.starting_places import Lines
 
 BOUNCES = 100
 
@@ -42,7 +43,8 @@ class OpenedScene:
         problems: what was found on the way: by the reader, in the walls, about the balls.
         assumed: what nobody said, a sentence each.
         drawing: the drawing, where the file was one.
-        found_place: no ball was given: the one in the scene was put where there is most room.
+        found_place: no ball was given: the one in the scene, if there is one, was put where there is most room.
+        lines: of the walls, with how they touch, where these were looked for on the way.
         importing: how the drawing became walls.
         lesson: what a scene file says to a class, or None.
     """
@@ -55,6 +57,7 @@ class OpenedScene:
     assumed: list[str] = field(default_factory=list)
     drawing: Drawing | None = None
     found_place: bool = False
+    lines: Lines | None = None
     importing: ImportOptions | None = None
     lesson: Lesson | None = None
 
