@@ -3,6 +3,11 @@
 import subprocess
 import sys
 
+import typer.main
+from typer.testing import CliRunner
+
+from wallkit.cli import app as cli
+
 HEAVY = ("numba", "scipy", "svgpathtools", "pikepdf", "shapely", "PIL", "lxml")
 
 
@@ -21,6 +26,14 @@ def test_help_loads_nothing_heavy():
     assert result.returncode == 0
     assert all(command in result.stdout for command in ("inspect", "import", "check", "simulate", "report", "play"))
     assert result.stderr.strip() == "[]"
+
+
+def test_help_shows_every_word_that_the_options_say_of_themselves():
+    cli._register_commands()
+    for name, command in typer.main.get_command(cli.app).commands.items():
+        shown = set(CliRunner().invoke(cli.app, [name, "--help"], env={"COLUMNS": "300"}).stdout.split())
+        for option in command.params:  # the terminal's writer takes [words in brackets] for a style
+            assert set((option.help or "").split()) <= shown, (name, option.name)
 
 
 def test_a_missing_file_is_told_in_words():

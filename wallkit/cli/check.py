@@ -53,7 +53,7 @@ def check(
     file: options.File,
     radius: Annotated[
         float | None,
-        typer.Option(metavar="R", help="Look for leaks of a ball this large [default: the smallest drawn, else any]."),
+        typer.Option(metavar="R", help="Look for leaks of a ball this large (default: the smallest drawn, else any)."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Write the findings as JSON to standard output.")] = False,
     preview: Annotated[str, typer.Option(metavar="PICTURE", help="Draw the walls, findings and leaks (.svg).")] = "",

@@ -99,7 +99,7 @@ Out = Annotated[
 Form = Annotated[Format | None, _output("--format", help="Format, whatever the ending says.")]
 Colour = Annotated[
     Literal["ball", "time", "speed"] | None,
-    _output(help="What colours tell [default: ball, where there are several; time].", show_default=False),
+    _output(help="What colours tell (default: ball, where there are several; time).", show_default=False),
 ]
 Strobe = Annotated[float | None, _output(metavar="T", help="Pictures show the balls every T seconds too.", min=1e-9)]
 Heat = Annotated[bool, _output("--heat", help="Pictures show where balls spend their time.")]
