@@ -44,9 +44,9 @@ class OpenedScene:
         assumed: what nobody said, a sentence each.
         drawing: the drawing, where the file was one.
         found_place: no ball was given: the one in the scene, if there is one, was put where there is most room.
-        lines: of the walls, with how they touch, where these were looked for on the way.
         importing: how the drawing became walls.
         lesson: what a scene file says to a class, or None.
+        lines: of the walls, with how they touch, where these were looked for on the way.
     """
 
     scene: Scene
@@ -57,9 +57,9 @@ class OpenedScene:
     assumed: list[str] = field(default_factory=list)
     drawing: Drawing | None = None
     found_place: bool = False
-    lines: Lines | None = None
     importing: ImportOptions | None = None
     lesson: Lesson | None = None
+    lines: Lines | None = None
 
 
 def open_scene(
