@@ -38,7 +38,7 @@ Attributes = dict[str, str]
 
 # Of a visit to any element, and of following a reference; see limits.Work
 _STEPS_OF_A_VISIT = 10
-_STEPS_OF_A_USE = 25
+_STEPS_OF_A_USE = 35
 # Groups with a transform-box inside of groups with one: each level reads its content once more.
 _MAX_ASIDE = 8
 
