@@ -29,6 +29,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
     HOLD,
     LANES,
     LAST,
+    LENGTH,
     LOST,
     NONE,
     NX,
@@ -177,7 +178,7 @@ def _list_rows(model, restitution, rows):
                 line.twice,
                 model.edge_tally[model.ids[k]],
             )
-            rows[k, 6], rows[k, 7] = line.ax, line.ay
+            rows[k, 6], rows[k, 7], rows[k, 8] = line.ax, line.ay, line.length
         else:
             corner, wall = model.corners[model.ids[k]], model.corner_wall[model.ids[k]]
             rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3] = corner.x, corner.y, 0.0, model.corner_tally[model.ids[k]]
@@ -198,7 +199,7 @@ def _look_up(gravity, restitution, s, met, rows):
             s[E + i], s[F + i] = rows[met[i], 4], rows[met[i], 5]
     if gravity is not None:
         for i in range(LANES):
-            s[AX + i], s[AY + i] = rows[met[i], 6], rows[met[i], 7]
+            s[AX + i], s[AY + i], s[LENGTH + i] = rows[met[i], 6], rows[met[i], 7], rows[met[i], 8]
 
 
 @kernel

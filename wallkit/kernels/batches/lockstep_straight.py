@@ -197,7 +197,7 @@ def _answer_point(model, s, i, until):
     )  # fmt: skip
     if touched > 0 and last >= 0:
         came = s[FROM_X + i], s[FROM_Y + i], s[FROM_VX + i], s[FROM_VY + i]
-        met = settle(model, last, x, y, vx, vy, came[0], came[1], came[2], came[3], tolerance, int(s[STILL + i]))
+        met = settle(model, last, 0.0, x, y, vx, vy, came[0], came[1], came[2], came[3], tolerance, int(s[STILL + i]))
         if met != NO_HIT:
             t, feature = 0.0, met
     s[BEST + i], s[ROW + i] = t, row_of(model, feature)

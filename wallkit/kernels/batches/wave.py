@@ -309,7 +309,7 @@ def _reflect(model, ball, s, n, i, limit):
 def _settle(model, ball, s, n, i):
     """Settle a point in a corner, as ``flight.fly`` does."""
     return settle(
-        model, int(ball.last), ball.x, ball.y, ball.vx, ball.vy,
+        model, int(ball.last), 0.0, ball.x, ball.y, ball.vx, ball.vy,
         s[FROM_X + i], s[FROM_Y + i], s[FROM_VX + i], s[FROM_VY + i], ball.tolerance, n[STILL + i],
     )  # fmt: skip
 
