@@ -110,14 +110,29 @@ def test_rolling_friction_stops_a_ball_on_the_way_of_its_energy():
 @pytest.mark.parametrize("first", range(0, 36, 6))
 def test_runs_with_rolling_friction_end_where_the_reference_ends_them(first):
     # Friction acts when the endless bounces are over. Their last one that is told, of some 1e-5 / s, is late by a
-    # rounding of 1e-15 over that, and the end of them by a few times as much: 1e-9 s of at most 10 / s^2. The horizon
-    # is that of places.
+    # rounding of 1e-15 over that, and the end of them by a few times as much.
     for seed in range(first, first + 6):
         _kind, scene, until = rolling_scene(seed)
         run = simulate(scene, until=until)
         off = np.abs(np.array(run.final[0].tolist()) - np.array(ContactReference(scene).run(until)[-1].row()))
-        assert off[3:].max() <= 1e-8
-        assert off[1:3].max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
+        assert off[1:].max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
+
+
+@pytest.mark.parametrize("bulge", [0.0, 0.25])
+def test_the_reference_lets_rolling_friction_wait_for_the_end_of_endless_bounces(bulge):
+    # on a level wall they take sqrt(2 h / g) (1 + e) / (1 - e), and nothing slows the ball down along it; at the bottom
+    # of a hollow of radius rho what presses it is g + u^2 / rho, to the second order in the way that it comes in them
+    e, u, high = 0.5, 3.0, 1e-12
+    walls = level([[-5, 0], [5, 0]], [[bulge, 0.0]], restitution=e)
+    rho = 5 * (1 + bulge * bulge) / (2 * bulge) if bulge else math.inf
+    start = (0.0, -5 * bulge + high)
+    scene = Scene(walls, Balls([start], [(u, 0.0)], 0.0), (0.0, -PULL), rolling_friction=1.5)
+    changes = ContactReference(scene).run(1.0)
+    slide = next(change for change in changes if change.kind == "slide")
+    high = start[1] + 5 * bulge  # as drawn, exact
+    expected = math.sqrt(2 * high / (PULL + u * u / rho)) * (1 + e) / (1 - e)
+    assert float(slide.time) == pytest.approx(expected, rel=1e-6 if bulge else 1e-15)
+    assert float(slide.velocity[0]) == pytest.approx(u, abs=1e-10)
 
 
 def test_rolling_friction_waits_for_the_end_of_endless_bounces():

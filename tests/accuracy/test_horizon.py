@@ -143,6 +143,20 @@ def test_a_hollow_met_along_its_tangent_is_met_anywhere_near():
     assert run.trusted_until(1e-5)[0].whole
 
 
+def test_a_run_is_good_throughout_if_its_end_is():
+    # off a pillar of radius 1e-3 an error of place turns the flight by 2,000 times as much, for 1e6 s; the contact is good
+    pillar = Walls.from_polylines([[(1e-3, 0.0), (-1e-3, 0.0)]], bulges=[[1.0, 1.0]])
+    scene = Scene(pillar, Balls([(-5.0, 0.3e-3)], [(1.1, 0.0)], 0.0))
+    event = Reference(scene).run(1)[0]
+    for until, good in ((10.0, True), (1e6, False)):
+        run = simulate(scene, until=until)
+        flown = [float(p + v * (until - event.time)) for p, v in zip(event.position, event.velocity, strict=True)]
+        off = math.hypot(run.final["x"][0] - flown[0], run.final["y"][0] - flown[1])
+        said = run.trusted_until(1e-9)[0]
+        assert (off <= 1e-9) == good == said.whole
+        assert said.bounces == 1
+
+
 def test_a_ball_that_comes_to_rest_is_good_throughout():
     # What restitution takes from the speed it takes from the error too; where it lies down is where it lies.
     floor = Walls.from_polylines([[(-5.0, 0.0), (5.0, 0.0)]], closed=False, material=Material(0.5, 1.0))

@@ -19,7 +19,7 @@ from typing import Any, Literal
 
 from wallkit.accuracy.contact_guides import Barrier, Guide, barriers_of, minus
 from wallkit.accuracy.contact_joints import Joints
-from wallkit.accuracy.contact_motions import Motion, motion
+from wallkit.accuracy.contact_motions import Motion, Smooth, motion
 from wallkit.accuracy.contact_search import Search
 from wallkit.accuracy.reference import Real, Reference, Vector, _dot, _reflect
 from wallkit.accuracy.sure_digits import PrecisionError
@@ -177,13 +177,20 @@ class ContactReference:
         pressed = barrier.press(mp, self.gravity, self.position, (u * ahead[0], u * ahead[1]))
         if e >= 1 or pressed <= 0 or w <= self._level() or w * w > 2 * pressed * self.low:
             return
+        if f >= 1:  # nothing slows it down along the wall in them: it slides, and friction begins when they are over
+            self.velocity = u * ahead[0], u * ahead[1]
+            if self.rolling is not None:
+                time = 2 * w / (pressed * (1 - e))
+                guide, square = self._guide(barrier)
+                self.position, self.velocity = Smooth(mp, guide, self.gravity, square).after(time, mp.inf)
+                self.now += time
+            return
         time, way, pull = mp.mpf(0), mp.mpf(0), _dot(self.gravity, ahead)
-        while f < 1 and w > self.tiny * self.low:
+        while w > self.tiny * self.low:
             t = 2 * w / pressed
             time, way = time + t, way + t * (u + pull * t / 2)
             u, w = f * (u + pull * t), e * w
-        if f < 1:
-            u = mp.mpf(0)  # infinitely many bounces leave nothing of it
+        u = mp.mpf(0)  # infinitely many bounces leave nothing of it
         self.now += time
         self.position = self.position[0] + way * ahead[0], self.position[1] + way * ahead[1]
         self.velocity = u * ahead[0], u * ahead[1]

@@ -207,7 +207,7 @@ def _wall_moved(d: float, wx: float, wy: float, across: float, nx: float, ny: fl
 def carry(
     start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, glides: Any, fresh: Any, variance: Any
 ) -> None:
-    """Fill ``variance`` with that of the place of each contact.
+    """Fill ``variance`` with that of the place of each contact, and of the velocity after it, less the rounding of that.
 
     Args:
         start: (2,) velocity at time 0.
@@ -219,7 +219,7 @@ def carry(
         glides: (n, 13) of ``wallkit.simulation.glide_errors``, of not-a-number where the ball came no circle along.
         fresh: (n, 4) new at each contact: displacement of the wall, turn of its normal, rounding of the place,
             and of the velocity relative to the speed.
-        variance: (n,), filled; left as it is after the first that exceeds 1e300.
+        variance: (n, 2), filled; left as it is after the first place of more than 1e300.
     """
     ux, uy = start[0], start[1]
     # covariances of position, of position with velocity, of velocity; the start is exact: it is what was asked for
@@ -242,12 +242,13 @@ def carry(
             break  # not a bounce that a neighbour shares: it began in contact
         S, A, B, M = contact(vx, vy, ax, ay, path, bend, keep, pull, drag, i)
         place = _times_turned(_times(S, xx), S)
-        variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]  # the trace of S Var(x) S^T, and rounding
+        variance[i, 0] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]  # the trace of S Var(x) S^T, and rounding
         if path[i, 5] == BOUNCES:  # the wall elsewhere by d is met at d (n - v / (v.n)) along it, and d along n
-            variance[i] += fresh[i, 0] * fresh[i, 0] * (vx * vx + vy * vy) / (across * across)
-        if not variance[i] < 1e300:
+            variance[i, 0] += fresh[i, 0] * fresh[i, 0] * (vx * vx + vy * vy) / (across * across)
+        if not variance[i, 0] < 1e300:
             break
         xx, xv, vv = _met(xx, xv, vv, A, B, M)
+        variance[i, 1] = vv[0] + vv[3]
         rounded = fresh[i, 2] * fresh[i, 2]
         if path[i, 5] != BOUNCES:  # nothing is turned
             along = (ny * ny * rounded, -nx * ny * rounded, -nx * ny * rounded, nx * nx * rounded)
