@@ -29,8 +29,8 @@ Where the first order ends, trust ends: when the error reaches the distance by w
 (points: the distance of a hit from a corner that turns), or the depth of a grazing hit.
 
 A run is good throughout if its end is good too: the place to the tolerance, and the velocity to the tolerance a second,
-so that a second later the ball would be where it should be. An error of the time at which endless bounces are over, some
-rounding of a place over the speed of the last of them, is seen nowhere else.
+so that a second later the ball would be where it should be. An error of the time at which endless bounces are over,
+some rounding of a place over the speed of the last of them, is seen nowhere else.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import circles
-from wallkit.kernels.flight.error_growth import BOUNCES, LEAVES, PASSES, SLIDES, SLOWS, STOPS, carry, stretch
+from wallkit.kernels.flight.error_growth import BOUNCES, LEAVES, PASSES, SLIDES, SLOWS, STOPS, TURNS, carry, stretch
 from wallkit.kernels.flight.flight import FALLING_TOLERANCE
 from wallkit.kernels.jit import compile_for, compiled
 from wallkit.kernels.signatures import kinds_of
@@ -56,11 +56,9 @@ from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, FlightTable,
 ErrorSource = Literal["rounding", "drawing"]
 Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, float, FloatArray]
 RMS_ROUNDING = 0.6 * 2.0**-53
-VERTEX, LEAVE, ENTER = (
-    1,
-    3,
-    4,
-)  # kinds of contacts, see wallkit.simulation.run.ContactKind: bounces up to the one, sensors from the other
+VERTEX, ENTER, END = 1, 4, 8
+"""Kinds of contacts, see ``wallkit.simulation.run.ContactKind``: bounces up to the first, sensors from the second; and
+of a row that is none, where the run ends."""
 COMPILED_FROM = 50_000  # contacts
 SURE = 3.0  # promised is this many times the root mean square
 
@@ -139,9 +137,9 @@ def trusted_until(
 
 
 def _and_end(own: Any, final: Any) -> Any:
-    """Add a last row to a ball's contacts, where its run ended: as if it left a wall there, which turns nothing."""
+    """Add a last row to a ball's contacts, where its run ended."""
     end = own[-1:].copy() if len(own) else np.zeros(1, dtype=own.dtype)
-    end["kind"] = LEAVE
+    end["kind"] = END
     for name in ("time", "x", "y", "vx", "vy"):
         end[name] = final[name]
     return np.concatenate([own, end])
@@ -172,7 +170,7 @@ def _root_mean_squares(scene: Scene, own: Any, ball: int, source: ErrorSource) -
     _kernel(carry, len(own))(*carried)
     variance[~(variance >= 0.0)] = np.inf  # overflown on the way: beyond any promise
     rms: FloatArray = np.sqrt(variance).T
-    # a ball that stands is exactly still; one that damping has slowed down has lost as much of its error as of its speed
+    # a ball that stands is exactly still; one that damping slowed down has lost as much of its error as of its speed
     now, free = np.hypot(own["vx"], own["vy"]), np.hypot(*carried[1][:, 1:3].T)
     rms[1] = np.where(now > 0.0, rms[1] * np.divide(now, free, out=np.ones(len(own)), where=free > 0.0), 0.0)
     return rms
@@ -221,7 +219,7 @@ def _course(scene: Scene, own: Any, ball: int) -> Course:
     slides = path[:, 5] == SLIDES
     stands = (own["vx"] == 0.0) & (own["vy"] == 0.0)
     before = np.concatenate([[LEAVES], path[:-1, 5]])
-    path[slides & (before == SLIDES) & ~stands, 5] = PASSES
+    path[slides & (before == SLIDES), 5] = np.where(stands, TURNS, PASSES)[slides & (before == SLIDES)]
     begin, start = (np.atleast_2d(np.asarray(part))[ball] for part in (scene.balls.position, scene.balls.velocity))
     if (damping := damping_of(scene)) is not None:
         path[:, 0], path[:, 1:3] = on_a_free_clock(damping, np.concatenate([begin, start]), own)
@@ -361,7 +359,7 @@ def _flights(scene: Scene, own: Any, ball: int) -> FlightTable:
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
     ends = np.stack([own["x"], own["y"]], axis=1)
     slides = np.concatenate(
-        [[False], np.isin(path[:-1, 5], (SLIDES, PASSES, STOPS, SLOWS))]
+        [[False], np.isin(path[:-1, 5], (SLIDES, PASSES, STOPS, SLOWS, TURNS))]
     )  # a ball that slides misses nothing
     return FlightTable(
         start=np.concatenate([begin[None], ends[:-1]]),
