@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from wallkit import Balls, Material, Scene, Walls, simulate
-from wallkit.accuracy.contact_scenes import contact_scene, rolling_scene
+from wallkit.accuracy.contact_scenes import contact_scene, one_sided_scene, rolling_scene, touching_scene
 from wallkit.accuracy.reference_contact import ContactReference
 from wallkit.accuracy.sure_digits import PrecisionError
 
@@ -133,6 +133,35 @@ def test_the_reference_lets_rolling_friction_wait_for_the_end_of_endless_bounces
     expected = math.sqrt(2 * high / (PULL + u * u / rho)) * (1 + e) / (1 - e)
     assert float(slide.time) == pytest.approx(expected, rel=1e-6 if bulge else 1e-15)
     assert float(slide.velocity[0]) == pytest.approx(u, abs=1e-10)
+
+
+@pytest.mark.parametrize("scene_of", [one_sided_scene, touching_scene])
+def test_runs_through_one_sided_walls_and_from_starts_in_touch_end_where_the_reference_ends_them(scene_of):
+    for seed in range(24):
+        _kind, scene, until = scene_of(seed)
+        run = simulate(scene, until=until)
+        off = np.abs(np.array(run.final[0].tolist()) - np.array(ContactReference(scene).run(until)[-1].row()))
+        assert off[1:].max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
+
+
+def test_a_disc_comes_through_a_one_sided_shelf_and_lies_down_on_it():
+    # thrown up at 8 it passes the shelf, whose outward side is above, and comes down on it: the work of 9.81 * 2
+    shelf = Walls.from_polylines([[(5, 2), (-5, 2)]], closed=False, sides="outward", material=Material(0.0, 1.0))
+    scene = Scene(shelf, Balls([(0.0, 0.5)], [(0.0, 8.0)], 0.5), gravity=(0.0, -PULL))
+    changes = ContactReference(scene).run(5.0)
+    assert [change.kind for change in changes] == ["bounce", "slide", "rest"]
+    falls = (8 + math.sqrt(64 - 2 * PULL * 2.0)) / PULL
+    assert float(changes[0].time) == pytest.approx(falls, rel=1e-14)
+
+
+def test_a_ball_that_is_placed_on_a_slope_slides_from_there():
+    # 30 degrees: along it g sin(30) t^2 / 2 from the speed 1, whatever tangential restitution would take in bounces
+    slope = level([[0, 0], [10 * math.sqrt(3), -10]], restitution=0.5, tangential=0.5)
+    down = np.array([math.sqrt(0.75), -0.5])
+    place = 2.0 * down + 0.5 * np.array([0.5, math.sqrt(0.75)])
+    changes = ended(slope, place, down, 0.5, 1.0)
+    assert [change.kind for change in changes] == ["slide", "end"]
+    assert changes[-1].row()[1:3] == pytest.approx(place + (1.0 + PULL / 4) * down, abs=1e-14)
 
 
 def test_rolling_friction_waits_for_the_end_of_endless_bounces():

@@ -107,8 +107,9 @@ def _after_last_bounces(along: Any, path: Any, keep: Any, hx: float, hy: float, 
     """Give S, A, B and M where endless bounces end that stop a ball, or after which friction slows it down.
 
     The last bounce that is told leaves at w, dt = -dx.n / w late and faster by dw = dv.n - p dt; its series takes
-    T = 2 w / p (1 - e), so dT = dt + T dw / w. Where restitution f along the wall stops it, after the way 2 w u / p (1 - e f),
-    it stops farther by u dt and by that way times dw / w: by u (1 - 2 / (1 - e f)) dt, at ``_lasts``.
+    T = 2 w / p (1 - e), so dT = dt + T dw / w. Where restitution f along the wall stops it, after the way
+    2 w u / p (1 - e f), it stops farther by u dt and by that way times dw / w: by u (1 - 2 / (1 - e f)) dt, at the
+    time of ``_lasts``.
     """
     T, e, f = path[i, 0] - path[i - 1, 0], keep[i, 1], keep[i, 0]
     nx, ny = path[i - 1, 3], path[i - 1, 4]  # of that bounce: on an arc it turns from there by more than w / v
@@ -253,7 +254,7 @@ def _wall_moved(d: float, wx: float, wy: float, across: float, nx: float, ny: fl
 def carry(
     start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, glides: Any, fresh: Any, variance: Any
 ) -> None:
-    """Fill ``variance`` with that of the place of each contact, and of the velocity after it, less the rounding of that.
+    """Fill ``variance`` with that of the place of each contact, and of the velocity after it before it is rounded.
 
     Args:
         start: (2,) velocity at time 0.
