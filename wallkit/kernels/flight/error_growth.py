@@ -299,12 +299,8 @@ def carry(
         variance[i, 1] = vv[0] + vv[3]
         rounded = fresh[i, 2] * fresh[i, 2]
         if path[i, 5] != BOUNCES:  # nothing is turned
-            along = _scaled(_along(nx, ny), rounded)
-            rounded = fresh[i, 3] * fresh[i, 3]
-            xx, vv = (
-                _plus(xx, along),
-                _plus(vv, (rounded * ux * ux, rounded * ux * uy, rounded * ux * uy, rounded * uy * uy)),
-            )
+            xx = _plus(xx, _scaled(_along(nx, ny), rounded))
+            vv = _plus(vv, _scaled(_outer(ux, uy), fresh[i, 3] * fresh[i, 3]))
             continue
         moved = _wall_moved(fresh[i, 0], vx - ux, vy - uy, across, nx, ny, B)
         xx, xv, vv = _plus(xx, moved[0]), _plus(xv, moved[1]), _plus(vv, moved[2])
