@@ -73,6 +73,17 @@ def test_the_samples_are_rooms_and_solids_as_one_who_knows_them_says():
                      "pinball.svg": False, "room.svg": False, "lagoon.ai": False}  # fmt: skip
 
 
+@pytest.mark.parametrize("wishes", [wallkit.Wishes(), wallkit.Wishes(balls=200)], ids=["one ball", "many"])
+def test_balls_without_a_place_start_between_a_frame_and_its_pillars_not_in_them(wishes):
+    opened = wallkit.open_scene(LEVELS / "frame-and-pillars.svg", wishes)
+    x, y = np.asarray(opened.scene.balls.position).T
+    radius = opened.scene.balls.radius
+    assert (np.minimum(np.minimum(x - 10, 390 - x), np.minimum(y - 10, 290 - y)) >= radius).all()
+    for centre, pillar in ((120, 40), (300, 60)):
+        assert (np.hypot(x - centre, y - 150) >= pillar - 0.1 + radius).all()  # arcs are within 0.1
+    assert (opened.scene.walls.solid.room, opened.scene.walls.solid.how) == (True, "start")
+
+
 @pytest.mark.parametrize("name", ["ball-in-a-group.svg", "ball-on-a-layer.svg"])
 def test_a_circle_in_a_group_called_balls_is_a_ball_and_no_wall(name):
     scene = wallkit.open_scene(LEVELS / name).scene

@@ -118,26 +118,37 @@ def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, B
 
 
 def _with_room(walls: Walls, lines: Lines, put_ball: bool) -> tuple[Walls, Spot | None]:
-    """Give the walls, inside out if only material has room for a ball, and if one is to be put there the spot."""
-    from wallkit.scene.starting_places import has_room, roomiest
-    from wallkit.walls.orient import inside_out
-    from wallkit.walls.solid import Solid
+    """Give the walls, and if a ball is to be put there the spot.
 
-    def room(anywhere: bool) -> tuple[bool, Spot | None]:
+    They are turned inside out where nothing has said what is solid and most of the room is in what would be, or where
+    only material has room.
+    """
+    from wallkit.scene.starting_places import has_room, most_room_is_material, roomiest
+
+    def room(walls: Walls, anywhere: bool) -> tuple[bool, Spot | None]:
         if not put_ball:
             return has_room(walls, anywhere, lines), None
         spot = roomiest(walls, anywhere, lines)
         return spot is not None, spot
 
-    found, spot = room(anywhere=False)
-    decided = walls.solid is not None and walls.solid.how in ("balls", "asked")
+    if walls.solid is not None and walls.solid.how == "default" and most_room_is_material(walls, lines):
+        walls = _turned(walls, "most of the space is inside them")
+    found, spot = room(walls, anywhere=False)
+    decided = walls.solid is not None and walls.solid.how in ("balls", "asked", "start")
     if found or decided or (walls.solid is None and "outward" in walls.sides):
         return walls, spot
-    found, spot = room(anywhere=True)  # all that is bounded is solid: then it is meant as rooms
+    found, spot = room(walls, anywhere=True)  # all that is bounded is solid: then it is meant as rooms
     if not found or walls.solid is None:
         return walls, spot
-    why = "there is no other place for a ball"
-    return replace(inside_out(walls), solid=Solid(not walls.solid.room, "start", why)), spot
+    return _turned(walls, "there is no other place for a ball"), spot
+
+
+def _turned(walls: Walls, why: str) -> Walls:
+    from wallkit.walls.orient import inside_out
+    from wallkit.walls.solid import Solid
+
+    assert walls.solid is not None
+    return replace(inside_out(walls), solid=Solid(not walls.solid.room, "start", why))
 
 
 def _sensible_radius(room: float) -> float:

@@ -168,6 +168,12 @@ def has_room(walls: Walls, anywhere: bool = False, lines: Lines | None = None) -
     return False
 
 
+def most_room_is_material(walls: Walls, lines: Lines) -> bool:
+    """Tell whether the largest face that may be meant as a room is material by what the import has decided."""
+    faces = _faces(walls, lines, anywhere=True)
+    return bool(faces) and bool(_are_material(walls, straight_edges(walls), np.array(faces[:1]))[0])
+
+
 def face_around(walls: Walls, x: float, y: float) -> Spot | None:
     """Give the roomiest spot of the face of the walls that a place is in; None where it is in no bounded one."""
     import shapely
@@ -211,13 +217,20 @@ def _largest_free(walls: Walls, faces: Any) -> list[Any]:
     start, count = 0, 4 * _FACES
     while start < len(order):
         some = faces[order[start : start + count]]
-        around, _ = walls_around(edges, shapely.get_coordinates(shapely.point_on_surface(some)))
-        solid = (np.bincount(around, minlength=len(some)) + walls.solid.room) % 2 == 1
-        chosen += [*some[~solid]]
+        chosen += [*some[~_are_material(walls, edges, some)]]
         if len(chosen) >= _FACES:
             break
         start, count = start + count, 2 * count
     return chosen
+
+
+def _are_material(walls: Walls, edges: Edges, faces: Any) -> np.ndarray:
+    """Tell for each face whether it is material by what the import has decided: by how many walls are around it."""
+    import shapely
+
+    around, _ = walls_around(edges, shapely.get_coordinates(shapely.point_on_surface(faces)))
+    room = walls.solid is not None and walls.solid.room
+    return (np.bincount(around, minlength=len(faces)) + room) % 2 == 1
 
 
 def _is_nearly_closed(face: Any, lines: Lines) -> bool:
