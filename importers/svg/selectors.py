@@ -19,6 +19,7 @@ import tinycss2
 from importers.limits import Work
 
 STEPS = 40  # of work for a part that is compiled
+STEPS_OF_A_LETTER = 6  # besides, for what is compiled is read and written several times
 STEPS_OF_A_TEST = 2  # of an element by a chain of parts, besides those of the way
 MOST_NESTED = (
     10  # blanks within blanks of ``:is(...)`` and its like: Python 3.14 compiles 2 ** 10 copies of the innermost
@@ -80,9 +81,10 @@ def _compiled(tokens: list[Any], namespaces: dict[str | None, str], work: Work) 
         nested = _nested(part)
         if nested > MOST_NESTED:
             raise NotUnderstoodError
-        work.charge("selectors", STEPS << nested)
+        text = tinycss2.serialize(part)
+        work.charge("selectors", (STEPS << nested) + STEPS_OF_A_LETTER * len(text))
         try:
-            (test,) = cssselect2.compile_selector_list(tinycss2.serialize(part), namespaces=namespaces)
+            (test,) = cssselect2.compile_selector_list(text, namespaces=namespaces)
         except _NOT_UNDERSTOOD as error:
             raise NotUnderstoodError from error
         tests.append(test)

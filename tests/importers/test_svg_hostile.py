@@ -147,6 +147,10 @@ HOSTILE = {
         " + ('<g a=\"' + 'y ' * 5000 + '\"/>') * 20 + '</svg>'",
         "steps of work",
     ),
+    "many rules in the rule of a long selector": (
+        "SVG + '<style>.a' + (':is(.a' + ',b' * 20 + ')') * 30 + '{' + '.a{fill:red}' * 500 + '}</style><g/></svg>'",
+        "steps of work",
+    ),
     "a long path shown often": (
         "SVG + '<path id=\"a\" d=\"M0 0' + ' ' * 100_000 + '\"/>' + '<use href=\"#a\"/>' * 2000 + '</svg>'",
         "",
