@@ -229,6 +229,7 @@ CALLS = {
         "bounces": NO_WHOLE_NUMBERS,
         "importing": (5, "lines", {"curves": "arcs"}),
         "may_be_empty": ("yes", 1),
+        "put_ball": ("yes", 1),
     }),
     "Walls.export": (ROOM.export, {"path": "/no/such/folder/level.tmj"}, {
         "path": (5, None, "/no/such/folder/level.tmj"),

@@ -67,7 +67,7 @@ class Look:
 def look_over(given: Given, radius: float | None) -> Look:
     """Look for leaks of a ball of a radius (None: the smallest given, else any), and whatever else is doubtful."""
     from wallkit.walls.checking.ball_places import ball_problems, goal_problems
-    from wallkit.walls.checking.free_space import free_space
+    from wallkit.walls.checking.free_space import free_space, free_space_among
     from wallkit.walls.checking.leaks import leak_problems, reach_of
 
     walls = given.walls
@@ -75,7 +75,7 @@ def look_over(given: Given, radius: float | None) -> Look:
         radius = float(given.radii.min())
         given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
     known = None if walls.has_arcs else given.lines  # arcs are other lines there
-    space = free_space(walls) if known is None else free_space(walls, edges=known.edges, touches=known.touches)
+    space = free_space(walls) if known is None else free_space_among(walls, known.edges, known.touches)
     reach = reach_of(space, walls, radius, given.places)
     found = ball_problems(space, walls, given.places, given.radii)
     found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)

@@ -99,9 +99,7 @@ class FreeSpace:
         return [gap for gap in shut if not gap.outside]  # a room shut to the outside is as it should be
 
 
-def free_space(
-    walls: Walls, narrow: float = _NARROW, *, edges: Edges | None = None, touches: Touches | None = None
-) -> FreeSpace:
+def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     """Find the rooms and the gaps between them, for discs of any radius at once.
 
     Where a disc may be: not inside material, which the winding of the walls tells (see ``Walls``). But where all
@@ -112,8 +110,6 @@ def free_space(
             are then made exact.
         narrow: an opening is a gap up to this part of the width of the room behind it. Rooms narrower than the
             tolerance are none, nor are gaps below 4e-7 of the drawing's diagonal.
-        edges: the straight edges of the walls, if they are at hand.
-        touches: those of these edges, if they are at hand.
 
     Raises:
         WallsError: these are no walls, or ``narrow`` is no number above 0.
@@ -121,7 +117,11 @@ def free_space(
     of_type(walls, "walls", Walls, "Walls", error=WallsError, code="bad-walls")
     may_be = "a number above 0"
     number(narrow, "narrow", may_be, error=WallsError, code="bad-argument", least=ABOVE_0)
-    edges = straight_edges(walls) if edges is None else edges
+    return free_space_among(walls, straight_edges(walls), None, narrow)
+
+
+def free_space_among(walls: Walls, edges: Edges, touches: Touches | None, narrow: float = _NARROW) -> FreeSpace:
+    """Do what :func:`free_space` does, with the straight edges of the walls, and how these touch if that is known."""
     vertices = edges.vertices
     nothing = not len(edges) or diagonal(vertices) == 0
     if nothing or len(edges) > MOST_EDGES:
