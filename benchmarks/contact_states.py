@@ -1,7 +1,7 @@
 """Hold random scenes with contact states against the reference of 40 digits: the state at the end, and the horizon.
 
     python benchmarks/contact_states.py --scenes 1000 --seed 0
-    python benchmarks/contact_states.py --scenes 1000 --seed 0 --rolling
+    python benchmarks/contact_states.py --scenes 1000 --seed 0 --with rolling
 
 A scene agrees if place and velocity at its end are those of the reference to 1e-9; else the horizon must say that the
 run is not good to that. Printed are all that do neither.
@@ -15,11 +15,12 @@ import time
 import numpy as np
 
 import wallkit
-from wallkit.accuracy.contact_scenes import KINDS, contact_scene, rolling_scene
+from wallkit.accuracy.contact_scenes import KINDS, contact_scene, one_sided_scene, rolling_scene, touching_scene
 from wallkit.accuracy.reference_contact import ContactReference
 from wallkit.accuracy.sure_digits import PrecisionError
 
 TOLERANCE = 1e-9
+SCENES = {"rolling": rolling_scene, "one-sided": one_sided_scene, "touching": touching_scene}
 
 
 def judge(seed, scene_of):
@@ -47,12 +48,12 @@ def main() -> None:
     asked = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     asked.add_argument("--scenes", type=int, default=100)
     asked.add_argument("--seed", type=int, default=0)
-    asked.add_argument("--rolling", action="store_true", help="the same scenes with rolling friction")
+    asked.add_argument("--with", dest="kind", choices=SCENES, help="rolling friction, one-sided walls, starts in touch")
     asked = asked.parse_args()
     table = {kind: {} for kind in KINDS}
     begin, states, worst = time.process_time(), 0, 0.0
     for seed in range(asked.seed, asked.seed + asked.scenes):
-        kind, verdict, off, held = judge(seed, rolling_scene if asked.rolling else contact_scene)
+        kind, verdict, off, held = judge(seed, SCENES.get(asked.kind, contact_scene))
         states += held
         table[kind][verdict] = table[kind].get(verdict, 0) + 1
         if verdict == "agrees":

@@ -5,9 +5,10 @@
 
 Processor seconds of whole processes, the median of turns in which both builds run one after the other: a survey with an
 empty kernel cache (once), the same again, ``simulate`` of a small drawing (with its kernels on the disk), ``check`` of
-10,000 edges, and surveys of 10,000 edges with the index made in each call. ``aside`` is what else one may begin with,
-an aim, a ``World(compile=True)`` and ``simulate``, and ``report`` is ``report --quick``, both with an empty cache; name
-them to have them, they take minutes. With ``--wheel`` this build is that wheel, installed into a new environment.
+10,000 edges, and surveys of 10,000 edges with the index made in each call. Others run when they are named, for they
+take minutes: ``aside`` is what else one may begin with, an aim, a ``World(compile=True)`` and ``simulate``, and
+``report`` is ``report --quick``, both with an empty cache; ``pictures`` are PNG files of runs. With ``--wheel`` this
+build is that wheel, installed into a new environment.
 """
 
 from __future__ import annotations
@@ -70,6 +71,36 @@ for name in ("curve10000", "maze10k"):
 print(json.dumps(seconds))
 """
 
+PICTURES = """
+import json, sys, time
+import numpy as np
+import wallkit
+from wallkit.view.raster import png
+from wallkit.view.run_picture import run_canvas
+seconds = []
+for file, start, balls, bounces in json.loads(sys.argv[1]):
+    angle = np.random.default_rng(1).uniform(0, 2 * np.pi, balls)
+    velocity = 50 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    scene = wallkit.Scene(
+        wallkit.import_walls(f"samples/{file}", curves="arcs"), wallkit.Balls(np.tile([start], (balls, 1)), velocity, 4)
+    )
+    run, turns = wallkit.simulate(scene, bounces=bounces), []
+    for _ in range(3):
+        began = time.process_time()
+        png(run_canvas(run))
+        turns.append(time.process_time() - began)
+    seconds.append(sorted(turns)[1])
+print(json.dumps(seconds))
+"""
+
+DRAWN = (
+    ("room.svg", (190, 200), 1, 50),
+    ("room.svg", (190, 200), 1, 2000),
+    ("room.svg", (190, 200), 20, 200),
+    ("pinball.svg", (250, 300), 5, 100),
+    ("lagoon.ai", (396, 150), 300, 40),
+)
+
 
 def row(name: str, turns: list[list[float]]) -> None:
     """Print one line of the table."""
@@ -130,6 +161,18 @@ def whole(builds: tuple[Build, Build]) -> None:
         row(f"whole survey, {name}", [[one[number] for one in turn] for turn in turns])
 
 
+def pictures(builds: tuple[Build, Build]) -> None:
+    """Pictures as PNG, of few bounces and of many, and the command that makes one."""
+    told = json.dumps(DRAWN)
+    turns = [[json.loads(build.seconds(["-c", PICTURES, told])[1]) for build in builds] for _ in range(3)]
+    for number, (file, _, balls, bounces) in enumerate(DRAWN):
+        row(f"picture of {file}, {balls} x {bounces}", [[one[number] for one in turn] for turn in turns])
+    with tempfile.TemporaryDirectory() as folder:
+        for bounces in ("50", "1000"):
+            words = ["-m", "wallkit", "simulate", "samples/room.svg", "--bounces", bounces, "-o", f"{folder}/run.png"]
+            row(f"-o run.png, {bounces} bounces", [[build.seconds(words)[0] for build in builds] for _ in range(TURNS)])
+
+
 def report(builds: tuple[Build, Build]) -> None:
     """The quick report, compiling included."""
     with tempfile.TemporaryDirectory() as folder:
@@ -140,7 +183,14 @@ def report(builds: tuple[Build, Build]) -> None:
         row("report --quick, first", [turns])
 
 
-PARTS = {"surveys": surveys, "aside": aside, "commands": commands, "whole": whole, "report": report}
+PARTS = {
+    "surveys": surveys,
+    "aside": aside,
+    "commands": commands,
+    "whole": whole,
+    "pictures": pictures,
+    "report": report,
+}
 
 
 def installed(wheel: str, folder: Path) -> Build:

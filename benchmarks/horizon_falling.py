@@ -3,7 +3,8 @@
     python benchmarks/horizon_falling.py --scenes 1000 --seed 0
 
 Random scenes with contact states, narrow gaps, nearly straight arcs and grazing hits. Late is a horizon that calls a
-contact good which is off by more than its tolerance; it is early by the ratio of what really holds to what it promises.
+contact good which is off by more than its tolerance, or a whole run whose end is; it is early by the ratio of what
+really holds to what it promises.
 """
 
 from __future__ import annotations
@@ -46,9 +47,12 @@ def judge(seed, late, ratios):
     kind, scene, until = hard_scene(seed) if seed % 2 else contact_scene(seed // 2)
     try:
         run = wallkit.simulate(scene, until=until)
-        off = np.array(errors(run, ContactReference(scene).run(until)))
+        changes = ContactReference(scene).run(until)
+        off = np.array(errors(run, changes))
     except (wallkit.WallkitError, PrecisionError):
         return False
+    true, own = changes[-1], run.final[0]
+    at_end = float(np.hypot(own["x"] - float(true.position[0]), own["y"] - float(true.position[1])))
     for tolerance in TOLERANCES:
         horizon = run.trusted_until(tolerance)[0]
         bad = np.flatnonzero(off > tolerance)
@@ -57,6 +61,9 @@ def judge(seed, late, ratios):
         if len(bad) and horizon.bounces > real:
             late[tolerance] += 1
             print(f"late {says}, off by {off[real]:.1e}", flush=True)
+        elif horizon.whole and at_end > tolerance:
+            late[tolerance] += 1
+            print(f"late {says}, its end is off by {at_end:.1e}", flush=True)
         ratios[tolerance].append(1.0 if horizon.whole else real / max(horizon.bounces, 1))
         if ratios[tolerance][-1] > 1.5 and tolerance == TOLERANCES[0]:
             print(f"early {says}", flush=True)

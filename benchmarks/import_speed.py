@@ -5,9 +5,10 @@
 
 The drawing has 4,900 paths of 24 cubics in as many groups (5.8 MB). Each figure is the processor time of reading it, or
 of making walls of what was read, in a process of its own; the median of turns in which both builds run one after the
-other. Memory is the most that a process had. With ``--growth`` this build alone reads 1,000 to 1,000,000 segments, the
-most that are read. The blobs are smooth there, and lines and arcs may be off by 0.5, since walls of more than 2,000,000
-vertices are refused. The slope is that of log time over log size, and beside it that of the last step.
+other. Kernels for the import are compiled before, as a wheel has them. Memory is the most that a process had. With
+``--growth`` this build alone reads 1,000 to 1,000,000 segments, the most that are read. The blobs are smooth there, and
+lines and arcs may be off by 0.5, since walls of more than 2,000,000 vertices are refused. The slope is that of log time
+over log size, and beside it that of the last step.
 """
 
 from __future__ import annotations
@@ -41,6 +42,15 @@ if curves != "read":
     wallkit.import_walls(drawing, curves=curves, tolerance=float(tolerance) or None)
 made = time.process_time() - start
 print(json.dumps([read, made, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024]))
+"""
+
+WARM = """
+try:
+    from wallkit.cli.warm import IMPORTING, warmed
+except ImportError:  # a build without such kernels
+    pass
+else:
+    warmed(IMPORTING)
 """
 
 
@@ -79,6 +89,8 @@ def compare(commit: str, same_environment: bool) -> None:
     with tempfile.TemporaryDirectory() as folder, beside(commit, same_environment=same_environment) as builds:
         file = Path(folder) / "map.svg"
         file.write_text(drawing_of(4900))
+        for build in builds:
+            build.seconds(["-c", WARM])
         for curves, column in (("read", 0), ("lines", 1), ("arcs", 1)):
             turns = [[measured(build, file, curves) for build in builds] for _ in range(TURNS)]
             here, there, ratio = medians([[one[column] for one in turn] for turn in turns])
@@ -92,6 +104,7 @@ def compare(commit: str, same_environment: bool) -> None:
 def grow() -> None:
     """Print the table by size, with slopes."""
     here = Build(ROOT, sys.executable)
+    here.seconds(["-c", WARM])
     print("| segments | read | lines | arcs | MB |\n|" + "---|" * 5)
     rows = []
     with tempfile.TemporaryDirectory() as folder:

@@ -60,9 +60,12 @@ except ImportError:  # builds from before these had folders of their own
     from wallkit.walls.build import import_walls
     from wallkit.walls.free_space import free_space
 try:
-    from wallkit.scene.starting_places import roomiest
-except ImportError:
-    from wallkit.starts import roomiest
+    from wallkit.scene.starting_places import has_room as look
+except ImportError:  # where a ball was put before it was left out
+    try:
+        from wallkit.scene.starting_places import roomiest as look
+    except ImportError:
+        from wallkit.starts import roomiest as look
 resource.setrlimit(resource.RLIMIT_CPU, (60, 60))
 n, looks, code = int(sys.argv[1]), sys.argv[2] == "True", sys.argv[3]
 rng = np.random.default_rng(1)
@@ -78,8 +81,8 @@ drawing = d.Drawing("pt", "up", paths=paths)
 start = time.process_time()
 walls = import_walls(drawing)
 known = True
-if looks:  # as check does: a place for the ball, and free space
-    roomiest(walls)
+if looks:  # as check does: whether there is room for a ball, and free space
+    look(walls)
     known = free_space(walls).complete
 took = time.process_time() - start
 print(json.dumps([took, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, known]))

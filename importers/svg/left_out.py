@@ -115,7 +115,7 @@ def note_unseen(tag: str, element: Any, path: DrawnPath, page: Region, clip: Reg
         clip: what clips and masks leave of it.
         notes: to say it to.
     """
-    x, y = start = path.subpaths[0].segments[0][1:]
+    x, y = start = path.subpaths[0].start
     if clip.box == EVERYWHERE and clip.exact and not page.misses((x, y, x, y)):
         return  # its first point is seen, and nothing cuts it
     wide = reach_of(path)

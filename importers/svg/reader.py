@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from importers.boxes import Box, box_of
-from importers.drawing import Drawing, DrawnPath, FillRule, Layer, Level, Subpath
+from importers.drawing import Drawing, DrawnPath, FillRule, Layer, Level
 from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.numbers import NumberError
 from importers.regions import ALL, Region
@@ -19,12 +19,13 @@ from importers.svg.clipping import Clips
 from importers.svg.conditions import chosen, holds
 from importers.svg.inheritance import Style
 from importers.svg.left_out import NO_GEOMETRY, note_foreign, note_shape, note_skipped, note_unseen
-from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transform, translation
+from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transformed, translation
 from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS, label_of, level_of, merged, name_of, title_of
 from importers.svg.notes import Notes
 from importers.svg.pages import pages_of, sheet_of
 from importers.svg.paint import Paints
 from importers.svg.placing import DEFAULT_SIZE, element_matrix, has_transform, nested_viewport, root_viewport, use_size
+from importers.svg.plain_paths import PlainPaths
 from importers.svg.references import References
 from importers.svg.shapes import SHAPES, Lengths, Shapes, within_bounds
 from importers.svg.source import Source
@@ -37,7 +38,7 @@ Attributes = dict[str, str]
 
 # Of a visit to any element, and of following a reference; see limits.Work
 _STEPS_OF_A_VISIT = 10
-_STEPS_OF_A_USE = 25
+_STEPS_OF_A_USE = 35
 # Groups with a transform-box inside of groups with one: each level reads its content once more.
 _MAX_ASIDE = 8
 
@@ -56,12 +57,13 @@ class Reader:
         self.references = References(root, self.prefix, source.file, source.work)
         head = source.text[:4000]
         self.illustrator = "Adobe Illustrator" in head or "ns.adobe.com/AdobeIllustrator" in head
-        self.inkscape_layers = bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
+        named = "groupmode" in source.text  # in names of attributes nothing stands for anything else
+        self.inkscape_layers = named and bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
         self.paints = Paints(self.references, self.cascade, source)
         self.clips = Clips(self.references, self.cascade, source, self.prefix)
         self.layers: dict[str, Layer] = {}
         self.stack: list[tuple[Any, Around]] = []
-        self.shapes = Shapes(source.work)
+        self.shapes = Shapes(source.work, PlainPaths(path.get("d", "") for path in root.iter(self.prefix + "path")))
         self.boxes: dict[Any, Box | None] = {}
         self.aside = 0
         self.segments = 0
@@ -387,10 +389,10 @@ class Reader:
         name = around.label or own_name or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
             note_shape(tag, element, shape, lengths, around.layer, name, matrix, self.notes)
-        subpaths = [Subpath(transform(sub.segments, matrix), sub.closed) for sub in shape.subpaths]
+        subpaths = [transformed(sub, matrix) for sub in shape.subpaths]
         if not subpaths:
             return
-        self.segments += sum(len(sub.segments) for sub in subpaths)
+        self.segments += sum(map(len, subpaths))
         if self.segments > MAX_ELEMENTS:
             raise limit_error("segments of all paths", f"{MAX_ELEMENTS:,}", file=self.source.file)
         if not within_bounds(subpaths):

@@ -12,6 +12,7 @@ from importers.limits import LETTERS_OF_A_STEP, MAX_COORDINATE, Work
 from importers.numbers import NumberError
 from importers.svg.arcs import full_ellipse
 from importers.svg.path_data import COMMA, NUMBER, Fault, check_length, parse_path_data
+from importers.svg.plain_paths import PlainPaths
 from importers.svg.style import INITIAL, Declared, Pending, TooLarge, parse_declaration
 from importers.svg.units import Font, Terms, Viewport, needs_metrics, needs_window, parse_length, to_px
 
@@ -121,8 +122,8 @@ class Shape:
 class Shapes:
     """Reads the shapes of a document; lists of points and path data that are copied are read once."""
 
-    def __init__(self, work: Work) -> None:
-        self._work = work
+    def __init__(self, work: Work, plain: PlainPaths) -> None:
+        self._work, self._plain = work, plain
         self._read: dict[Any, Shape] = {}
 
     def of(self, tag: str, element: Any, attributes: Any, lengths: Lengths, copied: bool) -> Shape:
@@ -142,16 +143,21 @@ class Shapes:
             text = lengths.declared.get(data) or attributes.get(data)
             if text:
                 self._work.charge("path data", len(text) // LETTERS_OF_A_STEP)
-            shape = make_shape(tag, attributes, lengths)
+            plain = self._plain.get(text) if text and tag == "path" else None
+            shape = make_shape(tag, attributes, lengths) if plain is None else Shape([plain], attribute="d")
             if own:
                 self._read[element] = shape
-        self._work.charge("shapes", _STEPS_OF_A_SHAPE + sum(len(sub.segments) for sub in shape.subpaths))
+        self._work.charge("shapes", _STEPS_OF_A_SHAPE + sum(map(len, shape.subpaths)))
         return shape
 
 
 def within_bounds(subpaths: list[Subpath]) -> bool:
     """Tell whether every number is finite and no larger than coordinates may be."""
     for sub in subpaths:
+        if sub.columns is not None:
+            if not abs(sub.columns[1]).max() <= MAX_COORDINATE:
+                return False
+            continue
         for segment in sub.segments:
             for number in segment[1:]:
                 if not -MAX_COORDINATE <= number <= MAX_COORDINATE:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from wallkit import Balls, Material, Scene, Walls, simulate
-from wallkit.accuracy.contact_scenes import contact_scene, rolling_scene
+from wallkit.accuracy.contact_scenes import contact_scene, one_sided_scene, rolling_scene, touching_scene
 from wallkit.accuracy.reference_contact import ContactReference
 from wallkit.accuracy.sure_digits import PrecisionError
 
@@ -110,14 +110,58 @@ def test_rolling_friction_stops_a_ball_on_the_way_of_its_energy():
 @pytest.mark.parametrize("first", range(0, 36, 6))
 def test_runs_with_rolling_friction_end_where_the_reference_ends_them(first):
     # Friction acts when the endless bounces are over. Their last one that is told, of some 1e-5 / s, is late by a
-    # rounding of 1e-15 over that, and the end of them by a few times as much: 1e-9 s of at most 10 / s^2. The horizon
-    # is that of places.
+    # rounding of 1e-15 over that, and the end of them by a few times as much.
     for seed in range(first, first + 6):
         _kind, scene, until = rolling_scene(seed)
         run = simulate(scene, until=until)
         off = np.abs(np.array(run.final[0].tolist()) - np.array(ContactReference(scene).run(until)[-1].row()))
-        assert off[3:].max() <= 1e-8
-        assert off[1:3].max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
+        assert off[1:].max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
+
+
+@pytest.mark.parametrize("bulge", [0.0, 0.25])
+def test_the_reference_lets_rolling_friction_wait_for_the_end_of_endless_bounces(bulge):
+    # on a level wall they take sqrt(2 h / g) (1 + e) / (1 - e), and nothing slows the ball down along it; at the bottom
+    # of a hollow of radius rho what presses it is g + u^2 / rho, to the second order in the way that it comes in them
+    e, u, high = 0.5, 3.0, 1e-12
+    walls = level([[-5, 0], [5, 0]], [[bulge, 0.0]], restitution=e)
+    rho = 5 * (1 + bulge * bulge) / (2 * bulge) if bulge else math.inf
+    start = (0.0, -5 * bulge + high)
+    scene = Scene(walls, Balls([start], [(u, 0.0)], 0.0), (0.0, -PULL), rolling_friction=1.5)
+    changes = ContactReference(scene).run(1.0)
+    slide = next(change for change in changes if change.kind == "slide")
+    high = start[1] + 5 * bulge  # as drawn, exact
+    expected = math.sqrt(2 * high / (PULL + u * u / rho)) * (1 + e) / (1 - e)
+    assert float(slide.time) == pytest.approx(expected, rel=1e-6 if bulge else 1e-15)
+    assert float(slide.velocity[0]) == pytest.approx(u, abs=1e-10)
+
+
+@pytest.mark.parametrize("scene_of", [one_sided_scene, touching_scene])
+def test_runs_through_one_sided_walls_and_from_starts_in_touch_end_where_the_reference_ends_them(scene_of):
+    for seed in range(24):
+        _kind, scene, until = scene_of(seed)
+        run = simulate(scene, until=until)
+        off = np.abs(np.array(run.final[0].tolist()) - np.array(ContactReference(scene).run(until)[-1].row()))
+        assert off[1:].max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
+
+
+def test_a_disc_comes_through_a_one_sided_shelf_and_lies_down_on_it():
+    # thrown up at 8 it passes the shelf, whose outward side is above, and comes down on it: the work of 9.81 * 2
+    shelf = Walls.from_polylines([[(5, 2), (-5, 2)]], closed=False, sides="outward", material=Material(0.0, 1.0))
+    scene = Scene(shelf, Balls([(0.0, 0.5)], [(0.0, 8.0)], 0.5), gravity=(0.0, -PULL))
+    changes = ContactReference(scene).run(5.0)
+    assert [change.kind for change in changes] == ["bounce", "slide", "rest"]
+    falls = (8 + math.sqrt(64 - 2 * PULL * 2.0)) / PULL
+    assert float(changes[0].time) == pytest.approx(falls, rel=1e-14)
+
+
+def test_a_ball_that_is_placed_on_a_slope_slides_from_there():
+    # 30 degrees: along it g sin(30) t^2 / 2 from the speed 1, whatever tangential restitution would take in bounces
+    slope = level([[0, 0], [10 * math.sqrt(3), -10]], restitution=0.5, tangential=0.5)
+    down = np.array([math.sqrt(0.75), -0.5])
+    place = 2.0 * down + 0.5 * np.array([0.5, math.sqrt(0.75)])
+    changes = ended(slope, place, down, 0.5, 1.0)
+    assert [change.kind for change in changes] == ["slide", "end"]
+    assert changes[-1].row()[1:3] == pytest.approx(place + (1.0 + PULL / 4) * down, abs=1e-14)
 
 
 def test_rolling_friction_waits_for_the_end_of_endless_bounces():

@@ -36,7 +36,7 @@ def said(plain, words):
         given.update({key: value for key, value in locals().items() if key != "given"})
 
     result = CliRunner().invoke(app, words)
-    return result.exit_code, result.output, {key: (type(value), value) for key, value in given.items()}
+    return result.exit_code, result.output, {key: repr(value) for key, value in given.items()}
 
 
 @pytest.mark.parametrize(
@@ -46,6 +46,18 @@ def said(plain, words):
         "--quiet act a.svg",
         "act a.svg --name x --page 2 --ball 1,2 --ball 3,4",
         "act a.svg --scale 2 --count 3 --way lines --heat --no-meeting --place 3 4",
+        "act a.svg --scale 1e-1",
+        "act a.svg --scale 5e-1 --count -7",
+        "act a.svg --scale 0.30000000000000004e1 --count +12",
+        "act a.svg --scale inf",
+        "act a.svg --scale nan",
+        "act a.svg --scale 1_0",
+        "act a.svg --scale .5",
+        "act a.svg --count 99999999999999999999",
+        "act a.svg --count 0x10",
+        "act a.svg --count 007",
+        "act a.svg --count \u0661",
+        "act a.svg --way ARCS",
         "act 1 --name 2 --meeting",
         "act",
         "act a.svg --scale 0.1",
@@ -65,10 +77,12 @@ def test_a_command_is_given_what_typer_gives_it(words):
 
 def test_a_small_simulation_imports_nothing_that_converts_values():
     code = (
-        "import sys; sys.argv = ['wallkit', 'simulate', 'samples/lagoon.ai', '--ball', '396,150']\n"
+        "import sys; sys.argv = ['wallkit', 'simulate', 'samples/lagoon.ai', '--ball', '396,150', '--radius', '2.5', "
+        "'--bounces', '20', '--no-meeting']\n"
         "from wallkit.cli import main\n"
+        "late = {'pydantic', 'rich', 'llvmlite', 'scipy', 'numpy.ma', 'PIL'}\n"
         "try: main()\n"
-        "finally: print({'pydantic', 'rich', 'llvmlite', 'scipy'} & set(sys.modules), file=sys.stderr)\n"
+        "finally: print(late & set(sys.modules), file=sys.stderr)\n"
     )
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert result.returncode == 0, result.stderr

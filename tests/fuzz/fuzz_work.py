@@ -37,13 +37,13 @@ from importers.errors import WallkitError  # noqa: E402
 
 SECONDS, MEGABYTES = 5.0, 512
 MOST = 1_500_000  # letters of a text that is said more often
+MOST_BYTES = 16 << 20  # of the file that is made of it: a form of a PDF is a letter there
 ALIVE = 12  # texts that live on, of each way to be costly
 EVERY = 150  # texts between two that are said more often
 
 
-def measured(target: Target, text: str) -> tuple[float, Reading]:
+def measured(target: Target, data: bytes) -> tuple[float, Reading]:
     """Give seconds of processor time and what was counted; what is no WallkitError comes through."""
-    data = target.written(text)
     start = time.process_time()
     reading = Reading()
     try:
@@ -78,12 +78,12 @@ class Herd:
         return grower.random.choice(self.kinds[kind])[2]
 
 
-def _alone(target: Target, text: str, answer: Any) -> None:
-    """Measure a text in a process that is ended by the limits."""
+def _alone(target: Target, data: bytes, answer: Any) -> None:
+    """Measure a file in a process that is ended by the limits."""
     resource.setrlimit(resource.RLIMIT_CPU, (int(4 * SECONDS), int(4 * SECONDS)))
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     try:
-        seconds, reading = measured(target, text)
+        seconds, reading = measured(target, data)
         ended = reading.ended
     except MemoryError:
         seconds, ended = SECONDS, "MemoryError"
@@ -92,11 +92,11 @@ def _alone(target: Target, text: str, answer: Any) -> None:
     answer.send((seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, ended))
 
 
-def alone(target: Target, text: str) -> tuple[float, float, str]:
-    """Give seconds, megabytes more than at the start, and how reading a text ended, in a process of its own."""
+def alone(target: Target, data: bytes) -> tuple[float, float, str]:
+    """Give seconds, megabytes more than at the start, and how reading a file ended, in a process of its own."""
     fork = multiprocessing.get_context("fork")
     ours, theirs = fork.Pipe()
-    process = fork.Process(target=_alone, args=(target, text, theirs))
+    process = fork.Process(target=_alone, args=(target, data, theirs))
     process.start()
     theirs.close()
     try:
@@ -128,7 +128,7 @@ class Hunt:
             return
         self.texts += 1
         try:
-            seconds, reading = measured(self.target, text)
+            seconds, reading = measured(self.target, self.target.written(text))
         except Exception as error:
             self.fault(f"foreign {type(error).__name__} {str(error)[:60]}", text, f"{error!r}")
             return
@@ -147,9 +147,10 @@ class Hunt:
                 text = written(scaled(tree, factor), MOST)
             except TooLongError:
                 return
-            if len(text) < 2 * max(last[0], base):
+            data = self.target.written(text)
+            if len(text) < 2 * max(last[0], base) or len(data) > MOST_BYTES:
                 return
-            seconds, megabytes, ended = alone(self.target, text)
+            seconds, megabytes, ended = alone(self.target, data)
             self.larger += 1
             said = f"{len(text):,} letters: {seconds:.1f} s, {megabytes:.0f} MB, {ended or 'read'}"
             if ended.startswith("foreign"):

@@ -76,7 +76,9 @@ def test_a_slide_and_a_sensor_are_no_bounces_for_the_run_the_horizon_and_the_rep
     (said,) = run.trusted_until()
     assert said.whole
     assert said.bounces == bounces
-    assert trusted_until(run.scene, run.contacts, end=8.0) == said  # whoever gives all contacts gets the same answer
+    assert (
+        trusted_until(run.scene, run.contacts, final=run.final[0]) == said
+    )  # whoever gives all contacts gets the same answer
     assert f"({bounces} bounces)" in horizon_table(run)["sentence"]
     assert run_table(run)["balls"] == 1
     assert repr(run).startswith(f"<Run: 1 ball, {bounces} bounces in 8 s")

@@ -42,7 +42,7 @@ def test_a_film_shows_the_sensors_where_they_are(run):
     seeing = replace(run, scene=replace(run.scene, sensors=sensors))
     frames, blind = (films._Frames(each, LOOK, 1.0, None) for each in (seeing, run))
     shown, plain = (
-        np.asarray(each.background.copied().reduced().convert("RGB")).astype(int) for each in (frames, blind)
+        np.asarray(each.background.copied().pixels.image().convert("RGB")).astype(int) for each in (frames, blind)
     )
     rows, columns = np.nonzero(np.abs(shown - plain).max(axis=2))
     (x, top), (_, bottom) = frames.frame.points(np.array([(60.0, 60.0), (60.0, 10.0)]))

@@ -8,10 +8,11 @@ import pytest
 from PIL import Image
 
 import wallkit
+from wallkit.geometry.path_segments import polylines
 from wallkit.view.canvas import Canvas, Disc, Shape
 from wallkit.view.frame import fit
 from wallkit.view.heat import spent
-from wallkit.view.raster import Raster, png, polylines
+from wallkit.view.raster import Raster, png
 from wallkit.view.run_picture import run_box, run_canvas, run_svg, scene_box, scene_svg
 from wallkit.view.theme import RAMP_STEPS, colour, ramp
 from wallkit.view.tracks import tracks
@@ -103,7 +104,7 @@ def test_the_even_odd_fill_of_pixels_agrees_with_shapely():
     outer = [(5, 5), (95, 15), (80, 90), (10, 70)]
     hole = [(30, 30), (60, 25), (50, 60)]
     commands = [(("M" if i == 0 else "L"), *p) for ring in (outer, hole) for i, p in enumerate(ring)]
-    pixels = np.asarray(Raster(100, 100, "light", 1.0).drawn([Shape("error", commands)]).image)
+    pixels = np.asarray(Raster(100, 100, "light", 2.0).drawn([Shape("error", commands)]).pixels.image())
     red = (pixels == tuple(bytes.fromhex(colour("error", "light")[1:]))).all(axis=2)
     centres = (np.arange(200) + 0.5) / 2
     x, y = np.meshgrid(centres, centres)

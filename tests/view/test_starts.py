@@ -5,7 +5,7 @@ import shapely
 from importers.drawing import Drawing, DrawnPath, Subpath
 from wallkit import SceneError, WallkitError, Walls, open_scene
 from wallkit.scene import starting_places
-from wallkit.scene.starting_places import roomiest, scattered
+from wallkit.scene.starting_places import Lines, has_room, roomiest, scattered
 from wallkit.walls.importing.drawn_balls import drawn_balls
 
 # A unit circle of four cubics, with the factor that every drawing program uses, 4/3 (sqrt 2 - 1).
@@ -111,13 +111,63 @@ def test_faces_of_many_rings_are_those_of_geos(monkeypatch):
     rings += [(x + 0.3, y, 0.1) for x, y, radius in rings if radius == 0.48]
     outlines = [np.stack([x + r * np.cos(turn), y + r * np.sin(turn)], axis=1) for x, y, r in rings]
     for lines in (outlines, [*outlines, outlines[4]], [*outlines, outlines[4] + 0.2]):  # apart, with a copy, crossing
-        noded = starting_places._noded(Walls.from_polylines(lines))
+        walls = Walls.from_polylines(lines)
         found = []
         for few in (0, len(lines) + 1):  # by nesting where nothing meets, and always by GEOS
             monkeypatch.setattr(starting_places, "_MANY_RINGS", few)
-            found.append(sorted(shapely.to_wkb(shapely.normalize(starting_places._bounded(noded)))))
+            found.append(sorted(shapely.to_wkb(shapely.normalize(Lines.of(walls).bounded))))
         assert found[0] == found[1]
         assert len(found[0]) >= len(outlines)
+
+
+def test_tiles_that_share_edges_are_a_face_each():
+    tiles = Walls.from_polylines([ring(60 * i, 60 * j, 60 * i + 60, 60 * j + 60) for i in range(6) for j in range(5)])
+    faces = Lines.of(tiles).bounded
+    assert [face.area for face in faces] == [3600.0] * 30
+    assert roomiest(tiles, anywhere=True).room == pytest.approx(30, rel=0.01)
+
+
+def dashes(n):
+    """A room from -20 to 3 n + 20 in which n^2 short lines stand, 3 apart."""
+    lines = [[(3 * i, 3 * j), (3 * i + 2, 3 * j + 0.5)] for i in range(n) for j in range(n)]
+    return Walls.from_polylines([ring(-20, -20, 3 * n + 20, 3 * n + 20), *lines], closed=[True, *[False] * n * n])
+
+
+def test_the_roomiest_spot_among_thousands_of_lines_touches_two_walls_and_the_end_of_a_line(monkeypatch):
+    # (c - r, c - r) for the corner (c, c) is r from the end (c - 21, c - 22.5): r^2 - 87 r + 21^2 + 22.5^2 = 0
+    radius = (87 - np.sqrt(87**2 - 4 * (21**2 + 22.5**2))) / 2
+    corner = 3 * 40 + 20
+    monkeypatch.setattr(starting_places, "MOST_STANDING", 1599)
+    spot = roomiest(dashes(40))
+    assert (spot.x, spot.y, spot.room) == pytest.approx((corner - radius, corner - radius, radius), rel=1e-8)
+    with pytest.raises(SceneError, match="1,599 lines stand in the room") as caught:
+        scattered(dashes(40), spot, 5, 1.0, np.random.default_rng(1))
+    assert "--ball" in caught.value.fix
+    monkeypatch.setattr(starting_places, "MOST_STANDING", 1600)  # by GEOS
+    assert roomiest(dashes(40)).room == pytest.approx(radius, abs=0.005 * 160)  # the tolerance that is asked of it
+
+
+def test_whether_there_is_room_is_told_as_by_the_search_for_the_roomiest_spot():
+    rng = np.random.default_rng(5)
+    box = ring(0, 0, 100, 100)
+    told = []
+    for case in range(60):
+        lines = [box, *rng.uniform(0, 100, (case % 5, 4, 2))][case % 2 :]
+        closed = (rng.random(len(lines)) < 0.6).tolist()
+        walls = Walls.from_polylines(lines, closed=closed, sides=("both", "outward")[case % 3 == 0])
+        for anywhere in (False, True):
+            assert has_room(walls, anywhere) == (roomiest(walls, anywhere) is not None)
+            told.append(has_room(walls, anywhere))
+    assert len(set(told)) == 2
+
+
+def test_to_tell_whether_there_is_room_one_face_of_many_is_looked_at(monkeypatch):
+    looked_at = []
+    spot = starting_places._spot
+    monkeypatch.setattr(starting_places, "_spot", lambda face, lines: looked_at.append(face) or spot(face, lines))
+    nest = Walls.from_polylines([ring(-k, -k, k, k) for k in range(1, 600)])
+    assert has_room(nest, anywhere=True)
+    assert len(looked_at) == 1
 
 
 def test_walls_without_room_have_no_spot():

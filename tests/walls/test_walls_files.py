@@ -59,6 +59,9 @@ def test_different_walls_are_not_equal():
     assert a == Walls.from_polylines([[(0, 0), (1, 0), (0, 1)]])
 
 
+DECIDED = '{"format": "wallkit-walls", "version": 1, "walls": [], "solid": %s}'
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -72,6 +75,10 @@ def test_different_walls_are_not_equal():
             '{"format": "wallkit-walls", "version": 1, "walls": [{"closed": true, "vertices": [[1, 2], [NaN, 0]]}]}',
             "not finite",
         ),
+        (DECIDED % '{"room": true, "how": "guessed", "why": "so"}', "solid.how.*guessed.*'asked', 'paint'"),
+        (DECIDED % '{"room": "yes", "how": "asked", "why": "so"}', "solid.room.*yes.*True or False"),
+        (DECIDED % '{"room": true, "how": "asked", "why": 3}', "solid.why.*3.*a text"),
+        (DECIDED % '{"room": true, "how": "asked"}', "'why' is missing"),
     ],
 )
 def test_bad_files_say_what_is_wrong(text, message):

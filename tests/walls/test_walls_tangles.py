@@ -11,9 +11,12 @@ import pytest
 import shapely
 from drawn import drawing, line, path, polygon, square
 
+from importers.errors import LimitError
 from wallkit.walls import Walls, crossings
+from wallkit.walls.checking import loose_ends
 from wallkit.walls.checking.free_space import free_space
 from wallkit.walls.checking.leaks import leak_problems, reach_of
+from wallkit.walls.checking.self_check import validate
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.importing.pipeline import import_walls
 
@@ -143,6 +146,23 @@ def test_a_tangle_is_told_by_check_and_no_gap_is_made_up():
     assert (space.gaps, len(space.closed_rooms)) == ([], 0)
     (problem,) = leak_problems(space, reach_of(space, walls, None, np.empty((0, 2))))
     assert (problem.code, problem.severity) == ("tangled", "warning")
+
+
+def test_gaps_among_very_many_ends_are_looked_for_nearer_by_and_that_is_told(monkeypatch):
+    lines = [[(30 * i, 30 * j), (30 * i + 29.9, 30 * j)] for i in range(20) for j in range(20)]
+    walls = Walls.from_polylines(lines, closed=False)
+    reach = 0.02 * np.hypot(599.9, 570)
+    gaps = [problem for problem in validate(walls) if problem.code == "gap"]
+    assert len(gaps) == 20 * 19
+    monkeypatch.setattr(loose_ends, "MOST_NEAR", 2000)  # of 800 ends each has its own edge, and that beyond the gap
+    with pytest.raises(LimitError, match="pairs of an open end and what is near it, at most 2,000"):
+        loose_ends.loose_ends(walls, reach)
+    found = {problem.code: problem for problem in validate(walls)}
+    assert found["gap"].message == gaps[0].message
+    assert found["tangled"].message.endswith(f"looked for up to {reach / 4:.3g} only")
+    monkeypatch.setattr(loose_ends, "MOST_NEAR", 1)
+    (problem,) = (problem for problem in validate(walls) if problem.code == "tangled")
+    assert "gaps are not looked for" in problem.message
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.3])

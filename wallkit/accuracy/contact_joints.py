@@ -127,6 +127,19 @@ class Joints:
                 return barrier
         return None
 
+    def is_before(self, vertex: Barrier, place: Vector) -> bool:
+        """Tell whether a disc that touches a vertex of a one-sided wall is outside it, and stands across none of it.
+
+        It stands across an edge beside which its centre is, and is behind the wall against the normals of its edges.
+        """
+        (x, y), normals = minus(place, vertex.anchor), (self.mp.mpf(0), self.mp.mpf(0))
+        for end in self.around[vertex.anchor]:
+            if x * end.out[0] + y * end.out[1] > SMOOTH * self.reference.size:
+                return False
+            turn = -1 if end.last else 1  # the outward normal is on the right of the wall's way
+            normals = normals[0] + turn * end.out[1], normals[1] - turn * end.out[0]
+        return bool(_dot((x, y), normals) >= 0)
+
     def passes(self, held: Barrier, other: Barrier, position: Vector) -> bool:
         """Tell whether what is met is a joint of the two: what follows there is told by ``next``."""
         places = [place for place in self._places(held) if place in self._places(other)]

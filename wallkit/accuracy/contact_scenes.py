@@ -43,6 +43,47 @@ def rolling_scene(seed: int) -> tuple[str, Scene, float]:
     return kind, dataclasses.replace(scene, rolling_friction=part * PULL), until
 
 
+def one_sided_scene(seed: int) -> tuple[str, Scene, float]:
+    """Make the scene of :func:`contact_scene` with every other open wall one-sided, from above or from below."""
+    kind, scene, until = contact_scene(seed)
+    random, walls = np.random.default_rng([seed, 3]), scene.walls
+    outlines, bulges, sides = [], [], []
+    for first, after, closed in zip(walls.offsets[:-1], walls.offsets[1:], walls.closed, strict=True):
+        outline, bulge, one = walls.vertices[first:after], walls.bulges[first:after], random.random(2) < 0.5
+        if not closed and one[0]:  # the other way round, with the bulge of each edge turned round
+            outline, bulge = outline[::-1], np.append(-bulge[-2::-1], 0.0)
+        outlines, bulges = [*outlines, outline], [*bulges, bulge]
+        sides.append("outward" if not closed and one[1] else "both")
+    walls = Walls.from_polylines(outlines, walls.closed, bulges=bulges, sides=sides, material=walls.materials)
+    return kind, dataclasses.replace(scene, walls=walls), until
+
+
+def touching_scene(seed: int) -> tuple[str, Scene, float]:
+    """Make the scene of :func:`contact_scene` with its ball in touch with an edge, moving along, into or out of it.
+
+    The touch is as good as doubles are. Some discs overlap another wall there, and are refused by whoever runs them.
+    """
+    kind, scene, until = contact_scene(seed)
+    random, walls = np.random.default_rng([seed, 4]), scene.walls
+    edge = int(random.integers(len(walls.edge_starts)))
+    a, b = walls.vertices[walls.edge_starts[edge]], walls.vertices[walls.edge_ends[edge]]
+    half, bulge = 0.5 * (b - a), float(walls.bulges[walls.edge_starts[edge]])
+    right, u = np.array([half[1], -half[0]]), random.uniform(-0.9, 0.9)
+    foot, normal = 0.5 * (a + b) + u * half, right / np.hypot(*right)
+    if bulge != 0.0:  # a point of a circle about the chord's middle less (1 - k^2) / 2 k of the half chord to the left
+        centre = 0.5 * (a + b) - (1.0 - bulge * bulge) / (2.0 * bulge) * right
+        out = foot + bulge * (1.0 - u * u) * right - centre
+        out /= np.hypot(*out)
+        foot = centre + np.hypot(*(a - centre)) * out
+        normal = out if float(out @ right) > 0.0 else -out
+    normal = normal * random.choice([-1.0, 1.0])
+    along = np.array([-normal[1], normal[0]])
+    speed, lift = random.uniform(-5.0, 5.0) * (random.random() < 0.8), random.choice([0.0, 0.0, -1.0, 1.0])
+    velocity = speed * along + lift * random.uniform(0.1, 3.0) * normal
+    balls = Balls([foot + float(scene.balls.radius[0]) * normal], [velocity], scene.balls.radius)
+    return kind, dataclasses.replace(scene, balls=balls), until
+
+
 def _material(random: np.random.Generator) -> Material:
     restitution = float(random.choice([0.0, 0.3, 0.5, 0.8, 1.0, random.random()]))
     tangential = float(random.choice([1.0, 1.0, 0.9, random.uniform(0.3, 1.0)]))

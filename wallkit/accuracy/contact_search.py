@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.accuracy.contact_guides import Barrier, minus
+from wallkit.accuracy.contact_joints import Joints
 from wallkit.accuracy.real_roots import real_roots
 from wallkit.accuracy.reference import Real, Reference, Vector, _Arc, _dot, _Line
 
@@ -16,7 +17,10 @@ from wallkit.accuracy.reference import Real, Reference, Vector, _Arc, _dot, _Lin
 class Search:
     """All barriers, and boxes around them in doubles: what a part of a parabola misses by far is not asked."""
 
-    def __init__(self, reference: Reference, barriers: list[Barrier], gravity: Vector, same: Real) -> None:
+    def __init__(
+        self, reference: Reference, barriers: list[Barrier], joints: Joints, gravity: Vector, same: Real
+    ) -> None:
+        self.joints = joints
         self.reference, self.mp, self.barriers, self.gravity = reference, reference.mp, barriers, gravity
         self.same = same
         circles = np.array([self._around(barrier) for barrier in barriers]).reshape(-1, 3)
@@ -133,7 +137,7 @@ class Search:
         if isinstance(shape, _Arc):
             d = minus(place, shape.centre)
             return bool(_dot(d, shape.middle) >= shape.cos_half * self.mp.sqrt(_dot(d, d)) - beyond)
-        return True
+        return not self.reference.obstacles[barrier.obstacle].outward_only or self.joints.is_before(barrier, place)
 
     def near(self, place: Vector, distance: Real) -> list[Barrier]:
         """Barriers beside whose section a centre is, no farther from them than a distance."""

@@ -7,6 +7,8 @@ to one barrier (see ``contact_guides``); what touches it and moves neither to no
 * bounces lower than 10 ** (-digits / 2) of the scene are taken to their end: their times and ways are summed up;
 * what it moves along and what presses it holds it; a wall along gravity holds it too; nothing else does;
 * without speed it slides along the wall on which the pull leads away from what it touches, or rests between two;
+* one that starts within ``TOUCHING`` of a wall touches it, and moves along it where it leaves it by no more; a point is
+  on the side from which it is pressed, or of a wall along gravity on that to which it moves;
 * at the end of an edge the next one around that place, on the ball's side, goes on smoothly, rises (a bounce), or
   falls away: a point leaves, a disc pivots while something presses it on the vertex.
 """
@@ -19,7 +21,7 @@ from typing import Any, Literal
 
 from wallkit.accuracy.contact_guides import Barrier, Guide, barriers_of, minus
 from wallkit.accuracy.contact_joints import Joints
-from wallkit.accuracy.contact_motions import Motion, motion
+from wallkit.accuracy.contact_motions import Motion, Smooth, motion
 from wallkit.accuracy.contact_search import Search
 from wallkit.accuracy.reference import Real, Reference, Vector, _dot, _reflect
 from wallkit.accuracy.sure_digits import PrecisionError
@@ -28,6 +30,8 @@ from wallkit.scene.scene import Scene
 Kind = Literal["bounce", "slide", "leave", "rest", "end"]
 MOST = 100_000
 """Events after which a run is given up."""
+TOUCHING = 2.0**-44
+"""Of the scene's size, and of a speed: starts are given in doubles."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +82,7 @@ class ContactReference:
         self.low = self.size * mp.mpf(10) ** (-digits / mp.mpf(2))
         self.tiny = mp.mpf(10) ** (-0.6 * digits)
         self.joints = Joints(reference, self.barriers)
-        self.search = Search(reference, self.barriers, self.gravity, self.tiny * self.size)
+        self.search = Search(reference, self.barriers, self.joints, self.gravity, self.tiny * self.size)
         self.touching: dict[int, Barrier] = {}
         self.sides: dict[int, Barrier] = {}  # of obstacles off which the ball has bounced
         self.now = mp.mpf(0)
@@ -89,6 +93,7 @@ class ContactReference:
     def run(self, until: float) -> list[Change]:
         """List what happens until a time, and the state then as the last entry."""
         end = self.mp.mpf(until)
+        self._begin()
         for _ in range(MOST):
             if self.rests or self.now >= end:
                 break
@@ -101,6 +106,32 @@ class ContactReference:
         self.now = end
         self._note("rest" if self.rests else "end", self.held)
         return self.changes
+
+    def _begin(self) -> None:
+        """Put a ball that starts in touch with walls on them, and let them bounce or hold it."""
+        found = self.search.near(self.position, TOUCHING * self.size)
+        for barrier in [barrier for barrier in found if self._is_on(barrier)]:
+            nx, ny = barrier.normal_at(self.mp, self.position)
+            off = barrier.gap(self.position)
+            if barrier.bend != 0:
+                off = off / (2 * barrier.reach)  # of squares; what is left is of the second order
+            self.position = self.position[0] - off * nx, self.position[1] - off * ny
+            across = self._across(barrier)
+            if abs(across) <= TOUCHING * self.mp.sqrt(_dot(self.velocity, self.velocity)):
+                self.velocity = self.velocity[0] - across * nx, self.velocity[1] - across * ny
+            self.touching[barrier.number] = barrier
+        if self.touching:
+            self._settle(None)
+
+    def _is_on(self, barrier: Barrier) -> bool:
+        """Tell whether a ball that touches a barrier where it starts is on that side of its wall: see above."""
+        if self.radius > 0:
+            return True
+        normal = barrier.normal_at(self.mp, self.position)
+        pressed = -_dot(self.gravity, normal)
+        if abs(pressed) > TOUCHING * self.pull:
+            return bool(pressed > 0)
+        return bool(_dot(self.velocity, normal) > -TOUCHING * self.mp.sqrt(_dot(self.velocity, self.velocity)))
 
     # -- flight
 
@@ -177,13 +208,20 @@ class ContactReference:
         pressed = barrier.press(mp, self.gravity, self.position, (u * ahead[0], u * ahead[1]))
         if e >= 1 or pressed <= 0 or w <= self._level() or w * w > 2 * pressed * self.low:
             return
+        if f >= 1:  # nothing slows it down along the wall in them: it slides, and friction begins when they are over
+            self.velocity = u * ahead[0], u * ahead[1]
+            if self.rolling is not None:
+                time = 2 * w / (pressed * (1 - e))
+                guide, square = self._guide(barrier)
+                self.position, self.velocity = Smooth(mp, guide, self.gravity, square).after(time, mp.inf)
+                self.now += time
+            return
         time, way, pull = mp.mpf(0), mp.mpf(0), _dot(self.gravity, ahead)
-        while f < 1 and w > self.tiny * self.low:
+        while w > self.tiny * self.low:
             t = 2 * w / pressed
             time, way = time + t, way + t * (u + pull * t / 2)
             u, w = f * (u + pull * t), e * w
-        if f < 1:
-            u = mp.mpf(0)  # infinitely many bounces leave nothing of it
+        u = mp.mpf(0)  # infinitely many bounces leave nothing of it
         self.now += time
         self.position = self.position[0] + way * ahead[0], self.position[1] + way * ahead[1]
         self.velocity = u * ahead[0], u * ahead[1]

@@ -66,7 +66,7 @@ class Wanted:
         from wallkit.scene.wishes import Wishes
 
         gravity = gravity_or_none(self.gravity)
-        return Wishes(importing=importing, may_be_empty=True, gravity=gravity, until=self.until, bounces=self.bounces)
+        return Wishes(importing=importing, put_ball=False, gravity=gravity, until=self.until, bounces=self.bounces)
 
 
 @dataclass(frozen=True, slots=True)

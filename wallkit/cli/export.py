@@ -81,7 +81,7 @@ def export_level(
     data = read_input(file)
     if not chosen.arcs and kind_of(data) == "drawing":  # lines near the curves themselves, not near arcs near them
         asked = replace(asked, curves="lines")
-    found = opened(file, Wishes(importing=asked, may_be_empty=True), data)
+    found = opened(file, Wishes(importing=asked, put_ball=False), data)
     walls = found.scene.walls
     page = None if found.drawing is None else page_of(placed(found.drawing, asked), asked.scale, asked.flip_y)
     wanted: dict[str, Any] = {"scale": target_scale, "origin": given.origin or "page", "page": page, "grid": given.grid}

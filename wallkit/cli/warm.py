@@ -11,7 +11,7 @@ import typer
 if TYPE_CHECKING:
     from wallkit.scene.scene import Scene
 
-FITTING = "arcs for drawings of many curves"
+IMPORTING = "drawings of many curves"
 MEMORY = 4
 """Processes that compile at once, at most, where nobody says how many: each takes up to a gigabyte."""
 
@@ -39,7 +39,7 @@ def warm(
 
     from wallkit.kernels.jit import cache_folder
 
-    names = [*(files or _usual()), FITTING]
+    names = [*(files or _usual()), IMPORTING]
     if files:
         for file in files:
             _opened(file)  # what cannot be opened is told before anything is compiled
@@ -56,10 +56,13 @@ def warmed(name: str) -> str:
     from wallkit.simulation.warming import plain_scenes
     from wallkit.simulation.warming import warm as warm_scene
     from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_a_few
+    from wallkit.walls.importing.curves_to_lines import flatten_a_few
+    from wallkit.walls.near_boxes import ask_a_few
 
     began = time.perf_counter()
-    if name == FITTING:
-        fit_a_few()
+    if name == IMPORTING:
+        for task in (fit_a_few, flatten_a_few, ask_a_few):
+            task()
     else:
         scene = dict(plain_scenes()).get(name) or _opened(name)
         if not len(scene.balls):

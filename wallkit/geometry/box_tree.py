@@ -8,7 +8,7 @@ that the work is done in whole arrays.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 
@@ -16,6 +16,8 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 
 _WIDTH = 16
 _BITS = 16  # of each coordinate, which tell the order
+_STEP = 4  # so many of them are looked up together
+_LOW = (1 << _STEP) - 1
 _FEW = 1 << 15  # pairs of a question and a box
 _AT_ONCE = 4096  # rows that are looked at together: what they need stays in the cache
 
@@ -151,12 +153,7 @@ class _Level:
 
 
 def _along_hilbert(middle: FloatArray, frame: FloatArray) -> IntArray:
-    """How far along Hilbert's curve points (2, n) are: (n,).
-
-    The curve visits the four quarters of a square one after the other; it enters the first transposed and the last
-    transposed about the other diagonal. So each bit of the coordinates, from the highest, gives a quarter, and turns
-    the bits below.
-    """
+    """How far along Hilbert's curve points (2, n) are: (n,)."""
     size = np.maximum(frame[1] - frame[0], 1e-300)[:, None]
     x, y = (np.clip((middle - frame[0][:, None]) / size, 0.0, 1.0) * (2**_BITS - 1)).astype(np.int64)
     along = np.zeros(len(x), dtype=np.int64)
@@ -168,13 +165,33 @@ def _along_hilbert(middle: FloatArray, frame: FloatArray) -> IntArray:
 
 def _hilbert(x: IntArray, y: IntArray) -> IntArray:
     """Give the places of some of them."""
-    along = np.zeros(len(x), dtype=np.int64)
-    for bit in reversed(range(_BITS)):
-        right, top = (x >> bit) & 1, (y >> bit) & 1
-        along = 4 * along + ((3 * right) ^ top)
-        lower = top - 1  # all ones where the first or the last quarter is entered
-        mirrored = lower & -right
-        x, y = x ^ mirrored, y ^ mirrored
-        turn = (x ^ y) & lower
-        x, y = x ^ turn, y ^ turn
+    places, states = _hilbert_steps()
+    along, state = np.zeros(len(x), dtype=np.int64), np.zeros(len(x), dtype=np.int64)
+    for shift in range(_BITS - _STEP, -1, -_STEP):
+        row = state + ((x >> shift & _LOW) << _STEP) + (y >> shift & _LOW)
+        along = (along << 2 * _STEP) + places[row]
+        state = states[row]
     return along
+
+
+@cache
+def _hilbert_steps() -> tuple[IntArray, IntArray]:
+    """Give what _STEP bits of x and y add to the place, and the state that follows, by state, bits of x and bits of y.
+
+    The curve visits the four quarters of a square one after the other; it enters the first transposed and the last
+    transposed about the other diagonal. So each bit of the coordinates, from the highest, gives a quarter, and says
+    whether the bits below are swapped, and whether all are flipped: that is the state.
+    """
+    number = np.arange(4 << 2 * _STEP)
+    flip, swap = -(number >> 2 * _STEP & 1), number >> 2 * _STEP + 1
+    x, y = (number >> _STEP ^ flip) & _LOW, (number ^ flip) & _LOW
+    x, y = np.where(swap, y, x), np.where(swap, x, y)
+    flip, place = -flip, np.zeros_like(number)
+    for bit in reversed(range(_STEP)):
+        right, top = x >> bit & 1, y >> bit & 1
+        place = 4 * place + (3 * right ^ top)
+        lower = 1 - top  # the first or the last quarter is entered
+        flip, swap = flip ^ (lower & right), swap ^ lower
+        x, y = x ^ -(lower & right), y ^ -(lower & right)
+        x, y = np.where(lower, y, x), np.where(lower, x, y)
+    return place, (2 * swap + flip) << 2 * _STEP

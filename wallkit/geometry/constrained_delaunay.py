@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.geometry.cavities import Triangle, filled
 from wallkit.geometry.delaunay import delaunay
 from wallkit.geometry.half_edges import HalfEdges
@@ -109,7 +109,7 @@ class _Insertion:
         """Write the arrays, and turn edges where rounding has left some to be turned."""
         mesh = self._mesh
         mesh.corner[:], mesh.across[:], mesh.label[:] = self._corner, self._across, self._label
-        changed = np.unique(np.array(self._changed, dtype=np.int64))
+        changed = distinct(np.array(self._changed, dtype=np.int64))
         mesh.legalise((3 * changed[:, None] + np.arange(3)).ravel())
 
     def insert(self, a: int, b: int, number: int) -> None:

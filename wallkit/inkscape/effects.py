@@ -67,7 +67,7 @@ def check(document: Document, options: argparse.Namespace) -> None:
     from wallkit.scene.wishes import Wishes
     from wallkit.view.picture import walls_marks
 
-    found = open_scene(document.data, Wishes(importing=_importing(options), may_be_empty=True))
+    found = open_scene(document.data, Wishes(importing=_importing(options), put_ball=False))
     look = look_over(given_of(found), options.radius or None)
     told = f"wallkit check: {count_by_severity(look.problems)}"
     canvas, frame = walls_marks(look.walls, look.problems, ways=[gap.path for gap in look.reach.leaks], note=told)
@@ -108,7 +108,7 @@ def export(document: Document, options: argparse.Namespace) -> None:
     out = Path(options.out).expanduser()
     chosen = find_format(out, None if options.format in ("", "ending") else options.format)
     importing = _importing(options) if chosen.arcs else _importing(options, curves="lines")
-    found = open_scene(document.data, Wishes(importing=importing, may_be_empty=True))
+    found = open_scene(document.data, Wishes(importing=importing, put_ball=False))
     page = None if found.drawing is None else page_of(found.drawing)
     scale = options.target_scale or None
     write(found.scene.walls, out, chosen.name, scale=scale, origin=options.origin, page=page, grid=options.grid)

@@ -16,6 +16,7 @@ from wallkit.walls.origins import Marker
 
 if TYPE_CHECKING:
     from wallkit.scene.opening import OpenedScene
+    from wallkit.scene.starting_places import Lines, Spot
 
 
 def walls_and_balls(opened: OpenedScene, drawn: Drawn | None, wishes: Wishes) -> tuple[Walls, Balls]:
@@ -85,28 +86,21 @@ def _random_velocities(count: int, wishes: Wishes, random: np.random.Generator, 
 
 
 def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, Balls]:
-    from wallkit.scene.starting_places import cross_too_often, roomiest, scattered
-    from wallkit.walls.orient import inside_out
-    from wallkit.walls.solid import Solid
+    from wallkit.scene.starting_places import Lines, scattered
 
-    walls, assumed = opened.scene.walls, opened.assumed
     opened.found_place = True
-    spot = roomiest(walls)
-    decided = walls.solid is not None and walls.solid.how in ("balls", "asked")
-    if spot is None and not decided and (walls.solid is not None or "outward" not in walls.sides):
-        spot = roomiest(walls, anywhere=True)  # all that is bounded is solid: then it is meant as rooms
-        if spot is not None and walls.solid is not None:
-            why = "there is no other place for a ball"
-            walls = replace(inside_out(walls), solid=Solid(not walls.solid.room, "start", why))
+    lines = Lines.of(opened.scene.walls)
+    walls, spot = _with_room(opened.scene.walls, lines, wishes.put_ball)
+    if walls is opened.scene.walls:
+        opened.lines = lines
+    if not wishes.put_ball or (spot is None and wishes.may_be_empty):
+        return walls, Balls(np.empty((0, 2)), np.empty((0, 2)))
     if spot is None:
-        if wishes.may_be_empty:
-            return walls, Balls(np.empty((0, 2)), np.empty((0, 2)))
         why = "there is no room for a ball inside these walls"
-        if cross_too_often(walls):
+        if lines.too_many:
             why = "these walls cross too often to look for room for a ball among them"
         raise UsageError(why, code="no-room", fix="give --ball X,Y")
-    count = wishes.balls
-    radius = wishes.radius
+    assumed, count, radius = opened.assumed, wishes.balls, wishes.radius
     meeting = opened.scene.meeting if wishes.meeting is None else wishes.meeting
     if radius is None:
         radius = _sensible_radius(spot.room) / (1 if count is None else 2)
@@ -121,6 +115,29 @@ def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, B
     places = scattered(walls, spot, count, radius, random, apart=meeting and radius > 0.0)
     assumed.append(f"{count} balls of radius {radius:g} at random places (seed {wishes.seed}) around the roomiest spot")
     return walls, Balls(places, _random_velocities(count, wishes, random, assumed), radius)
+
+
+def _with_room(walls: Walls, lines: Lines, put_ball: bool) -> tuple[Walls, Spot | None]:
+    """Give the walls, inside out if only material has room for a ball, and if one is to be put there the spot."""
+    from wallkit.scene.starting_places import has_room, roomiest
+    from wallkit.walls.orient import inside_out
+    from wallkit.walls.solid import Solid
+
+    def room(anywhere: bool) -> tuple[bool, Spot | None]:
+        if not put_ball:
+            return has_room(walls, anywhere, lines), None
+        spot = roomiest(walls, anywhere, lines)
+        return spot is not None, spot
+
+    found, spot = room(anywhere=False)
+    decided = walls.solid is not None and walls.solid.how in ("balls", "asked")
+    if found or decided or (walls.solid is None and "outward" in walls.sides):
+        return walls, spot
+    found, spot = room(anywhere=True)  # all that is bounded is solid: then it is meant as rooms
+    if not found or walls.solid is None:
+        return walls, spot
+    why = "there is no other place for a ball"
+    return replace(inside_out(walls), solid=Solid(not walls.solid.room, "start", why)), spot
 
 
 def _sensible_radius(room: float) -> float:

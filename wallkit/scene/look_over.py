@@ -14,6 +14,7 @@ from wallkit.walls import Walls
 if TYPE_CHECKING:
     from importers.drawing import Drawing
     from wallkit.scene.opening import OpenedScene
+    from wallkit.scene.starting_places import Lines
     from wallkit.walls.checking.free_space import FreeSpace
     from wallkit.walls.checking.leaks import Reach
     from wallkit.walls.import_options import ImportOptions
@@ -21,7 +22,10 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class Given:
-    """What FILE holds: walls, places and radii of its balls, all that was found in it, and what was assumed."""
+    """What FILE holds: walls, places and radii of its balls, all that was found in it, and what was assumed.
+
+    ``lines``, of the walls, say how they touch, where somebody has looked for that.
+    """
 
     walls: Walls
     places: FloatArray
@@ -31,6 +35,7 @@ class Given:
     sensors: Walls | None = None
     drawing: Drawing | None = None
     importing: ImportOptions | None = None
+    lines: Lines | None = None
 
 
 def given_of(found: OpenedScene) -> Given:
@@ -41,7 +46,7 @@ def given_of(found: OpenedScene) -> Given:
     if found.found_place:
         places, radii = np.empty((0, 2)), np.empty(0)
     sensors, drawing = found.scene.sensors, found.drawing
-    return Given(walls, places, radii, list(found.problems), assumed, sensors, drawing, found.importing)
+    return Given(walls, places, radii, list(found.problems), assumed, sensors, drawing, found.importing, found.lines)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +74,8 @@ def look_over(given: Given, radius: float | None) -> Look:
     if radius is None and len(given.radii):
         radius = float(given.radii.min())
         given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
-    space = free_space(walls)
+    known = None if walls.has_arcs else given.lines  # arcs are other lines there
+    space = free_space(walls) if known is None else free_space(walls, edges=known.edges, touches=known.touches)
     reach = reach_of(space, walls, radius, given.places)
     found = ball_problems(space, walls, given.places, given.radii)
     found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)

@@ -26,6 +26,7 @@ from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
 
 if TYPE_CHECKING:
     from wallkit.scene.scene_files import SceneFile
+    from wallkit.scene.starting_places import Lines
 
 BOUNCES = 100
 
@@ -42,9 +43,10 @@ class OpenedScene:
         problems: what was found on the way: by the reader, in the walls, about the balls.
         assumed: what nobody said, a sentence each.
         drawing: the drawing, where the file was one.
-        found_place: no ball was given: the one in the scene was put where there is most room.
+        found_place: no ball was given: the one in the scene, if there is one, was put where there is most room.
         importing: how the drawing became walls.
         lesson: what a scene file says to a class, or None.
+        lines: of the walls, with how they touch, where these were looked for on the way.
     """
 
     scene: Scene
@@ -57,6 +59,7 @@ class OpenedScene:
     found_place: bool = False
     importing: ImportOptions | None = None
     lesson: Lesson | None = None
+    lines: Lines | None = None
 
 
 def open_scene(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls import Walls
 from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.self_check import straight_edges
@@ -17,7 +18,9 @@ from wallkit.walls.sample import flattened
 from wallkit.walls.solid import walls_around
 
 if TYPE_CHECKING:
+    from wallkit.geometry.triangulation import Triangulation
     from wallkit.walls.crossings import Touches
+    from wallkit.walls.noding import Pieces
 
 MOST_DRAWS = 200
 """So many times places are drawn, more of them than balls each time, before there is said to be no room."""
@@ -25,134 +28,166 @@ _FINE_STEP = math.pi / 256  # chords of arcs are then off by at most 2e-5 of the
 _MANY_RINGS = 500  # of fewer, GEOS finds the faces in no time
 _WAYS = 64  # directions that are tried out of a face that may be open
 _FACES = 24  # so many of the largest faces are searched for the roomiest spot
+_INWARDS = 1e-6  # of the square root of a face's area: so far in, its own edges are not met
+MOST_STANDING = 10_000
+"""Lines that stand in a face: of so many GEOS makes thin holes within two seconds, and no more are asked of it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """A place with room: its centre, the distance to the nearest wall, and the face it is in (of shapely)."""
+    """A place with room.
+
+    Attributes:
+        x: of its centre.
+        y: of its centre.
+        room: the distance to the nearest wall.
+        face: a polygon of shapely, the face that it is in, without the lines that stand there.
+        crowded: these are too many to be taken out of the face, and are in it still.
+    """
 
     x: float
     y: float
     room: float
     face: Any
+    crowded: bool = False
 
 
-def roomiest(walls: Walls, anywhere: bool = False) -> Spot | None:
+@dataclass(eq=False)
+class Lines:
+    """The walls' lines, arcs as short chords, with how they touch: found once for all searches among the same walls.
+
+    Attributes:
+        edges: of all walls.
+        touches: of these edges.
+    """
+
+    edges: Edges
+    touches: Touches
+
+    @classmethod
+    def of(cls, walls: Walls) -> Lines:
+        """Find how the walls' lines touch."""
+        from wallkit.walls.crossings import find_touches
+
+        rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
+        offsets = np.concatenate([[0], np.cumsum([len(ring) for ring in rings])]).astype(np.int64)
+        edges = Edges(np.concatenate([np.empty((0, 2)), *rings]), offsets, walls.closed)
+        return cls(edges, find_touches(edges))
+
+    @property
+    def too_many(self) -> bool:
+        """Walls cross at more places than are cut: then no place is looked for among them."""
+        from wallkit.walls.noding import MOST_CROSSINGS
+
+        return len(self.edges) > 0 and (not self.touches.complete or len(self.touches.crossing_at) > MOST_CROSSINGS)
+
+    @cached_property
+    def pieces(self) -> Pieces:
+        """The lines cut where they meet; for walls that do not cross too often."""
+        from wallkit.walls.noding import noded
+
+        return noded(self.edges, self.touches)
+
+    @cached_property
+    def tree(self) -> Any:
+        """A tree of the pieces as lines of shapely."""
+        import shapely
+
+        return shapely.STRtree(shapely.linestrings(np.stack([self.pieces.a, self.pieces.b], axis=1)))
+
+    @cached_property
+    def bounded(self) -> Any:
+        """The bounded faces between the lines.
+
+        By GEOS, which looks among all rings for the one around each hole; of many rings that touch nothing, and are no
+        copies, the nesting tells that: a face is what is within a ring, and not within those directly in it.
+        """
+        import shapely
+
+        from wallkit.walls.nesting import depths
+
+        edges, touches = self.edges, self.touches
+        met = (touches.crossing_at, touches.overlap_edges, touches.touch_at, touches.cut_edge)
+        count = np.diff(edges.offsets)
+        if len(count) < _MANY_RINGS or any(map(len, met)) or not edges.closed.all() or count.min() < 3:
+            return shapely.get_parts(shapely.polygonize([*self.tree.geometries]))
+        rings = shapely.linearrings(edges.vertices, indices=np.repeat(np.arange(len(count)), count))
+        inside: list[list[Any]] = [[] for _ in rings]
+        for ring, around in zip(rings, depths(edges)[1].tolist(), strict=True):
+            if around >= 0:
+                inside[around].append(ring)
+        return np.array([shapely.polygons(ring, holes or None) for ring, holes in zip(rings, inside, strict=True)])
+
+    @cached_property
+    def mesh(self) -> Triangulation | None:
+        """Triangles between the pieces; None for a tangle."""
+        from wallkit.geometry.triangulation import triangulate
+
+        return triangulate(self.pieces.a, self.pieces.b)
+
+
+def roomiest(walls: Walls, anywhere: bool = False, lines: Lines | None = None) -> Spot | None:
     """Find the place inside the walls that is farthest from all of them, to 1 % of the distance or better.
 
     Inside is every bounded face that the walls make; where there are open walls, also what remains of the box
     around them, if most ways out of it end at a wall, or if there is nothing else. Faces of less than half the
     largest one's area do not count: a room with a wide pillar is meant, not the pillar. Nor does what ``walls.solid``
     says is material, unless ``anywhere`` is asked for. The search is shapely's ``maximum_inscribed_circle`` (GEOS,
-    after Mapbox's polylabel).
+    after Mapbox's polylabel); where very many lines stand in a face, that of ``crowded_rooms.py``.
+
+    Args:
+        walls: any walls.
+        anywhere: material counts too.
+        lines: of the walls, if they are at hand.
 
     Returns:
         The spot, or None where no face has room.
     """
-    import shapely
-
-    noded = _noded(walls)
-    if noded is None:
-        return None
-    tree = shapely.STRtree(noded.pieces)
+    lines = Lines.of(walls) if lines is None else lines
     best: Spot | None = None
-    for face in _faces(walls, noded, anywhere):
+    for face in _faces(walls, lines, anywhere):
         # A circle in a face of area A has at most the radius sqrt(A / pi): smaller faces cannot win any more.
         if best and math.sqrt(face.area / math.pi) <= best.room:
             continue
-        spot = _spot(face, tree)
+        spot = _spot(face, lines)
         better = spot and (best is None or spot.room > best.room)
         if spot and better and (anywhere or not _in_material(walls, spot)):
             best = spot
     return best
 
 
+def has_room(walls: Walls, anywhere: bool = False, lines: Lines | None = None) -> bool:
+    """Tell whether there is a place that :func:`roomiest` would find, which is asked likewise."""
+    lines = Lines.of(walls) if lines is None else lines
+    for face in _faces(walls, lines, anywhere):
+        if (anywhere or walls.solid is not None) and len(_standing(face, lines)) > MOST_STANDING:
+            return True  # somewhere between them
+        spot = _spot(face, lines)
+        if spot is not None and (anywhere or not _in_material(walls, spot)):
+            return True
+    return False
+
+
 def face_around(walls: Walls, x: float, y: float) -> Spot | None:
     """Give the roomiest spot of the face of the walls that a place is in; None where it is in no bounded one."""
     import shapely
 
-    noded = _noded(walls)
-    if noded is None:
-        return None
-    faces = [face for face in _faces(walls, noded, anywhere=True) if shapely.contains_xy(face, x, y)]
-    tree = shapely.STRtree(noded.pieces)
-    return _spot(min(faces, key=shapely.area), tree) if faces else None
+    lines = Lines.of(walls)
+    faces = [face for face in _faces(walls, lines, anywhere=True) if shapely.contains_xy(face, x, y)]
+    return _spot(min(faces, key=shapely.area), lines) if faces else None
 
 
-def cross_too_often(walls: Walls) -> bool:
-    """Tell whether walls cross at more places than are cut: then no place is looked for among them."""
-    edges, touches = _touching(walls)
-    return len(edges) > 0 and _too_many(touches)
-
-
-def _touching(walls: Walls) -> tuple[Edges, Touches]:
-    from wallkit.walls.crossings import find_touches
-
-    rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
-    offsets = np.concatenate([[0], np.cumsum([len(ring) for ring in rings])]).astype(np.int64)
-    edges = Edges(np.concatenate([np.empty((0, 2)), *rings]), offsets, walls.closed)
-    return edges, find_touches(edges)
-
-
-def _too_many(touches: Touches) -> bool:
-    from wallkit.walls.noding import MOST_CROSSINGS
-
-    return not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS
-
-
-class _Noded(NamedTuple):
-    """The walls' lines: their edges, how these touch, and the pieces of them (of shapely) that meet at their ends."""
-
-    edges: Edges
-    touches: Touches
-    pieces: Any
-
-
-def _noded(walls: Walls) -> _Noded | None:
-    """Cut the walls' lines where they cross; None where there are none, or too many places where they do."""
+def _faces(walls: Walls, lines: Lines, anywhere: bool) -> list[Any]:
+    """Give the faces that may be meant as rooms, the largest first; none where walls cross too often."""
     import shapely
 
-    from wallkit.walls.noding import noded
-
-    edges, touches = _touching(walls)
-    if not len(edges) or _too_many(touches):
-        return None
-    pieces = noded(edges, touches)
-    return _Noded(edges, touches, shapely.linestrings(np.stack([pieces.a, pieces.b], axis=1)))
-
-
-def _bounded(noded: _Noded) -> Any:
-    """Give the bounded faces between the walls' lines.
-
-    By GEOS, which looks among all rings for the one around each hole; of many rings that touch nothing, and are no
-    copies, the nesting tells that: a face is what is within a ring, and not within those directly in it.
-    """
-    import shapely
-
-    from wallkit.walls.nesting import depths
-
-    edges, touches = noded.edges, noded.touches
-    met = (touches.crossing_at, touches.overlap_edges, touches.touch_at, touches.cut_edge)
-    count = np.diff(edges.offsets)
-    if len(count) < _MANY_RINGS or any(map(len, met)) or not edges.closed.all() or count.min() < 3:
-        return shapely.get_parts(shapely.polygonize([*noded.pieces]))
-    rings = shapely.linearrings(edges.vertices, indices=np.repeat(np.arange(len(count)), count))
-    inside: list[list[Any]] = [[] for _ in rings]
-    for ring, around in zip(rings, depths(edges)[1].tolist(), strict=True):
-        if around >= 0:
-            inside[around].append(ring)
-    return np.array([shapely.polygons(ring, holes or None) for ring, holes in zip(rings, inside, strict=True)])
-
-
-def _faces(walls: Walls, noded: _Noded, anywhere: bool) -> list[Any]:
-    """Give the faces that may be meant as rooms, the largest first."""
-    import shapely
-
-    bounded = _bounded(noded)
+    if not len(lines.edges) or lines.too_many:
+        return []
+    bounded = lines.bounded
     faces = [*bounded] if anywhere else _largest_free(walls, bounded)
     if not walls.closed.all() and (anywhere or walls.solid is None or not walls.solid.room):
-        lines = shapely.multilinestrings(noded.pieces)
-        around = shapely.get_parts(shapely.difference(shapely.envelope(lines), shapely.union_all(bounded)))
+        whole = shapely.envelope(shapely.multilinestrings(lines.tree.geometries))
+        around = shapely.get_parts(shapely.difference(whole, shapely.union_all(bounded)))
         around = [part for part in around if part.geom_type == "Polygon" and not part.is_empty]
         nearly = [part for part in sorted(around, key=shapely.area)[-4:] if _is_nearly_closed(part, lines)]
         faces += nearly if faces or nearly else around
@@ -165,7 +200,7 @@ def _faces(walls: Walls, noded: _Noded, anywhere: bool) -> list[Any]:
 def _largest_free(walls: Walls, faces: Any) -> list[Any]:
     """Give the largest faces that are no material by what the import has decided; all where nobody has.
 
-    Some at a time: to ask every face of a nest of n walls takes n^2 steps.
+    Some at a time, twice as many each time: to ask every face of a nest of n walls takes n^2 steps.
     """
     import shapely
 
@@ -173,29 +208,32 @@ def _largest_free(walls: Walls, faces: Any) -> list[Any]:
         return [*faces]
     order = np.argsort(-shapely.area(faces), kind="stable")
     edges, chosen = straight_edges(walls), []
-    for start in range(0, len(order), 4 * _FACES):
-        some = faces[order[start : start + 4 * _FACES]]
+    start, count = 0, 4 * _FACES
+    while start < len(order):
+        some = faces[order[start : start + count]]
         around, _ = walls_around(edges, shapely.get_coordinates(shapely.point_on_surface(some)))
         solid = (np.bincount(around, minlength=len(some)) + walls.solid.room) % 2 == 1
         chosen += [*some[~solid]]
         if len(chosen) >= _FACES:
             break
+        start, count = start + count, 2 * count
     return chosen
 
 
-def _is_nearly_closed(face: Any, noded: Any) -> bool:
+def _is_nearly_closed(face: Any, lines: Lines) -> bool:
     """Tell whether most ways out of a face's roomiest spot end at a wall."""
     import shapely
 
-    spot = _spot(face, shapely.STRtree(shapely.get_parts(noded)))
+    spot = _spot(face, lines)
     if spot is None:
         return False
-    x0, y0, x1, y1 = noded.bounds
+    walls = shapely.multilinestrings(lines.tree.geometries)
+    x0, y0, x1, y1 = walls.bounds
     angle = np.arange(_WAYS) * (math.tau / _WAYS)
     ends = (spot.x, spot.y) + 2 * math.hypot(x1 - x0, y1 - y0) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     ways = shapely.linestrings([[(spot.x, spot.y), end] for end in ends.tolist()])
-    shapely.prepare(noded)
-    return int(np.count_nonzero(shapely.intersects(noded, ways))) >= 0.8 * _WAYS
+    shapely.prepare(walls)
+    return int(np.count_nonzero(shapely.intersects(walls, ways))) >= 0.8 * _WAYS
 
 
 def _in_material(walls: Walls, spot: Spot) -> bool:
@@ -210,15 +248,16 @@ def _in_material(walls: Walls, spot: Spot) -> bool:
     return innermost >= 0 and bool(solids.sign[innermost] > 0)
 
 
-def _spot(face: Any, walls: Any) -> Spot | None:
-    """The roomiest spot of a face, with a tree of all lines: some may lie in it."""
+def _spot(face: Any, lines: Lines) -> Spot | None:
+    """The roomiest spot of a face, in which some of all lines may lie."""
     import shapely
 
+    standing = _standing(face, lines)
+    if len(standing) > MOST_STANDING:
+        return _spot_in_a_crowd(face, lines)
     size = math.sqrt(shapely.area(face))
-    free = face
-    within = shapely.buffer(face, -1e-6 * size)
-    lines = walls.geometries[np.sort(walls.query(within, predicate="intersects"))]
-    inner = shapely.intersection(shapely.multilinestrings(lines), within)
+    free, within = face, shapely.buffer(face, -_INWARDS * size)
+    inner = shapely.intersection(shapely.multilinestrings(lines.tree.geometries[standing]), within)
     if not shapely.is_empty(inner):  # open walls inside: thickened by a hair, they become holes
         free = shapely.difference(face, shapely.buffer(inner, 1e-6 * size))
         free = max(shapely.get_parts(free), key=shapely.area, default=face)
@@ -230,6 +269,22 @@ def _spot(face: Any, walls: Any) -> Spot | None:
         return None
     x, y = shapely.get_coordinates(line)[0]
     return Spot(float(x), float(y), room, free)
+
+
+def _standing(face: Any, lines: Lines) -> IntArray:
+    """The numbers of the pieces of lines that stand in a face, in rising order."""
+    import shapely
+
+    within = shapely.buffer(face, -_INWARDS * math.sqrt(shapely.area(face)))
+    standing: IntArray = np.sort(lines.tree.query(within, predicate="intersects"))
+    return standing
+
+
+def _spot_in_a_crowd(face: Any, lines: Lines) -> Spot | None:
+    from wallkit.scene.crowded_rooms import roomiest_circle
+
+    circle = None if lines.mesh is None else roomiest_circle(lines.mesh, face)
+    return None if circle is None else Spot(*circle, face, crowded=True)
 
 
 def scattered(
@@ -275,12 +330,16 @@ def room_for(spot: Spot, radius: float) -> Any:
     """Give where the centre of a ball fits in the face of a spot: a polygon, or several, of shapely.
 
     Raises:
-        SceneError: a ball of that radius fits nowhere there.
+        SceneError: a ball of that radius fits nowhere there, or too many lines stand there to tell.
     """
     import shapely
 
     from wallkit.scene.scene import SceneError
 
+    if spot.crowded:
+        why = f"more than {MOST_STANDING:,} lines stand in the room: places for many balls are not looked for"
+        fix = "give places (--ball X,Y, --from X,Y), or take fewer layers (--layer)"
+        raise SceneError(why, code="no-room", fix=fix)
     x0, y0, x1, y1 = spot.face.bounds
     # Around a corner a buffer of 32 chords a quarter is short by 0.03 %, and arcs bow out of the face by _FINE_STEP.
     room = shapely.buffer(spot.face, -1.0005 * radius - 2e-5 * max(x1 - x0, y1 - y0), quad_segs=32)

@@ -44,6 +44,8 @@ class Wishes:
         bounces: end in bounces a ball.
         importing: how a drawing becomes walls; over what a scene file says of its drawing.
         may_be_empty: a scene without a ball is fine, where there is no room for one.
+        put_ball: where no ball is given, one is put where there is most room. Without that the scene has none, and
+            whether there is room for one still decides what is solid where nothing else does.
     """
 
     ball: tuple[tuple[float, float], ...] = ()
@@ -64,6 +66,7 @@ class Wishes:
     bounces: int | None = None
     importing: ImportOptions = USUAL
     may_be_empty: bool = False
+    put_ball: bool = True
 
     def __post_init__(self) -> None:
         for name, check in _WISHES.items():
@@ -135,4 +138,5 @@ _WISHES: dict[str, Callable[[Any, str], Any]] = {
     "bounces": _whole(0),
     "importing": _importing,
     "may_be_empty": lambda value, name: arguments.flag(value, name, error=UsageError, code="usage"),
+    "put_ball": lambda value, name: arguments.flag(value, name, error=UsageError, code="usage"),
 }

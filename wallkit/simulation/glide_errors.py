@@ -5,6 +5,11 @@ is a way xi = rho da along t and a change eta of v, that is dx = xi t and dv = e
 the place. After a time it is M (xi, eta), M the derivative of the closed motion by its start (the solution of
 xi'' = -(g.e / rho) xi, the variational equation). That is taken as the difference of two such motions that start apart
 by 2 h: off by h^2, parts in 10^10, which is far nearer than any promise needs, through turns and whole periods alike.
+
+Where friction or drag acts, a ball's way ends where it turns, and so does that of a motion that starts apart from it:
+so the difference is taken shortly before, and goes on from there as in a flight. One that sets out from where it has
+turned does not set out the other way, so that only one motion starts apart from it, quicker by h: off by h, parts in
+10^5.
 """
 
 from __future__ import annotations
@@ -17,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
+from wallkit.kernels.flight.slowed_contact import slows
 from wallkit.scene.scene import Scene
 from wallkit.simulation.damping import Slowing, slowing_of
 from wallkit.simulation.gliding import glide, guides
@@ -42,7 +48,8 @@ def glides_of(scene: Scene, own: NDArray[Any], gravity: FloatArray) -> FloatArra
     slowing, bent = slowing_of(scene), guides(scene.walls, own)
     for row in np.flatnonzero(bent[:-1]).tolist() if len(own) else ():
         span = float(own["time"][row + 1] - own["time"][row])
-        found[row + 1] = _Glide.of(own[row], float(bent[row]), gravity, slowing).row(span)
+        stops = slows(*slowing) and own["vx"][row + 1] == 0.0 and own["vy"][row + 1] == 0.0
+        found[row + 1] = _Glide.of(own[row], float(bent[row]), gravity, slowing).row(span, stops)
     return found
 
 
@@ -75,16 +82,32 @@ class _Glide:
         t = np.array([-e[1], e[0]])
         return e, t, float(there[2:4] @ t)
 
-    def row(self, span: float) -> list[float]:
-        """Give the columns of :func:`glides_of`."""
-        rho = abs(self.bent)
-        quick = APART * math.sqrt(float(np.hypot(*self.gravity)) * rho)
+    def row(self, span: float, stops: bool = False) -> list[float]:
+        """Give the columns of :func:`glides_of`; it ``stops`` where something that slows it down has it turn."""
+        rho, pull = abs(self.bent), float(np.hypot(*self.gravity))
+        quick = APART * math.sqrt(pull * rho)
         e, t, then = self.after(span)
+        force = self._force(e, t, 0.0 if stops else then)
+        # it is quicker than `quick` until then, unless it hardly moves at all
+        left = min(4.0 * quick / abs(force), span) if stops and force != 0.0 else 0.0
+        turned = [self.after(span - left, turn) for turn in (APART, -APART)]
+        if self.speed == 0.0 and slows(*self.slowing):
+            quick = math.copysign(quick, float(self.gravity @ self.ahead))
+            quicker, most = [self.after(span - left, 0.0, more) for more in (quick, 0.0)], quick
+        else:
+            quicker, most = [self.after(span - left, 0.0, more) for more in (quick, -quick)], 2.0 * quick
         columns = []
-        for turn, more, step in ((APART, 0.0, rho * APART), (0.0, quick, quick)):
-            (one, _t, fast), (other, _t, slow) = self.after(span, turn, more), self.after(span, -turn, -more)
+        for ((one, _, fast), (other, _, slow)), apart in ((turned, 2.0 * rho * APART), (quicker, most)):
             angle = math.atan2(other[0] * one[1] - other[1] * one[0], float(other @ one))
-            columns.append((0.5 * rho * angle / step, 0.5 * (fast - slow) / step))
+            way, change = rho * angle / apart, (fast - slow) / apart
+            columns.append((way + change * left, change))
         (a, c), (b, d) = columns
-        changes = float(self.gravity @ t) * t - then * then / rho * e
+        changes = force * t - then * then / rho * e
         return [*(then * t), *changes, *self.ahead, *t, a, b, c, d, -then / rho]
+
+    def _force(self, e: FloatArray, t: FloatArray, speed: float) -> float:
+        """Acceleration along t at a speed along t; at none it has come against what pulls it."""
+        along, away = float(self.gravity @ t), math.copysign(1.0, self.bent)
+        pressed = -away * (float(self.gravity @ e) + speed * speed / abs(self.bent))
+        ahead = math.copysign(1.0, speed if speed != 0.0 else -along)
+        return along - ahead * (self.slowing.rolling or 0.0) * pressed - (self.slowing.drag or 0.0) * speed

@@ -27,6 +27,10 @@ they leave it all, rolling friction begins later by dT.
 
 Where the first order ends, trust ends: when the error reaches the distance by which the path passed a corner
 (points: the distance of a hit from a corner that turns), or the depth of a grazing hit.
+
+A run is good throughout if its end is good too: the place to the tolerance, and the velocity to the tolerance a second,
+so that a second later the ball would be where it should be. An error of the time at which endless bounces are over,
+some rounding of a place over the speed of the last of them, is seen nowhere else.
 """
 
 from __future__ import annotations
@@ -39,7 +43,7 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import circles
-from wallkit.kernels.flight.error_growth import BOUNCES, LEAVES, PASSES, SLIDES, SLOWS, STOPS, carry, stretch
+from wallkit.kernels.flight.error_growth import BOUNCES, LEAVES, PASSES, SLIDES, SLOWS, STOPS, TURNS, carry, stretch
 from wallkit.kernels.flight.flight import FALLING_TOLERANCE
 from wallkit.kernels.jit import compile_for, compiled
 from wallkit.kernels.signatures import kinds_of
@@ -52,10 +56,9 @@ from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, FlightTable,
 ErrorSource = Literal["rounding", "drawing"]
 Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, float, FloatArray]
 RMS_ROUNDING = 0.6 * 2.0**-53
-VERTEX, ENTER = (
-    1,
-    4,
-)  # kinds of contacts, see wallkit.simulation.run.ContactKind: bounces up to the one, sensors from the other
+VERTEX, ENTER, END = 1, 4, 8
+"""Kinds of contacts, see ``wallkit.simulation.run.ContactKind``: bounces up to the first, sensors from the second; and
+of a row that is none, where the run ends."""
 COMPILED_FROM = 50_000  # contacts
 SURE = 3.0  # promised is this many times the root mean square
 
@@ -68,7 +71,7 @@ class Horizon:
         tolerance: of the place of a contact, in the drawing's units.
         bounces: so many bounces, from the first, are good to it.
         time: of the last contact that is; the run's end where all are good.
-        whole: nothing of the run is in doubt.
+        whole: nothing of the run is in doubt: neither a contact, nor place and velocity at its end.
         source: what the error comes from: the rounding of the arithmetic, or the drawing's own tolerance.
         reason: why trust ends: ``"growth"``, ``"corner"`` (it may pass a corner on the other side), ``"graze"``
             (it may miss what it grazed), ``"meeting"`` (it may meet another ball, or one of its balls may be in
@@ -102,7 +105,7 @@ def trusted_until(
     ball: int = 0,
     tolerance: float = 1e-6,
     source: ErrorSource = "rounding",
-    end: float = math.nan,
+    final: Any = None,
 ) -> Horizon:
     """Say up to where a ball's contacts are good to ``tolerance``.
 
@@ -113,20 +116,33 @@ def trusted_until(
         ball: which ball.
         tolerance: of the place of a contact, in the drawing's units; above 0.
         source: ``"rounding"``, or ``"drawing"``: walls that are off by their ``measured_error``.
-        end: the time at which the run ended, for a run that is good throughout.
+        final: where the run ended, of ``run.FINAL``, after all these contacts; or None, where only they matter.
     """
     own = contacts[(contacts["ball"] == ball) & (contacts["kind"] < ENTER)]  # a sensor changes no flight
-    _rms, worst = predicted_errors(scene, own, ball, source)
-    bad = np.flatnonzero(~(worst <= tolerance))
-    limit = int(bad[0]) if len(bad) else len(own)
-    reason = "growth" if len(bad) else ""
-    doubt, why = _first_doubt(scene, own[:limit], ball, worst[:limit])
+    if final is not None and len(scene.walls):
+        own = _and_end(own, final)
+    place, speed = SURE * _root_mean_squares(scene, own, ball, source)
+    good = place <= tolerance
+    if final is not None and len(own):
+        good[-1] &= speed[-1] <= tolerance
+    limit = len(own) if good.all() else int(np.argmin(good))
+    reason = "" if good.all() else "growth"
+    doubt, why = _first_doubt(scene, own[:limit], ball, place[:limit])
     if doubt < limit:
         limit, reason = doubt, why
     whole = limit == len(own)
     time = float(own["time"][limit - 1]) if limit else 0.0
     bounces = int(np.count_nonzero(own["kind"][:limit] <= VERTEX))
-    return Horizon(tolerance, bounces, end if whole and math.isfinite(end) else time, whole, source, reason)
+    return Horizon(tolerance, bounces, time, whole, source, reason)
+
+
+def _and_end(own: Any, final: Any) -> Any:
+    """Add a last row to a ball's contacts, where its run ended."""
+    end = own[-1:].copy() if len(own) else np.zeros(1, dtype=own.dtype)
+    end["kind"] = END
+    for name in ("time", "x", "y", "vx", "vy"):
+        end[name] = final[name]
+    return np.concatenate([own, end])
 
 
 def predicted_errors(
@@ -143,19 +159,28 @@ def predicted_errors(
     Returns:
         Two arrays (n,), in the drawing's units; infinite once that is no number any more.
     """
+    rms, _speed = _root_mean_squares(scene, own, ball, source)
+    return rms, SURE * rms
+
+
+def _root_mean_squares(scene: Scene, own: Any, ball: int, source: ErrorSource) -> FloatArray:
+    """(2, n) root mean square error of the place of each contact, and of the velocity after it."""
     carried = _carried(scene, own, ball, source)
     variance = carried[-1]
     _kernel(carry, len(own))(*carried)
     variance[~(variance >= 0.0)] = np.inf  # overflown on the way: beyond any promise
-    rms = np.sqrt(variance)
-    return rms, SURE * rms
+    rms: FloatArray = np.sqrt(variance).T
+    # a ball that stands is exactly still; one that damping slowed down has lost as much of its error as of its speed
+    now, free = np.hypot(own["vx"], own["vy"]), np.hypot(*carried[1][:, 1:3].T)
+    rms[1] = np.where(now > 0.0, rms[1] * np.divide(now, free, out=np.ones(len(own)), where=free > 0.0), 0.0)
+    return rms
 
 
 def _carried(scene: Scene, own: Any, ball: int, source: ErrorSource) -> tuple[Any, ...]:
     """What the kernel takes that carries errors along; the last is where variances go."""
     course = _course(scene, own, ball)
     fresh = _roundings(scene, own, course, ball) if source == "rounding" else drawing_errors(scene, own)
-    return (*course, fresh, np.full(len(own), np.inf))
+    return (*course, fresh, np.full((len(own), 2), np.inf))
 
 
 def warm_horizon(scene: Scene, contacts: Any) -> None:
@@ -194,7 +219,7 @@ def _course(scene: Scene, own: Any, ball: int) -> Course:
     slides = path[:, 5] == SLIDES
     stands = (own["vx"] == 0.0) & (own["vy"] == 0.0)
     before = np.concatenate([[LEAVES], path[:-1, 5]])
-    path[slides & (before == SLIDES) & ~stands, 5] = PASSES
+    path[slides & (before == SLIDES), 5] = np.where(stands, TURNS, PASSES)[slides & (before == SLIDES)]
     begin, start = (np.atleast_2d(np.asarray(part))[ball] for part in (scene.balls.position, scene.balls.velocity))
     if (damping := damping_of(scene)) is not None:
         path[:, 0], path[:, 1:3] = on_a_free_clock(damping, np.concatenate([begin, start]), own)
@@ -333,9 +358,8 @@ def _flights(scene: Scene, own: Any, ball: int) -> FlightTable:
     first, path, _, _, pull, drag, _ = _course(scene, own, ball)
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
     ends = np.stack([own["x"], own["y"]], axis=1)
-    slides = np.concatenate(
-        [[False], np.isin(path[:-1, 5], (SLIDES, PASSES, STOPS, SLOWS))]
-    )  # a ball that slides misses nothing
+    held = (path[:-1, 5, None] == (SLIDES, PASSES, STOPS, SLOWS, TURNS)).any(axis=1)
+    slides = np.concatenate([[False], held])  # a ball that slides misses nothing
     return FlightTable(
         start=np.concatenate([begin[None], ends[:-1]]),
         end=ends,

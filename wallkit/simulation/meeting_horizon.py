@@ -65,8 +65,7 @@ def trusted_together(run: Run, tolerance: float, source: ErrorSource) -> list[Ho
     said = dict(zip(discs.tolist(), found, strict=True))
     alone = replace(run.scene, meeting=False)
     for point in np.flatnonzero(run.scene.balls.radius == 0.0).tolist():
-        end = float(run.final["time"][point])
-        said[point] = trusted_until(alone, run.contacts_of(point), point, tolerance, source, end)
+        said[point] = trusted_until(alone, run.contacts_of(point), point, tolerance, source, run.final[point])
     return [said[ball] for ball in range(len(run.final))]
 
 

@@ -216,10 +216,11 @@ class Run(Pictured):
     def trusted_until(self, tolerance: float = 1e-6, source: ErrorSource = "rounding") -> list[Horizon]:
         """Say for each ball up to which bounce, and time, its contacts are good to ``tolerance``.
 
-        The growth of a small error is carried along the contacts; see ``horizon`` for the equations.
+        The growth of a small error is carried along the contacts; see ``horizon`` for the equations. It is good
+        throughout (``whole``) if place and velocity at its end are good, too.
 
         Args:
-            tolerance: of the place of a contact, in the drawing's units.
+            tolerance: of the place of a contact, in the drawing's units; of the velocity at the end in these a second.
             source: what is wrong to begin with: ``"rounding"`` of the arithmetic, or the ``"drawing"``, whose
                 walls are off by their ``measured_error``.
 
@@ -241,10 +242,9 @@ class Run(Pictured):
             from wallkit.simulation.meeting_horizon import trusted_together
 
             return trusted_together(self, tolerance, source)
-        ends = self.final["time"].tolist()
         return [
-            trusted_until(self.scene, self.contacts_of(ball), ball, tolerance, source, end)
-            for ball, end in enumerate(ends)
+            trusted_until(self.scene, self.contacts_of(ball), ball, tolerance, source, final)
+            for ball, final in enumerate(self.final)
         ]
 
     @cached_property

@@ -190,11 +190,10 @@ def way_to_fly(ready: PreparedScene) -> Flying:
 
 
 def suits_wave(model: Model, radii: FloatArray) -> bool:
-    """An index, one radius, two-sided walls, and nothing else that acts but restitution."""
-    features = (model.gravity, model.damping, model.one_sided)
-    if model.grid is None or len(radii) < WORTH_A_WAVE:
+    """An index, one radius, and straight paths: no gravity."""
+    if model.grid is None or model.gravity is not None or len(radii) < WORTH_A_WAVE:
         return False
-    return all(feature is None for feature in features) and bool((radii == radii[0]).all())
+    return bool((radii == radii[0]).all())
 
 
 def suits_lockstep(model: Model, radii: FloatArray) -> bool:

@@ -190,7 +190,7 @@ class _Frames:
         caption = Label("note", self.width - 28, self.height - 14, self.caption(time), anchor="end")
         if self.beside is not None:
             items = self.beside.items(time, balls, since)
-            return self.background.copied().drawn([*items, caption]).reduced()
+            return self.background.copied().drawn([*items, caption]).pixels.image()
         few = len(balls) <= _TRAILS
         for ball, trail in enumerate(trails if few else []):
             trail.append((time, *balls[ball]))
@@ -204,7 +204,7 @@ class _Frames:
             items.append(Disc("ghost", x, y, float(self.radius[ball]), steps[ball], opacity=opacity))
         for ball, (x, y) in enumerate(balls.tolist()):
             items.append(Disc("ball", x, y, float(self.radius[ball]), steps[ball], filled=True))
-        return self.background.copied().drawn([*items, caption]).reduced()
+        return self.background.copied().drawn([*items, caption]).pixels.image()
 
     def _steps(self, time: float) -> list[int]:
         """Give each ball its step on the ramp now."""
@@ -264,7 +264,7 @@ def _gif(frames: _Frames) -> bytes:
         for part in (1, 2, 3, 4)
     ]
     every += [Disc("apart", 20 * k, 100, 9) for k in range(4)] if frames.beside is not None else []
-    colours = frames.background.copied().drawn(every).reduced().quantize(128)  # one palette, or the film flickers
+    colours = frames.background.copied().drawn(every).pixels.image().quantize(128)  # one palette, or the film flickers
     images = (image.quantize(palette=colours, dither=Image.Dither.NONE) for image in frames)
     data = io.BytesIO()
     next(images).save(data, "GIF", save_all=True, append_images=images, duration=1000 // frames.fps, loop=0)

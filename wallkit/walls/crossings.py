@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.geometry.orientation import side
 from wallkit.walls.copies import copies
 from wallkit.walls.edge_tree import Edges
@@ -181,7 +181,7 @@ def _passages(edges: Edges, first: IntArray, second: IntArray) -> tuple[IntArray
             rows = rows[(side(a[rows], b[rows], point[rows]) == 0) | at_a[rows] | at_b[rows]]
             partner = np.where(at_a, edges.start[other], np.where(at_b, edges.stop[other], other + count))
             keys.append(np.minimum(vertex, partner)[rows] * total + np.maximum(vertex, partner)[rows])
-    one, two = np.divmod(np.unique(np.concatenate(keys)), total)
+    one, two = np.divmod(distinct(np.concatenate(keys)), total)
     different = one != two
     one, two = one[different], two[different]
     return one, two, edges.vertices[one]

@@ -12,9 +12,9 @@ import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.box_tree import BoxTree
 from wallkit.geometry.ragged import numbered
 from wallkit.geometry.rings import signed_areas
+from wallkit.walls.near_boxes import NearBoxes
 
 _RUN = 8  # edges at most: long enough that runs are few, short enough that their boxes are small
 _FIRST_PORTION = 16  # runs; the next portions are as large as the pairs found let expect
@@ -118,7 +118,7 @@ class EdgeTree:
     def __init__(self, edges: Edges, rows: IntArray) -> None:
         """Make runs of the edges ``rows`` (n,), in rising order."""
         self.rows = rows
-        a, b = edges.a[rows], edges.b[rows]
+        a, b = (edges.a, edges.b) if len(rows) == len(edges) else (edges.a[rows], edges.b[rows])
         self.low, self.high = np.minimum(a, b).T.copy(), np.maximum(a, b).T.copy()
         self.first, self.goes_on = self._runs(b - a, edges.stop[rows[:-1]] == edges.start[rows[1:]])
         self.run_low, self.run_high = self._boxes()
@@ -126,7 +126,7 @@ class EdgeTree:
             self.first, self.goes_on = np.arange(len(rows)), np.zeros(len(rows), dtype=np.bool_)
             self.run_low, self.run_high = self.low, self.high
         self.sizes = np.diff(self.first, append=len(rows))
-        self.tree = BoxTree(self.run_low, self.run_high)
+        self.tree = NearBoxes(self.run_low, self.run_high)
 
     def _boxes(self) -> tuple[FloatArray, FloatArray]:
         """Lowest and highest corner of each run: (2, m) each."""
@@ -151,7 +151,7 @@ class EdgeTree:
     @staticmethod
     def _runs(step: FloatArray, follows: NDArray[np.bool_]) -> tuple[IntArray, NDArray[np.bool_]]:
         """Give the first edge of each run, and whether it goes on as the run before it, which was full."""
-        way = np.where((step == 0).all(axis=1), -1, 2 * (step[:, 0] < 0) + (step[:, 1] < 0))
+        way = np.where((step[:, 0] == 0) & (step[:, 1] == 0), -1, 2 * (step[:, 0] < 0) + (step[:, 1] < 0))
         turns = np.ones(len(way), dtype=np.bool_)
         turns[1:] = ~follows | (way[1:] != way[:-1]) | (way[1:] < 0)
         rank = numbered(np.diff(np.flatnonzero(turns), append=len(way)))[1]

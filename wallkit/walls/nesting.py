@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.walls.copies import copies
 from wallkit.walls.edge_tree import Edges, EdgeTree
 
@@ -210,7 +210,7 @@ def _levels(parent: IntArray) -> IntArray:
 
 def _distinct(pairs: IntArray, count: int) -> IntArray:
     """Each pair once, the smaller first."""
-    keys = np.unique(pairs.min(axis=1) * count + pairs.max(axis=1))
+    keys = distinct(pairs.min(axis=1) * count + pairs.max(axis=1))
     return np.stack([keys // count, keys % count], axis=1)
 
 

@@ -43,7 +43,7 @@ def noded(edges: Edges, touches: Touches) -> Pieces:
         touches: all of these edges (``complete``).
     """
     own = touches.copy_of[edges.wall] == edges.wall
-    if own.all() and not len(touches.cut_edge):
+    if own.all() and not len(touches.cut_edge) and not len(touches.overlap_edges):
         return Pieces(edges.a, edges.b, np.arange(len(edges)), edges.wall)
     given, count = len(edges.vertices), len(edges)
     points = np.concatenate([edges.vertices, touches.cut_at])

@@ -59,7 +59,17 @@ def said_of(path: DrawnPath) -> Said:
 
 def role_of(path: DrawnPath) -> Role:
     """Tell what a path is."""
-    return said_of(path).role
+    return "wall" if is_silent(path) else said_of(path).role
+
+
+def is_silent(path: DrawnPath) -> bool:
+    """Tell whether none of its levels has a word, as of nearly all paths; False where a reader gives no levels."""
+    return bool(path.levels) and all(map(_is_silent, path.levels))
+
+
+def _is_silent(level: Level) -> bool:
+    name = level.name
+    return not level.tags and not level.note and name != BALLS_LAYER and "#" not in name and "[" not in name
 
 
 def plain_name(label: str) -> str:
@@ -70,6 +80,8 @@ def plain_name(label: str) -> str:
 def tags_of(path: DrawnPath) -> dict[str, str]:
     """Give the words that count for a path: each key by its nearest level, and one role at most."""
     tags: dict[str, str] = {}
+    if is_silent(path):
+        return tags
     for level in levels_of(path):
         words = _words_of(level)
         if not words:
@@ -90,9 +102,8 @@ def tags_of(path: DrawnPath) -> dict[str, str]:
 
 
 def _words_of(level: Level) -> dict[str, str]:
-    name = level.name
-    if not level.tags and not level.note and name != BALLS_LAYER and "#" not in name and "[" not in name:
-        return {}  # as nearly all levels are
+    if _is_silent(level):
+        return {}
     words = dict(read_label(level.name)[1]) | dict(read_note(level.note)) | read_data(level.tags)
     if level.kind != "object" and plain_name(level.name) == BALLS_LAYER and not any(role in words for role in ROLES):
         words["ball"] = ""

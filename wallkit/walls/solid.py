@@ -14,13 +14,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
 from importers.drawing import DrawnPath
+from wallkit import arguments
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.globs import fits
+from wallkit.walls.fields import WallsError
 
 if TYPE_CHECKING:
     from wallkit.walls.edge_tree import Edges
@@ -38,11 +40,19 @@ class Solid:
         how: ``"asked"`` by an option; ``"paint"``, the fills of shapes; ``"balls"``, those that are drawn or given;
             ``"start"``, the place where a ball was put since none was given; ``"default"``, nothing spoke: solid.
         why: the reason in words.
+
+    Raises:
+        WallsError: ``room`` is no truth value, ``how`` none of these words, or ``why`` no text.
     """
 
     room: bool
     how: How
     why: str
+
+    def __post_init__(self) -> None:
+        arguments.flag(self.room, "solid.room", error=WallsError, code="bad-walls")
+        arguments.word(self.how, "solid.how", get_args(How), error=WallsError, code="bad-walls")
+        arguments.text(self.why, "solid.why", error=WallsError, code="bad-walls")
 
     def sentence(self) -> str:
         """Say it with the option that says otherwise."""
@@ -153,7 +163,6 @@ def _by_paint(nested: Nested, home: IntArray, agreed: bool) -> Solid | None:
 
 def _named(nested: Nested, name: str) -> Solid:
     from wallkit.walls.roles import plain_name
-    from wallkit.walls.walls import WallsError
 
     closed = np.flatnonzero(nested.edges.closed).tolist()
     named = [

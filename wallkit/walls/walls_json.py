@@ -147,7 +147,7 @@ def _from_json(value: Any) -> Walls:
     walls.source_file, walls.source_sha256 = str(source.get("file", "")), str(source.get("sha256", ""))
     walls.problems = [Problem.of_json(problem) for problem in value.get("problems", [])]
     solid = value.get("solid")
-    walls.solid = None if solid is None else Solid(bool(solid["room"]), solid["how"], str(solid["why"]))
+    walls.solid = None if solid is None else Solid(solid["room"], solid["how"], solid["why"])
     walls.markers = tuple(Marker.of_json(marker) for marker in value.get("markers", []))
     if "sensors" in value:
         walls.sensors = sensors_like(walls, _walls_of(value["sensors"]))

@@ -18,7 +18,6 @@ from wallkit.kernels.batches.lockstep_lanes import (
     AX,
     AY,
     BEFORE,
-    BEST,
     BOUNCES,
     ENDING,
     ENERGY,
@@ -30,6 +29,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
     HOLD,
     LANES,
     LAST,
+    LENGTH,
     LOST,
     NONE,
     NX,
@@ -40,6 +40,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
     SCRATCH,
     SIDE,
     STILL,
+    STOP,
     TIME,
     TOLERANCE,
     TWICE,
@@ -52,8 +53,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
     feature_of,
     row_of,
 )  # fmt: skip
-from wallkit.kernels.batches.lockstep_straight import WIDER, ask_straight, bounce_straight
-from wallkit.kernels.flight.damping import free_time
+from wallkit.kernels.batches.lockstep_straight import WIDER, ask_straight, bounce_straight, set_out
 from wallkit.kernels.flight.flight import FALLING_OVER, flown_on, fly, has_left, tolerance_of
 from wallkit.kernels.flight.gravity import kept_energy
 from wallkit.kernels.jit import kernel, pass_kernel, rare_kernel
@@ -162,7 +162,7 @@ def _clear(s):
         s[i] = 0.0
     # Energy and row 1 and NONE, so that passes over empty lanes divide by no 0 and meet nothing.
     for i in range(LANES):
-        s[ENERGY + i], s[ROW + i], s[LAST + i] = 1.0, NONE, NONE
+        s[ENERGY + i], s[STOP + i], s[ROW + i], s[LAST + i] = 1.0, 1.0, NONE, NONE
 
 
 @kernel
@@ -178,7 +178,7 @@ def _list_rows(model, restitution, rows):
                 line.twice,
                 model.edge_tally[model.ids[k]],
             )
-            rows[k, 6], rows[k, 7] = line.ax, line.ay
+            rows[k, 6], rows[k, 7], rows[k, 8] = line.ax, line.ay, line.length
         else:
             corner, wall = model.corners[model.ids[k]], model.corner_wall[model.ids[k]]
             rows[k, 0], rows[k, 1], rows[k, 2], rows[k, 3] = corner.x, corner.y, 0.0, model.corner_tally[model.ids[k]]
@@ -199,7 +199,7 @@ def _look_up(gravity, restitution, s, met, rows):
             s[E + i], s[F + i] = rows[met[i], 4], rows[met[i], 5]
     if gravity is not None:
         for i in range(LANES):
-            s[AX + i], s[AY + i] = rows[met[i], 6], rows[met[i], 7]
+            s[AX + i], s[AY + i], s[LENGTH + i] = rows[met[i], 6], rows[met[i], 7], rows[met[i], 8]
 
 
 @kernel
@@ -253,7 +253,7 @@ def _fly_alone(model, gravity, radius, s, i, until, limit, stop, hits, scratch):
     ending = counts[COUNT.ending]
     # A ball that meets nothing more has been flown on by now: ``_finish`` then finds no time left.
     s[ENDING + i] = float(RUNNING if ending == BOUNCE_LIMIT and counts[COUNT.bounces] < limit else ending)
-    s[BEST + i] = free_time(model.damping, s[ENERGY + i], (until - s[TIME + i]) - s[LOST + i])
+    set_out(model.damping, s, i, (until - s[TIME + i]) - s[LOST + i])
 
 
 @kernel
@@ -289,7 +289,7 @@ def _board(model, gravity, s, i, balls, radius, start, queue, stop, until, limit
         _load(gravity, model.restitution, s, i, radius, start, ball)
         rests = gravity is None and s[ENERGY + i] <= 0.0
         if limit > 0 and not rests:
-            s[BEST + i] = free_time(model.damping, s[ENERGY + i], until)
+            set_out(model.damping, s, i, until)
             return True
         s[ENDING + i] = float(AT_REST) if rests else float(BOUNCE_LIMIT)
         _store(s, i, ball, radius, start, hits, outcome)

@@ -30,6 +30,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
     LANES,
     LAST,
     LEFT_X,
+    LENGTH,
     LOST,
     LOW_Y,
     MANY,
@@ -57,6 +58,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
 )
 from wallkit.kernels.batches.lockstep_straight import WIDER, turned
 from wallkit.kernels.flight.flight import still_limit
+from wallkit.kernels.flight.joints import AT_VERTEX
 from wallkit.kernels.impact.gravity_impact import fall_corners, hull_of
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.impact.line_impact import slack_of
@@ -266,8 +268,13 @@ def bounce_falling(model, gravity, s, radius, until, limit):
         passes = (new_time + t > new_time) & (t * (abs(new_vx) + abs(new_vy)) > tolerance * 2.0**-6)
         still = 0.0 if passes else s[STILL + i] + 1.0
         nx, ny, twice, above = s[NX + i], s[NY + i], s[TWICE + i], True
+        inner = True
         if radius is None:
             above = new_vx * nx + new_vy * ny <= 0.0
+            # Near an end of the line ``fly`` asks the vertex: here somewhat farther from it than there.
+            along = (new_y - s[AY + i]) * nx - (new_x - s[AX + i]) * ny
+            near = 2.0 * AT_VERTEX * tolerance
+            inner = (along > near) & (along < s[LENGTH + i] - near)
         else:
             # The row of a corner holds its place: the normal goes from there to the centre.
             at_corner = row >= lines
@@ -285,7 +292,7 @@ def bounce_falling(model, gravity, s, radius, until, limit):
         comes = (into < 0.0) & (into * into > 4.0 * speed * speed * length)
         free = (s[HOLD + i] == float(FREE)) & (s[ASK + i] == 0.0)
         plain = throws & comes & (energy + height > 0.0) & (not dead) & (still <= most_still)
-        hit, late = free & plain & (row >= 0.0), free & (row == NONE)
+        hit, late = free & plain & inner & (row >= 0.0), free & (row == NONE)
         flies = moves & (hit | (late & (until < math.inf)))
         if radius is None:
             s[FROM_X + i], s[FROM_Y + i] = x if flies else s[FROM_X + i], y if flies else s[FROM_Y + i]

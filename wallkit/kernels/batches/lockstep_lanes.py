@@ -14,21 +14,23 @@ LANES = 128
 (
     X, Y, VX, VY, TIME, LOST, ENERGY, TOLERANCE, LAST, BOUNCES, STILL, BEST, ROW, ASK, ENDING, NX, NY, TWICE,
     FROM_X, FROM_Y, FROM_VX, FROM_VY, E, F, PASSED, KEPT, BEFORE, HOLD, HELD, SIDE, AX, AY,
-    FAR, LEFT_X, RIGHT_X, LOW_Y, HIGH_Y, QX, QY, RX, RY, MOST,
-) = (LANES * number for number in range(42))  # fmt: skip
+    FAR, LEFT_X, RIGHT_X, LOW_Y, HIGH_Y, QX, QY, RX, RY, MOST, LENGTH,
+) = (LANES * number for number in range(43))  # fmt: skip
 """Of a ball: its state (see ``STATE`` and ``COUNT``), what it has found so far and when, what it has still to ask, and
 the record of what it meets: normal, 2 / (n.n), restitution. Where it is slowed down, what the flight takes and the part
-of the speed that is kept; under gravity, what it met before, how it is held, the start of the line that it meets, and
-whether it may meet the far side of a line; of a falling disc, the hull of its flight (see ``gravity_impact.hull_of``):
-its box, its points but the first, and the squared reach."""
+of the speed that is kept; under gravity, what it met before, how it is held, the start and the length of the line that
+it meets, and whether it may meet the far side of a line; of a falling disc, the hull of its flight (see
+``gravity_impact.hull_of``): its box, its points but the first, and the squared reach."""
 ROOM, REACH = FROM_X, FROM_Y
 """Of discs; points alone need to know where they came from."""
+STOP = FAR
+"""Of balls that fly straight: the time after which rolling friction stops them."""
 PLAIN = 22 * LANES
 """Numbers where nothing acts."""
-SCRATCH = 42 * LANES
-ROW_SIZE = 8
+SCRATCH = 43 * LANES
+ROW_SIZE = 9
 """Normal of a line or place of a corner, 2 / (n.n), count of bounces (``Model.edge_tally``), normal and tangential
-restitution, start of a line: a row for each of ``model.ids``. Lanes name features so."""
+restitution, start and length of a line: a row for each of ``model.ids``. Lanes name features so."""
 NONE = float(NO_HIT)
 ALONE = -2.0
 """In place of an ending: what happens to the ball is asked of ``flight.fly``."""

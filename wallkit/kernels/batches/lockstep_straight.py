@@ -31,6 +31,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
     ROOM,
     ROW,
     STILL,
+    STOP,
     TIME,
     TOLERANCE,
     TWICE,
@@ -44,7 +45,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
     is_one_way,
     row_of,
 )
-from wallkit.kernels.flight.damping import free_time, free_time_rolling, slowed, slowed_rolling
+from wallkit.kernels.flight.damping import free_time, free_time_rolling, rolling_stop, slowed, slowed_rolling
 from wallkit.kernels.flight.flight import still_limit
 from wallkit.kernels.flight.motion import NEARLY_ALL, bounced, reflect, squared_after
 from wallkit.kernels.flight.point_in_corner import settle
@@ -196,7 +197,7 @@ def _answer_point(model, s, i, until):
     )  # fmt: skip
     if touched > 0 and last >= 0:
         came = s[FROM_X + i], s[FROM_Y + i], s[FROM_VX + i], s[FROM_VY + i]
-        met = settle(model, last, x, y, vx, vy, came[0], came[1], came[2], came[3], tolerance, int(s[STILL + i]))
+        met = settle(model, last, 0.0, x, y, vx, vy, came[0], came[1], came[2], came[3], tolerance, int(s[STILL + i]))
         if met != NO_HIT:
             t, feature = 0.0, met
     s[BEST + i], s[ROW + i] = t, row_of(model, feature)
@@ -215,7 +216,7 @@ def _slow(damping, s, until):
     else:
         for i in range(LANES):
             most = (until - s[TIME + i]) - s[LOST + i]
-            s[PASSED + i], s[KEPT + i] = slowed_rolling(damping, s[ENERGY + i], s[BEST + i], most)
+            s[PASSED + i], s[KEPT + i] = slowed_rolling(s[STOP + i], s[BEST + i], most)
 
 
 @pass_kernel
@@ -228,7 +229,17 @@ def _look_ahead(damping, s, until):
             s[BEST + i] = free_time(damping, s[ENERGY + i], s[BEST + i])
     else:
         for i in range(LANES):
-            s[BEST + i] = free_time_rolling(damping, s[ENERGY + i], s[BEST + i])
+            s[STOP + i] = rolling_stop(damping, s[ENERGY + i])
+            s[BEST + i] = free_time_rolling(s[STOP + i], s[BEST + i])
+
+
+@kernel
+def set_out(damping, s, i, span):
+    """Begin the flight of a ball that comes to its lane, or back to it, with a span of time left."""
+    if damping is not None:
+        if damping[1] <= 0.0:
+            s[STOP + i] = rolling_stop(damping, s[ENERGY + i])
+    s[BEST + i] = free_time(damping, s[ENERGY + i], span)
 
 
 @pass_kernel

@@ -55,9 +55,11 @@ from wallkit.kernels.batches.wave_columns import (
 )
 from wallkit.kernels.batches.wave_impact import meet
 from wallkit.kernels.batches.wave_walk import cross, decide, prefetch_cells, prefetch_listed
+from wallkit.kernels.flight.damping import free_time, slowed
 from wallkit.kernels.flight.flight import (
     absorbs,
     ending_without,
+    flown_on,
     has_left,
     normal_of,
     passes,
@@ -127,7 +129,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
     """Fly balls of one radius until none is left; as ``flight.fly`` does.
 
     Args:
-        model: the scene; with a grid, without gravity, damping or one-sided walls.
+        model: the scene; with a grid, without gravity.
         radius: of all balls; None for points.
         start: the balls, see ``Start``.
         order: of the balls, best neighbours one after the other.
@@ -166,8 +168,8 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
         while ending > 0:
             i = lowest(ending)
             ending &= ending - 1
-            how = n[ENDING + i] if (turning >> i) & 1 != 0 else ending_without(None, NO_HIT, until)
-            _store(radius, b[i], s, n, i, start, until, how, outcome)
+            how = n[ENDING + i] if (turning >> i) & 1 != 0 else ending_without(model.damping, NO_HIT, until)
+            _store(model, model.damping, radius, b[i], s, n, i, start, until, how, outcome)
             flying += _board(model, radius, b, s, n, q, i, start, order, queue, stop, until, limit, outcome) - 1
         if met >= LANES:
             met = _count(model, scratch.met, met, hits)
@@ -226,7 +228,7 @@ def _set_out(model, radius, ball, s, q, i, until):
     """Begin a flight: nothing met so far, in the cell where the ball is."""
     grid = model.grid
     # The end of time is the first contact so far: later ones do not count.
-    s[BEST + i] = (until - s[TIME + i]) - s[LOST + i]
+    s[BEST + i] = free_time(model.damping, ball.energy, (until - s[TIME + i]) - s[LOST + i])
     s[FEATURE + i] = NONE
     s[TOUCHED + i] = 0.0
     # In units of the grid, with the inverses of the speeds: the walk multiplies and never divides.
@@ -269,15 +271,17 @@ def _reach(model, radius, ball, s, n, i, until):
             if met != NO_HIT:
                 t, feature = 0.0, met
     if feature in (NO_HIT, AMBIGUOUS, COLLAPSES):
-        return ending_without(None, feature, until)
-    n[STILL + i] = 0 if passes(time, t, t, vx, vy, ball.tolerance) else n[STILL + i] + 1
+        return ending_without(model.damping, feature, until)
+    passed, slower = slowed(model.damping, ball.energy, t, (until - time) - lost)
+    n[STILL + i] = 0 if passes(time, passed, t, vx, vy, ball.tolerance) else n[STILL + i] + 1
     if n[STILL + i] > still_limit(model.restitution):
         return COLLAPSE
     if t > 0.0:
         if radius is None:
             s[FROM_X + i], s[FROM_Y + i], s[FROM_VX + i], s[FROM_VY + i] = x, y, vx, vy
         x, y = x + t * vx, y + t * vy
-        time, lost = advance(time, lost, t)
+        ball.vx, ball.vy, ball.energy = slower * vx, slower * vy, slower * slower * ball.energy
+        time, lost = advance(time, lost, passed)
     ball.x, ball.y, ball.last, s[TIME + i], s[LOST + i] = x, y, float(feature), time, lost
     s[NX + i], s[NY + i], s[TWICE + i], _wall = normal_of(model, feature, x, y)
     return RUNNING
@@ -290,8 +294,8 @@ def _reflect(model, ball, s, n, i, limit):
     ball.vx, ball.vy, energy = reflect(
         model.restitution, wall, s[NX + i], s[NY + i], s[TWICE + i], ball.vx, ball.vy, ball.energy
     )
-    # Without restitution the speed is that of the start: its root need not be taken again.
-    if model.restitution is not None:
+    # Where nothing takes speed it is that of the start: its root need not be taken again.
+    if model.restitution is not None or model.damping is not None:
         ball.energy, ball.speed = energy, math.sqrt(energy)
     n[BOUNCES + i] += 1
     if absorbs(model.restitution, wall):
@@ -305,7 +309,7 @@ def _reflect(model, ball, s, n, i, limit):
 def _settle(model, ball, s, n, i):
     """Settle a point in a corner, as ``flight.fly`` does."""
     return settle(
-        model, int(ball.last), ball.x, ball.y, ball.vx, ball.vy,
+        model, int(ball.last), 0.0, ball.x, ball.y, ball.vx, ball.vy,
         s[FROM_X + i], s[FROM_Y + i], s[FROM_VX + i], s[FROM_VY + i], ball.tolerance, n[STILL + i],
     )  # fmt: skip
 
@@ -353,18 +357,22 @@ def _board(model, radius, b, s, n, q, i, start, order, queue, stop, until, limit
             s[FLIES + i] = 1.0
             _set_out(model, radius, b[i], s, q, i, until)
             return 1
-        _store(radius, b[i], s, n, i, start, until, AT_REST if energy <= 0.0 else BOUNCE_LIMIT, outcome)
+        _store(model, None, radius, b[i], s, n, i, start, until, AT_REST if energy <= 0.0 else BOUNCE_LIMIT, outcome)
     s[FLIES + i], q[CROSSES + i] = 0.0, 0
     return 0
 
 
 @kernel
-def _store(radius, ball, s, n, i, start, until, ending, outcome):
+def _store(model, damping, radius, ball, s, n, i, start, until, ending, outcome):
     """Write where a ball has ended, flown on to the end time if that is why."""
     number = n[BALL + i]
     x, y, vx, vy, time = ball.x, ball.y, ball.vx, ball.vy, s[TIME + i] + s[LOST + i]
-    # BEST is the time that is left; a free flight uses it up.
-    if ending == TIME_REACHED and s[BEST + i] > 0.0:
+    if damping is not None:
+        flown, clock = (x, y, vx, vy, ball.energy), (s[TIME + i], s[LOST + i])
+        flown, clock, _start, ending = flown_on(model, None, flown, clock, flown[:4], ending, until)
+        x, y, vx, vy, _energy = flown
+        time = clock[0] + clock[1]
+    elif ending == TIME_REACHED and s[BEST + i] > 0.0:  # BEST is the time that is left; a free flight uses it up
         x, y, time = x + s[BEST + i] * vx, y + s[BEST + i] * vy, until
     x, y = x + start.origin[0], y + start.origin[1]
     outcome.position[number, 0], outcome.position[number, 1] = x, y

@@ -61,7 +61,7 @@ from wallkit.kernels.impact.arc_impact import (
     scan_arcs_point,
     spans,
 )
-from wallkit.kernels.impact.line_impact import slack_of
+from wallkit.kernels.impact.line_impact import from_across, slack_of, stands_across
 from wallkit.kernels.intrinsics import AT_ONCE, fetch, lowest
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import Corner
@@ -82,11 +82,12 @@ def meet(model, radius, movers, s, q, pairs):
             fetch(movers, pairs, LINE_MOVERS + first + i, s, WHO + i, PAIRS)
             fetch(model.lines, pairs, LINE_IDS + first + i, s, ID + i, PAIRS)
         if radius is None:
-            met, near = _meet_lines_point(s, padded)
+            met, near, behind = _meet_lines_point(s, padded)
             _touch(s, pairs, LINE_MOVERS + first, near & real)
         else:
-            met = _meet_lines_disc(s, radius, padded)
-        _keep(s, pairs, LINE_MOVERS + first, met & real)
+            met, behind = _meet_lines_disc(s, radius, padded)
+        met = _solid_lines(model, model.one_sided, pairs, LINE_IDS + first, met & real, behind)
+        _keep(s, pairs, LINE_MOVERS + first, met)
     _meet_arcs(model, model.arcs, radius, movers, s, pairs, arcs)
     if radius is not None:
         for first in range(0, corners, PAIRS):
@@ -95,7 +96,9 @@ def meet(model, radius, movers, s, q, pairs):
                 fetch(movers, pairs, CORNER_MOVERS + first + i, s, WHO + i, PAIRS)
                 for j in range(i, i + AT_ONCE, CORNER_FLOATS):
                     fetch(model.corners, pairs, CORNER_IDS + first + j, s, ID + j, PAIRS)
-            _keep(s, pairs, CORNER_MOVERS + first, _meet_corners(s, radius, padded) & real)
+            met = _meet_corners(s, radius, padded) & real
+            met = _solid_corners(model, model.one_sided, radius, s, pairs, CORNER_IDS + first, met)
+            _keep(s, pairs, CORNER_MOVERS + first, met)
 
 
 @kernel
@@ -103,6 +106,56 @@ def _part(left):
     """How many pairs to work on next, with those that make them up to whole vectors; the bits of those there are."""
     count = min(left, PAIRS)
     return (count + AT_ONCE - 1) // AT_ONCE * AT_ONCE, (1 << count) - 1
+
+
+@kernel
+def _solid_lines(model, one_sided, pairs, first, met, behind):
+    """Of the bits of contacts with lines, keep those that one-sided walls do not let through from ``behind``."""
+    if one_sided is None:
+        return met
+    left = met & behind
+    while left > 0:
+        j = lowest(left)
+        left &= left - 1
+        if one_sided[model.edge_wall[pairs[first + j]]] != 0:
+            met -= 1 << j
+    return met
+
+
+@kernel
+def _solid_corners(model, one_sided, radius, s, pairs, first, met):
+    """Of the bits of contacts with corners, keep those that ``line_impact.scan_corners`` finds at one-sided walls."""
+    if one_sided is None:
+        return met
+    left = met
+    while left > 0:
+        j = lowest(left)
+        left &= left - 1
+        index = pairs[first + j]
+        slack, t = slack_of(s[TOLERANCE + j], radius), s[T + j]
+        ex, ey = s[X + j] - s[E0 + j], s[Y + j] - s[E1 + j]
+        there_x, there_y = ex + t * s[VX + j], ey + t * s[VY + j]
+        gap = ex * ex + ey * ey - radius * radius
+        across = stands_across(one_sided, model.corner_wall, index, gap, 2.0 * radius * slack) or from_across(
+            one_sided, model.corner_wall, model.fans, model.corners, index, radius, slack, there_x, there_y
+        )
+        if across:
+            met -= 1 << j
+    return met
+
+
+@kernel
+def _one_way_arcs(model, one_sided, pairs, first, asked):
+    """Of the bits of arcs, those that belong to one-sided walls."""
+    if one_sided is None:
+        return 0
+    found, left = 0, asked
+    while left > 0:
+        j = lowest(left)
+        left &= left - 1
+        if one_sided[model.edge_wall[pairs[first + j]]] != 0:
+            found |= 1 << j
+    return found
 
 
 @kernel
@@ -140,8 +193,10 @@ def _meet_arcs(model, arcs, radius, movers, s, pairs, listed):
             fetch(movers, pairs, ARC_MOVERS + first + i, s, WHO + i, PAIRS)
             fetch(arcs, pairs, ARC_IDS + first + i, s, ID + i, PAIRS)
         met, again = _meet_arcs_point(s, padded) if radius is None else _meet_arcs_disc(s, radius, padded)
-        _keep(s, pairs, ARC_MOVERS + first, met & real)
-        again &= real
+        # Which of its sides stops a ball, and whether it has to leave it first, the scalar kernel knows.
+        alone = _one_way_arcs(model, model.one_sided, pairs, ARC_IDS + first, met & real)
+        _keep(s, pairs, ARC_MOVERS + first, met & real & ~alone)
+        again = (again & real) | alone
         while again > 0:
             j = lowest(again)
             again &= again - 1
@@ -157,13 +212,13 @@ def _ask_again(model, arcs, radius, movers, s, pairs, k):
     last, feature = int(mover.last), int(s[FEATURE + i])
     if radius is None:
         s[BEST + i], feature, touched = scan_arcs_point(
-            arcs, pairs, at, at + 1, None, model.edge_wall, mover.x, mover.y, mover.vx, mover.vy, mover.energy,
-            last, mover.tolerance, s[BEST + i], feature,
+            arcs, pairs, at, at + 1, model.one_sided, model.edge_wall, mover.x, mover.y, mover.vx, mover.vy,
+            mover.energy, last, mover.tolerance, s[BEST + i], feature,
         )  # fmt: skip
         s[TOUCHED + i] += float(touched)
     else:
         s[BEST + i], feature = scan_arcs_disc(
-            arcs, pairs, at, at + 1, None, model.edge_wall, radius, mover.x, mover.y, mover.vx, mover.vy,
+            arcs, pairs, at, at + 1, model.one_sided, model.edge_wall, radius, mover.x, mover.y, mover.vx, mover.vy,
             mover.energy, last, mover.tolerance, s[BEST + i], feature,
         )  # fmt: skip
     s[FEATURE + i] = float(feature)
@@ -171,8 +226,8 @@ def _ask_again(model, arcs, radius, movers, s, pairs, k):
 
 @kernel
 def _meet_lines_point(s, padded):
-    """Let every point ask its line, as ``line_impact.scan_point`` does: who meets it, and who touches it."""
-    meeting, touching = 0, 0
+    """Let every point ask its line, as ``line_impact.scan_point`` does: who meets it, touches it, and is behind it."""
+    meeting, touching, behind = 0, 0, 0
     for i in range(padded):
         x, y, vx, vy = s[X + i], s[Y + i], s[VX + i], s[VY + i]
         tolerance, number = s[TOLERANCE + i], s[ID + i]
@@ -195,13 +250,14 @@ def _meet_lines_point(s, padded):
         s[T + i] = abs(d) / closing
         meeting |= int(met) << i
         touching |= int(near & asked) << i
-    return meeting, touching
+        behind |= int(d < 0.0) << i
+    return meeting, touching, behind
 
 
 @kernel
 def _meet_lines_disc(s, radius, padded):
-    """Let every disc ask its line, as ``line_impact.scan_disc`` does: the bits of those that meet it."""
-    meeting = 0
+    """Let every disc ask its line, as ``line_impact.scan_disc`` does: who meets it, and who is behind or across it."""
+    meeting, behind = 0, 0
     for i in range(padded):
         vx, vy, nx, ny = s[VX + i], s[VY + i], s[E4 + i], s[E5 + i]
         slack = slack_of(s[TOLERANCE + i], radius)
@@ -212,13 +268,15 @@ def _meet_lines_disc(s, radius, padded):
         d = -d if below else d
         closing = -closing if below else closing
         # d + t v.n = r on the side of the ball, an overlap at once, and the foot at that time.
-        t = (d - radius) / closing
+        gap = d - radius
+        t = gap / closing
         t = 0.0 if t < 0.0 else t
         u = ey * nx - ex * ny + t * (vy * nx - vx * ny)
         asked = (s[LAST + i] != s[ID + i]) & (closing > 0.0)
         meeting |= int(asked & (u >= -slack) & (u <= s[E6 + i] + slack)) << i
+        behind |= int(below | (gap < -slack)) << i
         s[T + i] = t
-    return meeting
+    return meeting, behind
 
 
 @kernel

@@ -29,8 +29,14 @@ def stopping(damping, energy):
         # Drag never stops it quite: after 50 halvings of the speed the way that is left is below rounding.
         return HALVINGS / damping[1], (1.0 - AS_GOOD_AS_NONE) / damping[1]
     # u - a T = 0; the way u^2 / 2 a takes half that time at the speed u.
-    stop = math.sqrt(energy) / damping[0]
+    stop = rolling_stop(damping, energy)
     return stop, 0.5 * stop
+
+
+@kernel
+def rolling_stop(damping, energy):
+    """Time after which rolling friction has stopped a ball of squared speed ``energy``."""
+    return math.sqrt(energy) / damping[0]
 
 
 @kernel
@@ -44,13 +50,12 @@ def free_time(damping, energy, span):
             return whole
         # The way in T is u (1 - e^(-c T)) / c.
         return min(-math.expm1(-damping[1] * span) / damping[1], whole)
-    return free_time_rolling(damping, energy, span)
+    return free_time_rolling(rolling_stop(damping, energy), span)
 
 
 @kernel
-def free_time_rolling(damping, energy, span):
-    """``free_time`` of a ball that rolling friction slows down."""
-    stop = math.sqrt(energy) / damping[0]
+def free_time_rolling(stop, span):
+    """``free_time`` of a ball that rolling friction stops after a time."""
     # The way in T is u T - a T^2 / 2 = u T (1 - T / 2 stop).
     return 0.5 * stop if span >= stop else span * (1.0 - 0.5 * (span / stop))
 
@@ -64,13 +69,12 @@ def slowed(damping, energy, t, most):
         # c t = 1 - e^(-c T), so T = -ln(1 - c t) / c, and e^(-c T) = 1 - c t of the speed is left.
         part = damping[1] * t
         return min(-math.log1p(-part) / damping[1], most), 1.0 - part
-    return slowed_rolling(damping, energy, t, most)
+    return slowed_rolling(rolling_stop(damping, energy), t, most)
 
 
 @kernel
-def slowed_rolling(damping, energy, t, most):
-    """``slowed`` of a ball that rolling friction slows down."""
-    stop = math.sqrt(energy) / damping[0]
+def slowed_rolling(stop, t, most):
+    """``slowed`` of a ball that rolling friction stops after a time."""
     # u'^2 = u^2 - 2 a u t, and the way u t at the mean speed (u + u') / 2 takes 2 t / (1 + k), k = u' / u.
     kept = math.sqrt(1.0 - 2.0 * t / stop)
     taken = 2.0 * t / (1.0 + kept)

@@ -8,9 +8,11 @@ from typing import Any
 from wallkit.kernels.impact.drag_motion import eased
 from wallkit.kernels.jit import kernel
 
-BOUNCES, SLIDES, LEAVES, PASSES, STOPS, SLOWS = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
+BOUNCES, SLIDES, LEAVES, PASSES, STOPS, SLOWS, TURNS, ENDS = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
 """What a contact is to an error. Who passes slides on from another edge. Where one stops or slows, endless bounces end:
-they have taken its speed, or left it what it has along the wall, so that rolling friction acts from here on."""
+they have taken its speed, or left it what it has along the wall, so that rolling friction acts from here on. Who turns
+round on a wall is slowed down on it: from there on what slows it down acts the other way. Where a run ends nothing is
+turned."""
 
 
 @kernel
@@ -68,39 +70,84 @@ def contact(
     They are those of :func:`derivative` at a bounce. A ball that begins to slide keeps what its error has along the
     wall; where endless bounces stop it (see ``wallkit.simulation.horizon``), it goes on later by dT, so with -a dT.
     Where they leave it its speed along the wall, what pulled it along before is taken from a. One that runs off an edge
-    by dt = -(dx.v) / v^2 later falls so much later: its velocity differs by the jump of the acceleration times dt.
+    by dt = -(dx.v) / v^2 later falls so much later: its velocity differs by the jump of the acceleration times dt. One
+    that turns round under a does so by dt = -dv.a / a^2 later, and goes off under h: dv' = -h dt.
     """
     nx, ny, ux, uy = path[i, 3], path[i, 4], path[i, 1], path[i, 2]
     hx, hy = pull[i + 1, 0] - drag * ux, pull[i + 1, 1] - drag * uy
     if path[i, 5] == BOUNCES:
         return derivative(vx, vy, ux, uy, nx, ny, (keep[i, 0], keep[i, 1]), bend[i], (ax, ay), (hx, hy))
     one, none = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0, 0.0)
+    if path[i, 5] == ENDS:
+        return one, one, none, one
     if path[i, 5] == LEAVES:
         square = vx * vx + vy * vy
         jx, jy = (0.0, 0.0) if square == 0.0 else ((hx - ax) / square, (hy - ay) / square)
         return one, one, (jx * vx, jx * vy, jy * vx, jy * vy), one
-    along = (1.0 - nx * nx, -nx * ny, -nx * ny, 1.0 - ny * ny)
+    along = _along(nx, ny)
     if path[i, 5] == PASSES:  # from edge to edge: that place is where it is
         return none, along, none, along
+    if path[i, 5] == TURNS:  # who stays there goes off with nothing
+        square = ax * ax + ay * ay
+        keeps = max(hx * ax + hy * ay, 0.0) / square if square > 0.0 else 1.0
+        return along, along, none, _scaled(along, keeps)
     if path[i, 5] == STOPS or path[i, 5] == SLOWS:
-        # The last bounce leaves at w, dt = -dx.n / w late and faster by dw = dv.n - p dt; its series takes T = 2 w /
-        # p (1 - e), so dT = dt + T dw / w. Here, T later, dx.n has T dv.n more.
-        T, e = path[i, 0] - path[i - 1, 0], keep[i, 1]
-        nx, ny = path[i - 1, 3], path[i - 1, 4]  # of that bounce: on an arc it turns from there by more than w / v
-        w = path[i - 1, 1] * nx + path[i - 1, 2] * ny
-        part = 1.0 - 2.0 / (1.0 - e)
-        d, m = -part / w, T * (1.0 + part) / w
-        keeps = 1.0 if path[i, 5] == SLOWS else 0.0  # of what it had until then
-        jx, jy = hx - keeps * ax, hy - keeps * ay
-        px, py = along[0] * jx + along[1] * jy, along[2] * jx + along[3] * jy
-        late = (-px * m * nx, -px * m * ny, -py * m * nx, -py * m * ny)
-        return (
-            along,
-            along,
-            (-px * d * nx, -px * d * ny, -py * d * nx, -py * d * ny),
-            _plus(_scaled(along, keeps), late),
-        )
+        return _after_last_bounces(along, path, keep, hx, hy, ax, ay, i)
     return along, along, none, along
+
+
+@kernel
+def _along(nx: float, ny: float) -> Any:
+    """What of a vector is along the wall: 1 - n n^T."""
+    return ny * ny, -nx * ny, -nx * ny, nx * nx
+
+
+@kernel
+def _after_last_bounces(along: Any, path: Any, keep: Any, hx: float, hy: float, ax: float, ay: float, i: int) -> Any:
+    """Give S, A, B and M where endless bounces end that stop a ball, or after which friction slows it down.
+
+    The last bounce that is told leaves at w, dt = -dx.n / w late and faster by dw = dv.n - p dt; its series takes
+    T = 2 w / p (1 - e), so dT = dt + T dw / w. Where restitution f along the wall stops it, after the way
+    2 w u / p (1 - e f), it stops farther by u dt and by that way times dw / w: by u (1 - 2 / (1 - e f)) dt, at the
+    time of ``_lasts``.
+    """
+    T, e, f = path[i, 0] - path[i - 1, 0], keep[i, 1], keep[i, 0]
+    nx, ny = path[i - 1, 3], path[i - 1, 4]  # of that bounce: on an arc it turns from there by more than w / v
+    w = path[i - 1, 1] * nx + path[i - 1, 2] * ny
+    part = 1.0 - 2.0 / (1.0 - e)
+    # Here, `since` later, dx.n has `since` dv.n more.
+    since = _lasts(path, keep, T, i)
+    d, m = -part / w, (T + part * since) / w
+    keeps = 1.0 if path[i, 5] == SLOWS else 0.0  # of what it had until then
+    jx, jy = hx - keeps * ax, hy - keeps * ay
+    px, py = along[0] * jx + along[1] * jy, along[2] * jx + along[3] * jy
+    late = (-px * m * nx, -px * m * ny, -py * m * nx, -py * m * ny)
+    place = along
+    if path[i, 5] == STOPS:
+        # u as a vector along the wall, times -(1 - 2 / (1 - e f)) / w.
+        far = (2.0 / (1.0 - e * f) - 1.0) / w
+        sx = far * (along[0] * path[i - 1, 1] + along[1] * path[i - 1, 2])
+        sy = far * (along[2] * path[i - 1, 1] + along[3] * path[i - 1, 2])
+        place = _plus(along, (sx * nx, sx * ny, sy * nx, sy * ny))
+    return (
+        place,
+        place,
+        (-px * d * nx, -px * d * ny, -py * d * nx, -py * d * ny),
+        _plus(_scaled(along, keeps), late),
+    )
+
+
+@kernel
+def _lasts(path: Any, keep: Any, t: float, i: int) -> float:
+    """Time for which an error is carried from contact to contact: t, but where endless bounces stop a ball.
+
+    With the time a = 2 w / p of the first of them, dw / w = (dv.n - p dt) / w adds a u / (1 - e f) w for dv.n to what
+    is above for dx.n: both are one for dx.n + dv.n a / (1 + e f), which is dx.n at that time.
+    """
+    if path[i, 5] != STOPS:
+        return t
+    e, f = keep[i, 1], keep[i, 0]
+    return t * (1.0 - e) / (1.0 + e * f)
 
 
 @kernel
@@ -207,7 +254,7 @@ def _wall_moved(d: float, wx: float, wy: float, across: float, nx: float, ny: fl
 def carry(
     start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, glides: Any, fresh: Any, variance: Any
 ) -> None:
-    """Fill ``variance`` with that of the place of each contact.
+    """Fill ``variance`` with that of the place of each contact, and of the velocity after it before it is rounded.
 
     Args:
         start: (2,) velocity at time 0.
@@ -219,7 +266,7 @@ def carry(
         glides: (n, 13) of ``wallkit.simulation.glide_errors``, of not-a-number where the ball came no circle along.
         fresh: (n, 4) new at each contact: displacement of the wall, turn of its normal, rounding of the place,
             and of the velocity relative to the speed.
-        variance: (n,), filled; left as it is after the first that exceeds 1e300.
+        variance: (n, 2), filled; left as it is after the first place of more than 1e300.
     """
     ux, uy = start[0], start[1]
     # covariances of position, of position with velocity, of velocity; the start is exact: it is what was asked for
@@ -228,7 +275,7 @@ def carry(
     for i in range(len(path)):
         t = path[i, 0] - now
         now = path[i, 0]
-        left, t = _eased(drag, t)
+        left, t = _eased(drag, _lasts(path, keep, t, i))
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ax, ay = pull[i, 0] - drag * vx, pull[i, 1] - drag * vy
         if glides[i, 0] == glides[i, 0]:
@@ -242,27 +289,27 @@ def carry(
             break  # not a bounce that a neighbour shares: it began in contact
         S, A, B, M = contact(vx, vy, ax, ay, path, bend, keep, pull, drag, i)
         place = _times_turned(_times(S, xx), S)
-        variance[i] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]  # the trace of S Var(x) S^T, and rounding
+        # the trace of S Var(x) S^T, and rounding
+        variance[i, 0] = place[0] + place[3] + 2 * fresh[i, 2] * fresh[i, 2]
         if path[i, 5] == BOUNCES:  # the wall elsewhere by d is met at d (n - v / (v.n)) along it, and d along n
-            variance[i] += fresh[i, 0] * fresh[i, 0] * (vx * vx + vy * vy) / (across * across)
-        if not variance[i] < 1e300:
+            variance[i, 0] += fresh[i, 0] * fresh[i, 0] * (vx * vx + vy * vy) / (across * across)
+        if not variance[i, 0] < 1e300:
             break
         xx, xv, vv = _met(xx, xv, vv, A, B, M)
+        variance[i, 1] = vv[0] + vv[3]
         rounded = fresh[i, 2] * fresh[i, 2]
         if path[i, 5] != BOUNCES:  # nothing is turned
-            along = (ny * ny * rounded, -nx * ny * rounded, -nx * ny * rounded, nx * nx * rounded)
-            rounded = fresh[i, 3] * fresh[i, 3]
-            xx, vv = (
-                _plus(xx, along),
-                _plus(vv, (rounded * ux * ux, rounded * ux * uy, rounded * ux * uy, rounded * uy * uy)),
-            )
+            xx = _plus(xx, _scaled(_along(nx, ny), rounded))
+            vv = _plus(vv, _scaled(_outer(ux, uy), fresh[i, 3] * fresh[i, 3]))
             continue
         moved = _wall_moved(fresh[i, 0], vx - ux, vy - uy, across, nx, ny, B)
         xx, xv, vv = _plus(xx, moved[0]), _plus(xv, moved[1]), _plus(vv, moved[2])
         # Its normal turned by `turn` turns v', with dn = (ny, -nx) turn; and the state is rounded.
         turn, slip = fresh[i, 1] * (keep[i, 0] + keep[i, 1]), vx * ny - vy * nx
         turned = _outer(turn * (nx * slip + across * ny), turn * (ny * slip - across * nx))
-        xx = _plus(xx, (rounded, 0.0, 0.0, rounded))
+        joins = i + 1 < len(path) and (path[i + 1, 5] == STOPS or path[i + 1, 5] == SLOWS)
+        # Who joins the wall is put on it: of the rounding of its place what is along the wall is left.
+        xx = _plus(xx, _scaled(_along(nx, ny), rounded) if joins else (rounded, 0.0, 0.0, rounded))
         rounded = fresh[i, 3] * fresh[i, 3] * (ux * ux + uy * uy)
         vv = _plus(_plus(vv, turned), (rounded, 0.0, 0.0, rounded))
 
@@ -278,7 +325,7 @@ def stretch(
     for i in range(len(path)):
         t = path[i, 0] - now
         now = path[i, 0]
-        left, t = _eased(drag, t)
+        left, t = _eased(drag, _lasts(path, keep, t, i))
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ax, ay = pull[i, 0] - drag * vx, pull[i, 1] - drag * vy
         if glides[i, 0] == glides[i, 0]:

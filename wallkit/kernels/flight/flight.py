@@ -7,10 +7,11 @@ import math
 from wallkit.kernels.flight.damping import free_time, last_flight, slowed
 from wallkit.kernels.flight.gravity import bounce, facing, fall, first_contact, kept_energy, lifted
 from wallkit.kernels.flight.guide import guide
+from wallkit.kernels.flight.joints import NO_END, end_at, next_face
 from wallkit.kernels.flight.motion import advance
-from wallkit.kernels.flight.obstacles import following, side_after
-from wallkit.kernels.flight.point_in_corner import settle, touching
+from wallkit.kernels.flight.point_in_corner import settle
 from wallkit.kernels.flight.resting import held_after, keep, side_of, stopped_between
+from wallkit.kernels.flight.vertex import first_face
 from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.records import (
@@ -71,12 +72,10 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
     Returns:
         Number of contacts in the log. The flight goes on from here if ``counts`` says RUNNING.
     """
-    # Here a ball is (x, y, vx, vy, energy), a clock (time, what it lost), a start (x, y, vx, vy) of the last flight,
-    # and a grip (held, hold, side, turns, changes) how a wall holds the ball, see ``Counts``.
     ball, clock, start, grip, last, bounces, still, before = read_state(state, counts)
     tolerance, noted, ending = state[STATE.tolerance], 0, RUNNING
     while ending == RUNNING and noted < capacity:
-        ending = ending_at_once(gravity, ball[4], bounces, limit)
+        face, ending = 0.0, ending_at_once(gravity, ball[4], bounces, limit)
         if ending != RUNNING:
             break
         remaining = (until - clock[0]) - clock[1]
@@ -84,8 +83,6 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             ball, clock, start, grip, last, t, feature, ending, noted = kept_to_wall(
                 model, gravity, radius, ball, clock, start, grip, last, tolerance, remaining, until, log, noted
             )
-            if feature == NO_HIT:
-                continue
             passed = t
         else:
             t, feature = contact_ahead(model, gravity, radius, ball, start, grip, last, still, tolerance, remaining)
@@ -98,17 +95,17 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                 if still > still_limit(model.restitution):
                     ending = COLLAPSE
                     break
-            if t > 0.0:
-                ball, clock, start = flown(model, gravity, radius, ball, clock, grip, t, passed, slower)
-                if gravity is not None and runs_off(model, gravity, radius, grip, feature, ball, start, tolerance):
-                    grip, last = (grip[0], LEAVING, grip[2], grip[3], grip[4]), grip[0]
-                    continue
+            ball, clock, start, grip, last, still, feature, face = arrived(
+                model, gravity, radius, ball, clock, start, grip, last, still, feature, t, passed, slower, tolerance
+            )
+        if feature == NO_HIT:
+            continue
         if gravity is not None:
             still = still_now(model.restitution, feature, still, clock, passed, t, ball, tolerance)
             if still > still_limit(model.restitution):
                 ball, grip, still, ending = caught(model, gravity, radius, ball, start, grip, last, before, tolerance)
                 continue
-        ball, nx, ny, wall = turned(model, gravity, radius, feature, ball)
+        ball, nx, ny, wall = turned(model, gravity, radius, feature, face, ball)
         before, last, bounces = (before if feature == last else last), feature, bounces + 1
         hits[tally_of(model, feature)] += 1
         noted = note(log, noted, clock, ball, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
@@ -120,7 +117,11 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
 
 @kernel
 def read_state(state, counts):
-    """Read what ``fly`` needs: ball, clock, start, grip, then last, bounces, still and before of ``Counts``."""
+    """Read what ``fly`` needs: ball, clock, start, grip, then last, bounces, still and before of ``Counts``.
+
+    A ball is (x, y, vx, vy, energy), a clock (time, what it lost), a start (x, y, vx, vy) of the last flight, a grip
+    (held, hold, side, turns, changes) how a wall holds the ball, see ``Counts``.
+    """
     ball = (state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy], state[STATE.energy])
     start = (state[STATE.from_x], state[STATE.from_y], state[STATE.from_vx], state[STATE.from_vy])
     grip = (
@@ -217,7 +218,8 @@ def contact_ahead(model, gravity, radius, ball, start, grip, last, still, tolera
     )
     if touched > 0 and last >= 0:
         # Within rounding of another edge a point has no side of it; where it came from tells.
-        met = settle(model, last, x, y, vx, vy, start[0], start[1], start[2], start[3], tolerance, still)
+        side = grip[2] if grip[0] == last else 0.0
+        met = settle(model, last, side, x, y, vx, vy, start[0], start[1], start[2], start[3], tolerance, still)
         if met != NO_HIT:
             t, feature = 0.0, met
     return t, feature
@@ -234,37 +236,46 @@ def flown(model, gravity, radius, ball, clock, grip, t, passed, slower):
 
 
 @kernel
-def runs_off(model, gravity, radius, grip, feature, ball, start, tolerance):
-    """Tell whether a point that left a wall along it only passes that wall's end, where it seems to meet an edge.
-
-    So near to the wall it is on neither side of its end, and may seem to meet the edge that begins there on the face
-    that looks away from it. Round the end, on the point's side of the wall, comes one face: it can meet no other one.
-    """
-    held, hold, side = grip[0], grip[1], grip[2]
-    if radius > 0.0 or hold != LEFT or feature < 0 or feature == held or held < 0:
-        return False
-    x, y, vx, vy, _energy = ball
-    touches, starts, ends = touching(model, model.arcs, held, x, y, tolerance)
-    _touched, from_start, from_end = touching(model, model.arcs, held, start[0], start[1], tolerance)
-    if not touches or not ((starts and not from_start) or (ends and not from_end)):
-        return False
-    end = _end_of(model.arcs, held, starts)
-    joint = model.joints[2 * held + end]
-    if joint.place not in (model.joints[2 * feature].place, model.joints[2 * feature + 1].place):
-        return False
-    next_end = int(following(joint, end, side))
-    nx, ny, _twice = normal_at(model, model.arcs, feature, x, y)
-    nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny)
-    met = side_of(model, model.arcs, feature, x, y, nx, ny)
-    return feature != next_end >> 1 or met != side_after(next_end, end, side)
+def arrived(model, gravity, radius, ball, clock, start, grip, last, still, feature, t, passed, slower, tolerance):
+    """Take a ball to what it meets: (ball, clock, start, grip, last, still, feature, face), see ``at_vertex``."""
+    face = 0.0
+    if t > 0.0:
+        ball, clock, start = flown(model, gravity, radius, ball, clock, grip, t, passed, slower)
+    if gravity is not None:
+        feature, face, ball, grip, last = at_vertex(
+            model, gravity, radius, feature, ball, start, grip, last, t, tolerance
+        )
+        if feature == NO_HIT:  # it flies past a vertex, and not without end
+            still += 1
+            feature = COLLAPSES if still > still_limit(model.restitution) else NO_HIT
+    return ball, clock, start, grip, last, still, feature, face
 
 
 @kernel
-def _end_of(arcs, edge, starts):
-    """Which end of an edge, in the order of its wall, lies where its line or arc starts, or else ends: 0 or 1."""
-    if arcs is not None:
-        starts = starts if arcs[edge].sweep >= 0.0 else not starts
-    return 0 if starts else 1
+def at_vertex(model, gravity, radius, feature, ball, start, grip, last, t, tolerance):
+    """Which face a point meets that has come within rounding of a vertex: (feature, face, ball, grip, last).
+
+    Rounding does not tell (see ``vertex``). The face is the side of the wall, 0 where the way of the ball tells it; the
+    feature is NO_HIT for one that flies past the vertex. If it does so along an edge, it leaves that, on that side.
+    """
+    if radius > 0.0 or feature < 0:
+        return feature, 0.0, ball, grip, last
+    end = end_at(model, feature, ball[0], ball[1], tolerance)
+    if end == NO_END:
+        return feature, 0.0, ball, grip, last
+    if t == 0.0:  # it is there already, and bounces off one edge after the other
+        face = 0.0
+        if last >= 0 and last == grip[0] and last != feature:
+            joined, face = next_face(model, last, grip[2], feature, ball[0], ball[1], tolerance)
+            feature = NO_HIT if joined and face == 0.0 else feature
+        return feature, face, ball, grip, last
+    feature, face, beside, side = first_face(model, gravity, feature, end, last, ball, start, tolerance)
+    if beside != NO_HIT:
+        grip, last = (beside, LEFT, side, grip[3], grip[4]), beside
+        if ball[2] == 0.0 and ball[3] == 0.0:
+            vx, vy = fallen(gravity, tolerance)
+            ball = (ball[0], ball[1], vx, vy, ball[4])
+    return feature, face, ball, grip, last
 
 
 @kernel
@@ -285,7 +296,9 @@ def caught(model, gravity, radius, ball, start, grip, last, before, tolerance):
         return ball, grip, 0, COLLAPSE
     # Endless bounces in no time take all speed at a wall with restitution: what is left is where forces push it.
     x, y = ball[0], ball[1]
-    held, hold, side, ending = stopped_between(model, gravity, radius, last, grip[2], before, x, y, start, tolerance)
+    # The side is that of what holds it, or of what it met last.
+    one, other = (last, before) if grip[0] in (NO_HIT, last) else (grip[0], last)
+    held, hold, side, ending = stopped_between(model, gravity, radius, one, grip[2], other, x, y, start, tolerance)
     vx, vy = fallen(gravity, tolerance) if hold == LEFT else (0.0, 0.0)
     return (x, y, vx, vy, kept_energy(gravity, x, y, vx, vy)), (held, hold, side, grip[3], grip[4]), 0, ending
 
@@ -303,12 +316,18 @@ def fallen(gravity, tolerance):
 
 
 @kernel
-def turned(model, gravity, radius, feature, ball):
-    """Turn the velocity of a ball at what it has reached: (ball, normal towards it, of any length, wall)."""
+def turned(model, gravity, radius, feature, face, ball):
+    """Turn the velocity of a ball at what it has reached: (ball, normal towards it, of any length, wall).
+
+    ``face`` is the side of the wall that it meets, where that is known, else 0.
+    """
     x, y, vx, vy, energy = ball
     nx, ny, twice, wall = normal_of(model, feature, x, y)
     # The stored normal is that of the edge; a two-sided wall turns the ball back to where it came from.
-    nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny)
+    if face == 0.0:
+        nx, ny = facing(model, gravity, radius, feature, x, y, vx, vy, nx, ny)
+    elif side_of(model, model.arcs, feature, x, y, nx, ny) != face:
+        nx, ny = -nx, -ny
     vx, vy, energy = bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy)
     return (x, y, vx, vy, energy), nx, ny, wall
 

@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.flight.guide import STRAIGHT
+from wallkit.kernels.flight.joints import AT_VERTEX, following, one_sided, side_after
 from wallkit.kernels.flight.point_in_corner import came_from
 from wallkit.kernels.impact.arc_impact import FALLING_MOULD, holds
 from wallkit.kernels.impact.line_impact import from_across, precedes, slack_of, stands_across
@@ -98,15 +99,10 @@ def follows(model, held, side, edge, to_right):
 
 
 @kernel
-def following(joint, end, side):
-    """End of an edge that is next to a joint on a side of its wall: a ball comes from one edge to the other there."""
-    return joint.clockwise if (side > 0.0) == (end == 0) else joint.counter
-
-
-@kernel
-def side_after(next_end, end, side):
-    """Side of the next edge's wall on which a ball is that comes from an end of another one, on a side of that."""
-    return -side if (next_end & 1) == end else side
+def _by_joint(radius, slack):
+    """How far from a joint a contact, found within the rounding of places, may be one with the joint itself."""
+    # With a point that is over the angle between the edges, see ``AT_VERTEX``.
+    return (AT_VERTEX if radius == 0.0 else 8.0) * slack
 
 
 @rare_kernel
@@ -119,6 +115,8 @@ def meet_lines(
     on the side of it from which it came.
     """
     slack = slack_of(tolerance, radius)
+    # Two straight lines that share a vertex meet nowhere else.
+    near = math.inf if radius == 0.0 and rho == STRAIGHT else _by_joint(radius, slack)
     from_x, from_y, from_vx, from_vy = start_of
     for k in range(start, stop):
         edge = int(model.ids[k])
@@ -149,7 +147,7 @@ def meet_lines(
             foot = (fy - line.ay) * line.nx - (fx - line.ax) * line.ny
             if not -slack <= foot <= line.length + slack or follows(model, held, side, edge, out > 0.0):
                 continue
-            if joined(model, held, edge, fx - out * radius * line.nx, fy - out * radius * line.ny, 8.0 * slack):
+            if joined(model, held, edge, fx - out * radius * line.nx, fy - out * radius * line.ny, near):
                 continue
             best, feature = way, edge
     return best, feature
@@ -163,6 +161,7 @@ def meet_arcs(
     if arcs is None:
         return best, feature
     slack = slack_of(tolerance, radius)
+    near = _by_joint(radius, slack)
     from_x, from_y, from_vx, from_vy = start_of
     for k in range(start, stop):
         edge = int(model.ids[k])
@@ -201,7 +200,7 @@ def meet_arcs(
                 continue
             # The contact point is r from the centre towards the arc, or away from its middle in the hollow.
             inwards = out * radius / math.sqrt(qx * qx + qy * qy)
-            if joined(model, held, edge, fx - inwards * qx, fy - inwards * qy, 8.0 * slack):
+            if joined(model, held, edge, fx - inwards * qx, fy - inwards * qy, near):
                 continue
             best, feature = way, edge
     return best, feature
@@ -241,11 +240,3 @@ def _is_own(model, held, place):
     if held < 0:
         return model.spokes[-2 - held] == place
     return model.joints[2 * held].place == place or model.joints[2 * held + 1].place == place
-
-
-@kernel
-def one_sided(sides, wall):
-    """Tell whether a wall is solid from its outward side alone."""
-    if sides is None:
-        return False
-    return sides[wall] != 0

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import math
 
+from wallkit.kernels.flight.joints import next_face
 from wallkit.kernels.flight.motion import reflect
 from wallkit.kernels.impact.arc_impact import holds
-from wallkit.kernels.impact.contact_normal import normal_at
+from wallkit.kernels.impact.contact_normal import normal_at, outward
 from wallkit.kernels.index.grid import home
-from wallkit.kernels.jit import rare_kernel
+from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import AMBIGUOUS, COLLAPSES, NO_HIT
 
 SAME = 1e-9
@@ -22,28 +23,49 @@ TURNS = 200_000
 
 
 @rare_kernel
-def settle(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still):
+def settle(model, last, side, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance, still):
     """Find the edge that a point in a corner meets next, at once; or NO_HIT if it is free to go.
+
+    ``side`` is that of the edge hit last on which the point is, where it is known, or 0: from it follows which face of
+    another edge at the same vertex the point can meet (see ``joints``), under gravity.
 
     Returns AMBIGUOUS if starting with the other wall would send the point elsewhere: an exact corner hit that
     has no limit; COLLAPSES if restitution takes all speed before the point gets out.
     """
     cell = model.cells[home(model, model.grid, x, y)]
-    found = NO_HIT
+    found, found_side, last_side = NO_HIT, 0.0, side * outward(model.arcs, last)
+    if side == 0.0:
+        last_side = _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
     closest = -2.0
     for k in range(cell.first, cell.corners):
         edge = int(model.ids[k])
+        if edge == last or not touching(model, model.arcs, edge, x, y, tolerance)[0]:
+            continue
+        joined, came = _face_at_joint(model, model.joints, last, side, edge, x, y, tolerance)
+        if not joined:
+            came = came_from(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance)
+        if came == 0.0:
+            continue
         # Of the edges that it runs against, the one that leans most over its way is the next one in the wedge.
-        lean = _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
+        lean = _lean(model, last, last_side, edge, came, x, y, vx, vy, tolerance)
         if lean > closest:
-            closest, found = lean, edge
+            closest, found, found_side = lean, edge, came
     if found == NO_HIT:
         return NO_HIT
     if still > 0:
         return found
-    last_side = _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
-    found_side = came_from(model, found, x, y, from_x, from_y, from_vx, from_vy, tolerance)
     return _outcome(model, last, last_side, found, found_side, x, y, from_vx, from_vy)
+
+
+@kernel
+def _face_at_joint(model, joints, last, side, edge, x, y, tolerance):
+    """Side, as of ``came_from``, of an edge that shares the vertex with the one hit last: (shares it, side or 0)."""
+    if joints is None:
+        return False, 0.0
+    if side == 0.0:
+        return False, 0.0
+    joined, face = next_face(model, last, side, edge, x, y, tolerance)
+    return joined, face * outward(model.arcs, edge)
 
 
 @rare_kernel
@@ -76,25 +98,20 @@ def _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance
 
 
 @rare_kernel
-def _lean(model, last, edge, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance):
+def _lean(model, last, side, edge, came, x, y, vx, vy, tolerance):
     """How closely an edge leans over the way along the last wall, -1 to 1; -2 if the point does not run against it.
 
-    An edge that ends here and goes off behind the last wall, or along it, cannot be met when leaving that wall.
+    ``side`` and ``came`` are the sides of the two on which the point is. An edge that ends here and goes off behind the
+    last wall, or along it, cannot be met when leaving that wall.
     """
-    if edge == last:
-        return -2.0
-    touched, starts, ends = touching(model, model.arcs, edge, x, y, tolerance)
-    if not touched:
-        return -2.0
+    _touched, starts, ends = touching(model, model.arcs, edge, x, y, tolerance)
     nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
-    came = came_from(model, edge, x, y, from_x, from_y, from_vx, from_vy, tolerance)
     toward = vx * nx + vy * ny
     if (came > 0.0) == (toward > 0.0) or toward == 0.0:
         return -2.0
     if _passes(model.one_sided, model, model.arcs, edge, came):
         return -2.0
     mx, my, _twice = normal_at(model, model.arcs, last, x, y)
-    side = _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
     mx, my = side * mx, side * my
     # d along the edge, away from the corner: against its own direction where it ends here.
     dx, dy = -ny, nx
@@ -156,12 +173,8 @@ def _passes(one_sided, model, arcs, edge, came):
         return False
     if one_sided[model.edge_wall[edge]] == 0:
         return False
-    outward = 1.0
-    if arcs is not None:
-        if arcs[edge].radius > 0.0:
-            outward = arcs[edge].sweep
     # One-sided: solid from its outward side alone.
-    return came * outward < 0.0
+    return came * outward(arcs, edge) < 0.0
 
 
 @rare_kernel

@@ -19,8 +19,9 @@ import math
 from wallkit.kernels.flight.contact_state import stretch
 from wallkit.kernels.flight.gravity import LEVEL, kept_energy
 from wallkit.kernels.flight.guide import STRAIGHT, ahead_of, guide, outside, press
+from wallkit.kernels.flight.joints import following, next_face, one_sided, side_after
 from wallkit.kernels.flight.last_bounces import join
-from wallkit.kernels.flight.obstacles import SMOOTH_JOINT, following, one_sided, side_after
+from wallkit.kernels.flight.obstacles import SMOOTH_JOINT
 from wallkit.kernels.flight.pendulum import period
 from wallkit.kernels.flight.point_in_corner import came_from, touching
 from wallkit.kernels.flight.slowed_contact import slows
@@ -363,7 +364,7 @@ def stopped_between(model, gravity, radius, one, one_side, other, x, y, start_of
     if other == NO_HIT:
         return one, FREE, one_side, COLLAPSE
     _rho, _away, ax, ay = guide(model, model.arcs, one, one_side, radius, x, y)
-    other_side = _side_now(model, radius, other, x, y, start_of, tolerance)
+    other_side = _side_now(model, radius, one, one_side, other, x, y, start_of, tolerance)
     _rho, _away, bx, by = guide(model, model.arcs, other, other_side, radius, x, y)
     gx, gy = gravity[0], gravity[1]
     on_one, on_other = -(gx * ax + gy * ay), -(gx * bx + gy * by)
@@ -378,10 +379,14 @@ def stopped_between(model, gravity, radius, one, one_side, other, x, y, start_of
 
 
 @kernel
-def _side_now(model, radius, feature, x, y, start_of, tolerance):
+def _side_now(model, radius, one, one_side, feature, x, y, start_of, tolerance):
     """Side of a feature's wall on which a ball is that has just bounced off it: a point's is told by where it went."""
     if feature < 0:
         return 1.0
+    if radius == 0.0 and one >= 0:
+        _joined, face = next_face(model, one, one_side, feature, x, y, tolerance)
+        if face != 0.0:
+            return face
     nx, ny, _twice = normal_at(model, model.arcs, feature, x, y)
     if radius > 0.0:
         out = _is_out(model, model.arcs, feature, x, y)

@@ -19,3 +19,13 @@ def normal_at(model, arcs, edge, x, y):
             return nx, ny, 2.0 / (nx * nx + ny * ny)
     line = model.lines[edge]
     return line.nx, line.ny, line.twice
+
+
+@kernel
+def outward(arcs, edge):
+    """1 where ``normal_at`` points to the outward side of an edge's wall, else -1."""
+    if arcs is not None:
+        arc = arcs[edge]
+        if arc.radius > 0.0:
+            return 1.0 if arc.sweep > 0.0 else -1.0
+    return 1.0

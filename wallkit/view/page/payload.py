@@ -124,8 +124,9 @@ def horizon_table(run: Run) -> Table | None:
 
     if len(run.final) != 1 or not len(run.contacts):
         return None
-    horizon = trusted_until(run.scene, run.contacts[:HORIZON_CONTACTS], 0, end=float(run.final["time"][0]))
-    if horizon.whole and len(run.contacts) > HORIZON_CONTACTS:
+    long = len(run.contacts) > HORIZON_CONTACTS
+    horizon = trusted_until(run.scene, run.contacts[:HORIZON_CONTACTS], 0, final=None if long else run.final[0])
+    if horizon.whole and long:
         return None
     return {"whole": horizon.whole, "time": horizon.time, "sentence": horizon.sentence()}
 

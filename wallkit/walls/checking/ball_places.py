@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from importers.problems import Problem
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.walls.checking.free_space import FreeSpace
 from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.parts import Parts
@@ -66,7 +66,7 @@ def goal_problems(space: FreeSpace, goals: Walls, places: FloatArray) -> list[Pr
 
 def _level(parts: Parts, solids: Solids, where: IntArray) -> int:
     """The part that is the level, among those that hold balls and those around them; -1 without any."""
-    held = np.unique(where)
+    held = distinct(where)
     if not len(held) or parts.outside in held:
         return parts.outside
     candidates = held[np.argsort(-parts.area[held], kind="stable")]

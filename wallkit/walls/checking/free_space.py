@@ -30,10 +30,10 @@ from wallkit.walls.checking.narrow_places import with_feet
 from wallkit.walls.checking.part_material import in_material
 from wallkit.walls.checking.parts import Parts
 from wallkit.walls.checking.room_circles import largest_circles, triangles_at
-from wallkit.walls.checking.self_check import diagonal
-from wallkit.walls.checking.triangle_circles import triangle_circles
+from wallkit.walls.checking.self_check import diagonal, straight_edges
+from wallkit.walls.checking.triangle_circles import TOO_SMALL, triangle_circles
 from wallkit.walls.checking.widest_ways import Room, Ways, WaysOut, unite, ways_out
-from wallkit.walls.crossings import find_touches
+from wallkit.walls.crossings import Touches, find_touches
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.noding import MOST_CROSSINGS, noded
 from wallkit.walls.walls import Walls, WallsError
@@ -41,7 +41,6 @@ from wallkit.walls.walls import Walls, WallsError
 MOST_EDGES = 200_000
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
 _SEAM = 4e-7  # of the diagonal: what is narrower is closed, but for rounding
-_TOO_SMALL = 1.5  # times the radius of a circle in a triangle, a larger one may be found above it
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
 
@@ -100,7 +99,9 @@ class FreeSpace:
         return [gap for gap in shut if not gap.outside]  # a room shut to the outside is as it should be
 
 
-def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
+def free_space(
+    walls: Walls, narrow: float = _NARROW, *, edges: Edges | None = None, touches: Touches | None = None
+) -> FreeSpace:
     """Find the rooms and the gaps between them, for discs of any radius at once.
 
     Where a disc may be: not inside material, which the winding of the walls tells (see ``Walls``). But where all
@@ -111,6 +112,8 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
             are then made exact.
         narrow: an opening is a gap up to this part of the width of the room behind it. Rooms narrower than the
             tolerance are none, nor are gaps below 4e-7 of the drawing's diagonal.
+        edges: the straight edges of the walls, if they are at hand.
+        touches: those of these edges, if they are at hand.
 
     Raises:
         WallsError: these are no walls, or ``narrow`` is no number above 0.
@@ -118,10 +121,13 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     of_type(walls, "walls", Walls, "Walls", error=WallsError, code="bad-walls")
     may_be = "a number above 0"
     number(narrow, "narrow", may_be, error=WallsError, code="bad-argument", least=ABOVE_0)
-    vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
-    edges = Edges(vertices, offsets, walls.closed)
+    edges = straight_edges(walls) if edges is None else edges
+    vertices = edges.vertices
     nothing = not len(edges) or diagonal(vertices) == 0
-    touches = None if nothing or len(edges) > MOST_EDGES else find_touches(edges)
+    if nothing or len(edges) > MOST_EDGES:
+        touches = None
+    elif touches is None:
+        touches = find_touches(edges)
     if touches is None or not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS:  # a tangle
         return FreeSpace([], np.empty((0, 3)), nothing)
     pieces = noded(edges, touches)
@@ -235,7 +241,7 @@ def _rooms(mesh: Triangulation, where: NDArray[np.bool_], narrow: float, least: 
     circles = _Circles(walls, *triangle_circles(mesh, least, where))
     if not (circles.radius > least).any():  # nothing is a room, however it hangs together
         return FreeSpace([], np.empty((0, 3))), circles
-    joined = unite(mesh, Ways.of(mesh, circles.radius, where), circles.radius, _TOO_SMALL * narrow, least)
+    joined = unite(mesh, Ways.of(mesh, circles.radius, where), circles.radius, TOO_SMALL * narrow, least)
     nodes = [room.node for room in joined.rooms] + joined.closed
     closed = circles.climb(mesh, np.array(nodes, dtype=np.int64) - count)
     if joined.rooms:

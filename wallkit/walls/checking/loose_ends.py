@@ -8,12 +8,13 @@ end to the nearest wall. What would cross a wall on its way is left alone.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import shapely
 
-from wallkit.geometry.arrays import FloatArray, IntArray
+from importers.limits import limit_error
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
 from wallkit.walls.checking.meetings import meetings, on_edge
@@ -23,6 +24,9 @@ from wallkit.walls.walls import Walls
 
 EndKind = Literal["corner", "middle", "bridge", "extend", "foot", "trim"]
 
+MOST_NEAR = 2_000_000
+"""Pairs of an open end and an edge, or of two ends, within reach of each other: more are not looked at."""
+_AT_ONCE = 512  # ends that are asked about: bounds the memory
 _ASKEW = 3.0  # a move along the own line is taken up to so many times the distance, else an edge is added
 
 
@@ -73,6 +77,9 @@ def loose_ends(walls: Walls, reach: float) -> list[LooseEnd]:
     Args:
         walls: any walls; arcs are taken as they are.
         reach: how far ends may move, and how long an added edge may be.
+
+    Raises:
+        LimitError: more than MOST_NEAR pairs of an end and an edge, or of two ends, are that near.
     """
     if not len(walls.edge_starts) or walls.closed.all() or reach <= 0:
         return []
@@ -101,7 +108,7 @@ def settled_places(walls: Walls) -> ComplexArray:
     scene = Surroundings.of(walls)
     ends = scene.ends()
     near = _near(scene, ends, scene.there)
-    places: ComplexArray = ends.at[np.unique(near.end[near.distance <= scene.there])]
+    places: ComplexArray = ends.at[distinct(near.end[near.distance <= scene.there])]
     return places
 
 
@@ -118,7 +125,7 @@ def _chosen(found: list[tuple[int, LooseEnd]]) -> list[LooseEnd]:
 
 def _near(scene: Surroundings, ends: OpenEnds, reach: float) -> _Near:
     x, y = ends.at.real, ends.at.imag
-    end, edge = scene.tree.query(shapely.box(x - reach, y - reach, x + reach, y + reach))
+    end, edge = _bounded(scene.tree, shapely.box(x - reach, y - reach, x + reach, y + reach))
     maybe = _by_the_line(scene, ends.at[end], edge, reach)
     end, edge = end[maybe], edge[maybe]
     e = scene.edges.take(edge)
@@ -126,6 +133,19 @@ def _near(scene: Surroundings, ends: OpenEnds, reach: float) -> _Near:
     distance = np.abs(foot - ends.at[end])
     keep = (distance <= reach) & ~scene.own_bend(ends.take(end), edge, distance)
     return _Near(end[keep], edge[keep], distance[keep], foot[keep])
+
+
+def _bounded(tree: shapely.STRtree, asked: Any, **how: Any) -> IntArray:
+    """Ask a tree, some geometries at a time, until there are more answers than MOST_NEAR: (2, n)."""
+    found, count = [np.empty((2, 0), dtype=np.int64)], 0
+    for start in range(0, len(asked), _AT_ONCE):
+        answer = tree.query(asked[start : start + _AT_ONCE], **how)
+        count += answer.shape[1]
+        if count > MOST_NEAR:
+            fix = "give a smaller reach (--snap), or take fewer layers"
+            raise limit_error("pairs of an open end and what is near it", f"{MOST_NEAR:,}", fix=fix)
+        found.append(np.stack([answer[0] + start, answer[1]]))
+    return np.concatenate(found, axis=1)
 
 
 def _by_the_line(scene: Surroundings, at: ComplexArray, edge: IntArray, reach: float) -> BoolArray:
@@ -142,7 +162,7 @@ def _pairs(
 ) -> list[tuple[int, LooseEnd]]:
     """What mends two ends: a corner where both lines cross near by, the middle on one line, an edge else."""
     points = shapely.points(ends.at.real[loose], ends.at.imag[loose])
-    pair = shapely.STRtree(points).query(points, predicate="dwithin", distance=2 * reach)
+    pair = _bounded(shapely.STRtree(points), points, predicate="dwithin", distance=2 * reach)
     i, j = loose[pair[:, pair[0] < pair[1]]]
     one, two = ends.take(i), ends.take(j)
     distance = np.abs(one.at - two.at)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.geometry.components import components
 from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.checking.climbing import Segments, climb
@@ -47,7 +47,7 @@ def largest_circles(
         # no place in a triangle is farther from all corners than 1 / sqrt 3 of the longest side
         more = np.flatnonzero(inside & (longest > math.sqrt(3) * radius))
         more = more[np.argsort(-longest[more], kind="stable")[: 4 * _STARTS]]
-        starts.append(np.union1d(known, more))
+        starts.append(distinct(np.concatenate([known, more])))
     room = np.repeat(np.arange(len(chosen)), [len(rows) for rows in starts[1:]])
     summit, radius = climb(walls, place[np.concatenate(starts)])
     at = triangles_at(mesh, summit)

@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from importers.errors import LimitError
 from importers.problems import Problem, Severity
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.as_shapely import straightened
@@ -21,6 +22,7 @@ from wallkit.walls.edge_tree import Edges
 from wallkit.walls.walls import Walls
 
 MOST_PLACES = 1000  # of one code; further ones are counted
+_SHORTER = 8  # times a reach for gaps is tried, each a quarter of the one before
 _NEAR = 0.02  # ends farther apart than this part of the drawing's diagonal are no gap but two ends
 
 
@@ -87,7 +89,7 @@ def validate(
     edges = straight_edges(walls) if edges is None else edges
     touches = find_touches(edges) if touches is None else touches
     findings = Findings(walls, lines)
-    loose = loose_ends(walls, _NEAR * diagonal(edges.vertices)) if touches.complete else []
+    loose = _loose_ends(findings, _NEAR * diagonal(edges.vertices)) if touches.complete else []
     _crossings(findings, touches, _at_ends(walls, touches, loose))
     _duplicates(findings, edges, touches)
     _slivers(findings, edges)
@@ -104,6 +106,24 @@ def straight_edges(walls: Walls) -> Edges:
 def diagonal(vertices: FloatArray) -> float:
     """The diagonal of the points' box; 0 without any."""
     return float(np.hypot(*(vertices.max(axis=0) - vertices.min(axis=0)))) if len(vertices) else 0.0
+
+
+def _loose_ends(findings: Findings, reach: float) -> list[LooseEnd]:
+    """Find loose ends, within a shorter reach where very many ends are close together, which is told."""
+    within = reach
+    for _ in range(_SHORTER):
+        try:
+            found = loose_ends(findings.walls, within)
+        except LimitError:
+            within /= 4
+            continue
+        if within < reach:
+            message = f"very many ends are close together: gaps are looked for up to {within:.3g} only"
+            findings.problems.append(Problem("tangled", "warning", message, "take fewer layers"))
+        return found
+    message = "too many ends lie on one another: gaps are not looked for"
+    findings.problems.append(Problem("tangled", "warning", message, "take fewer layers"))
+    return []
 
 
 def _at_ends(walls: Walls, touches: Touches, loose: Sequence[LooseEnd]) -> NDArray[np.bool_]:

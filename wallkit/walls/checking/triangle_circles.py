@@ -9,6 +9,9 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.checking.wall_distance import wall_distance
 
+TOO_SMALL = 1.5
+"""Times the radius of a circle in a triangle: a larger one may be found above it."""
+
 
 def triangle_circles(mesh: Triangulation, least: float, where: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
     """Give radius and centre of the roomier of two circles of each triangle, (T,) and (T, 2).

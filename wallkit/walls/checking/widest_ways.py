@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.geometry.triangulation import Triangulation
 
 
@@ -115,7 +115,7 @@ def unite(mesh: Triangulation, ways: Ways, circle: FloatArray, narrow: float, le
     root = np.array(parent)
     while (root[root] != root).any():
         root = root[root]
-    roots: list[int] = np.unique(root[: len(circle)]).tolist()
+    roots: list[int] = distinct(root[: len(circle)]).tolist()
     return Joined(used, rooms, [best[node] for node in roots if least < roomy[node] < math.inf])
 
 

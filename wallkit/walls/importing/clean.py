@@ -54,7 +54,8 @@ def _empty_edges(outlines: Outlines) -> NDArray[np.bool_]:
     following = np.arange(1, len(outlines.vertices) + 1)
     last = outlines.offsets[1:] - 1
     following[last] = outlines.offsets[:-1]
-    empty: NDArray[np.bool_] = (outlines.vertices == outlines.vertices[following]).all(axis=1)
+    same = outlines.vertices == outlines.vertices[following]
+    empty: NDArray[np.bool_] = same[:, 0] & same[:, 1]
     empty[last[~outlines.closed]] = False
     return empty
 

@@ -24,10 +24,15 @@ from wallkit.geometry.cubics import by_columns, chord_bound, chosen, cut_between
 from wallkit.geometry.ellipse_arcs import Arcs
 from wallkit.geometry.ragged import numbered
 from wallkit.geometry.segments import segment_distance
+from wallkit.kernels.compile_aside import at_hand
+from wallkit.kernels.fitting.chords import DEEPEST
+from wallkit.walls.importing.chords_by_kernels import fewest_cuts, halving_counts, measured_chords
 from wallkit.walls.importing.segments import KIND_ARC, KIND_CUBIC, Segments
 
+_KERNELS_PAY = 1 << 13
+"""So many cubics take NumPy longer than kernels that have to be loaded; where they have to be compiled, another process
+does that and NumPy goes on."""
 _BLOCK = 4096  # cubics at once: what is made of them stays in the cache
-_DEEPEST = 40  # halvings: t is then below 1e-12, and rounding, not the curve, is what is left
 
 
 @dataclass(slots=True)
@@ -55,21 +60,21 @@ def flatten(segments: Segments, tolerance: float) -> Pieces:
     Raises:
         LimitError: the result would have more than 2,000,000 vertices.
     """
-    cubic_id, cubic_t = _cubic_cuts(segments.cubics, tolerance)
+    cubics = _cubic_chords(segments.cubics, tolerance)
     arc_id, arc_t = _arc_cuts(segments.arcs, tolerance)
     counts = np.ones(len(segments.kinds), dtype=np.int64)
     cubic_at, arc_at = np.flatnonzero(segments.kinds == KIND_CUBIC), np.flatnonzero(segments.kinds == KIND_ARC)
-    counts[cubic_at] += np.bincount(cubic_id, minlength=len(cubic_at))
+    counts[cubic_at] += cubics.counts
     counts[arc_at] += np.bincount(arc_id, minlength=len(arc_at))
     within_limit(int(counts.sum()) + len(segments.starts))
     arcs = segments.arcs.take(arc_id)
     ends = place(
         counts,
         segments.ends,
-        (cubic_at, cubic_id, evaluate(segments.cubics[cubic_id], cubic_t)),
+        (cubic_at, np.repeat(np.arange(len(cubic_at)), cubics.counts), cubics.points),
         (arc_at, arc_id, arcs.points(arcs.start + arcs.turn * arc_t)),
     )
-    error = max(_cubic_error(segments.cubics, cubic_id, cubic_t), _arc_error(segments.arcs, arc_id, arc_t))
+    error = max(cubics.error, _arc_error(segments.arcs, arc_id, arc_t))
     return Pieces(counts, ends, np.zeros(len(ends)), error)
 
 
@@ -100,16 +105,56 @@ def place(counts: IntArray, ends: FloatArray, *inner: tuple[IntArray, IntArray, 
     return out
 
 
-def _cubic_cuts(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatArray]:
-    """Inner parameters of all cubics, by curve and rising: the fewest of halving, equal shares and equal steps."""
-    parts: list[tuple[IntArray, FloatArray]] = [(np.empty(0, dtype=np.int64), np.empty(0))]
-    total = 0
+@dataclass(slots=True)
+class _Chords:
+    """Chords of cubics: (n,) how many cuts each has, (m, 2) the points there, and how far they are off at most."""
+
+    counts: IntArray
+    points: FloatArray
+    error: float
+
+
+def _cubic_chords(cubics: FloatArray, tolerance: float) -> _Chords:
+    """Cut cubics and measure: the fewest cuts of halving, equal shares and equal steps."""
+    if not len(cubics):
+        return _Chords(np.empty(0, dtype=np.int64), np.empty((0, 2)), 0.0)
+    kernels = len(cubics) >= _KERNELS_PAY and at_hand(flatten_a_few)
+    return _chords(cubics, tolerance, kernels)
+
+
+def _chords(cubics: FloatArray, tolerance: float, kernels: bool) -> _Chords:
+    block = _block_by_kernels if kernels else _block_by_numpy
+    parts, total = [], 0
     for begin in range(0, len(cubics), _BLOCK):
-        ids, ts = _block_cuts(by_columns(cubics[begin : begin + _BLOCK]), tolerance)
-        parts.append((ids + begin, ts))
-        total += len(ids)
+        parts.append(block(cubics[begin : begin + _BLOCK], tolerance))
+        total += len(parts[-1][1])
         within_limit(total)
-    return np.concatenate([ids for ids, _ in parts]), np.concatenate([ts for _, ts in parts])
+    counts, cuts, points, far = (np.concatenate(column) for column in zip(*parts, strict=True))
+    return _Chords(counts, points, _worst(cubics, counts, cuts, far))
+
+
+_Block = tuple[IntArray, FloatArray, FloatArray, FloatArray]
+"""Of some cubics: how many cuts each has, all cuts, the points there, and how far each piece is from its chord."""
+
+
+def _block_by_kernels(cubics: FloatArray, tolerance: float) -> _Block:
+    halvings, total = halving_counts(cubics, tolerance, MAX_VERTICES)
+    within_limit(total)
+    counts, cuts = fewest_cuts(cubics, tolerance, halvings, _SAMPLES, _ROWS)
+    return counts, cuts, *measured_chords(cubics, counts, cuts, _MEASURED_AT)
+
+
+def flatten_a_few() -> None:
+    """Flatten two cubics by kernels: the task of their compiling."""
+    cubics = np.array([[(0, 0), (40, 0), (80, 20), (100, 100)], [(0, 0), (30, 0), (-30, 0), (0, 0)]], dtype=np.float64)
+    _chords(cubics, 0.01, kernels=True)
+
+
+def _block_by_numpy(cubics: FloatArray, tolerance: float) -> _Block:
+    cubics = by_columns(cubics)
+    ids, cuts = _block_cuts(cubics, tolerance)
+    counts = np.bincount(ids, minlength=len(cubics))
+    return counts, cuts, evaluate(chosen(cubics, ids), cuts), _off(cubics, ids, cuts, counts)
 
 
 def _block_cuts(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatArray]:
@@ -140,7 +185,7 @@ def _halving(cubics: FloatArray, tolerance: float) -> tuple[IntArray, FloatArray
     cut_ids: list[IntArray] = []
     cut_ts: list[FloatArray] = []
     total = 0
-    for _ in range(_DEEPEST):
+    for _ in range(DEEPEST):
         wrong = np.flatnonzero(chord_bound(piece) > tolerance)
         if not len(wrong):
             break
@@ -272,22 +317,28 @@ _MEASURED_AT = np.linspace(0.0, 1.0, 17)[1:-1]
 _MEASURED_AGAIN = 16  # so many of the worst pieces are looked at closely
 
 
-def _cubic_error(cubics: FloatArray, which: IntArray, cuts: FloatArray) -> float:
-    """Measure the largest distance from the cubics to their chords, at the extremes and between."""
-    if not len(cubics):
-        return 0.0
-    count = np.bincount(which, minlength=len(cubics)) + 1
-    ids = np.repeat(np.arange(len(cubics)), count)
-    low, high = bounds_of(which, cuts, count)
-    farthest = np.empty(len(ids))
+def _off(cubics: FloatArray, which: IntArray, cuts: FloatArray, counts: IntArray) -> FloatArray:
+    """Measure the largest distance of each piece from its chord, at the extremes and between."""
+    ids = np.repeat(np.arange(len(cubics)), counts + 1)
+    low, high = bounds_of(which, cuts, counts + 1)
+    far = np.empty(len(ids))
     for begin in range(0, len(ids), _BLOCK):
         rows = slice(begin, begin + _BLOCK)
-        first = int(ids[begin])
-        some = by_columns(cubics[first : ids[rows][-1] + 1])
-        farthest[rows] = _farthest(cut_between(chosen(some, ids[rows] - first), low[rows], high[rows]))
-    again = np.argsort(farthest)[-_MEASURED_AGAIN:]
-    worst = cut_between(cubics[ids[again]], low[again], high[again])
-    return max(float(farthest.max()), *map(_peak, worst))
+        far[rows] = _farthest(cut_between(chosen(cubics, ids[rows]), low[rows], high[rows]))
+    return far
+
+
+def _worst(cubics: FloatArray, counts: IntArray, cuts: FloatArray, far: FloatArray) -> float:
+    """The largest distance of a piece from its chord, once the worst of ``far`` have been looked at closely."""
+    again = np.argsort(far)[-_MEASURED_AGAIN:]
+    last = np.cumsum(counts + 1) - 1  # piece of each cubic
+    ids = np.searchsorted(last, again)
+    low, high = np.zeros(len(again)), np.ones(len(again))  # before piece p of cubic c are p - c cuts
+    inner = again < last[ids]
+    high[inner] = cuts[(again - ids)[inner]]
+    inner = again > last[ids] - counts[ids]
+    low[inner] = cuts[(again - ids)[inner] - 1]
+    return max(float(far.max()), *map(_peak, cut_between(cubics[ids], low, high)))
 
 
 def _farthest(piece: FloatArray) -> FloatArray:

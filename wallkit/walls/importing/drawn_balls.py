@@ -52,7 +52,7 @@ def drawn_balls(drawing: Drawing, scale: float = 1.0, flip_y: bool = False) -> t
             circle = circle_of(points)
             if circle:
                 circles.append(circle)
-            elif not sub.closed and len(sub.segments) > 1:
+            elif not sub.closed and len(sub) > 1:
                 lines.append((path, tuple(points[0]), tuple(points[-1])))
             else:
                 problems.append(_stray(path, points[0]))
@@ -114,12 +114,11 @@ def marks_a_ball(path: DrawnPath, balls: list[DrawnBall]) -> bool:
         path: a drawn path.
         balls: as :func:`drawn_balls` gives them, unscaled.
     """
-    if len(path.subpaths) != 1 or not path.subpaths[0].closed or len(path.subpaths[0].segments) < 3:
+    if len(path.subpaths) != 1 or not path.subpaths[0].closed or len(path.subpaths[0]) < 3:
         return False
-    segments = path.subpaths[0].segments
-    x, y = segments[0][1:3]
+    x, y = path.subpaths[0].start
     near = [ball for ball in balls if math.hypot(x - ball.x, y - ball.y) <= (_MARKER + 2 * _CENTRED) * ball.radius]
-    circle = circle_of(points_along(segments)) if near else None
+    circle = circle_of(points_along(path.subpaths[0].segments)) if near else None
     return circle is not None and any(
         math.hypot(circle[0] - ball.x, circle[1] - ball.y) <= _CENTRED * ball.radius
         and circle[2] <= _MARKER * ball.radius

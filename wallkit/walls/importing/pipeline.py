@@ -156,9 +156,9 @@ def _with_segments(paths: list[DrawnPath]) -> tuple[list[DrawnPath], list[Proble
     kept: list[DrawnPath] = []
     problems: list[Problem] = []
     for path in paths:
-        drawn = [sub for sub in path.subpaths if len(sub.segments) > 1]
-        points = (sub.segments[0] for sub in path.subpaths if len(sub.segments) == 1)
-        problems.extend(_one_point(path, x, y) for _, x, y in points)
+        drawn = [sub for sub in path.subpaths if len(sub) > 1]
+        if len(drawn) < len(path.subpaths):
+            problems.extend(_one_point(path, *sub.start) for sub in path.subpaths if len(sub) == 1)
         if drawn:
             kept.append(path if len(drawn) == len(path.subpaths) else replace(path, subpaths=drawn))
     return kept, problems

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, groupby
 
 import numpy as np
 from numpy.typing import NDArray
 
-from importers.drawing import Segment, Subpath
+from importers.drawing import NUMBERS, Subpath
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.ellipse_arcs import Arcs, centre_form
 
@@ -44,52 +44,71 @@ class Segments:
 
 def gather(subpaths: Iterable[Subpath], scale: float = 1.0, flip_y: bool = False) -> Segments:
     """Collect subpaths into arrays, scaled and mirrored if asked (untouched bit for bit if not)."""
-    first: list[Segment] = []
-    segments: list[Segment] = []
-    offsets = [0]
-    for sub in subpaths:
-        first.append(sub.segments[0])
-        segments += sub.segments[1:]
-        offsets.append(len(segments))
+    letters, numbers, sizes = _strung(subpaths)
+    last = np.cumsum(_NUMBERS[letters])  # behind each segment's numbers
+    points = np.stack([numbers[last - 2], numbers[last - 1]], axis=1)
+    first = np.zeros(len(letters), dtype=np.bool_)
+    first[np.cumsum(sizes) - sizes] = True
+    letters, last = letters[~first], last[~first]
+    starts, ends = points[first], points[~first]
+    offsets = np.concatenate([[0], np.cumsum(sizes - 1)])
+    begins = _begins(starts, offsets, ends)
+    kinds = _KINDS[letters]
     factor = np.array([scale, -scale if flip_y else scale])
-    start_array = _numbers([segment[1:3] for segment in first], 2)
-    end_array = _numbers([segment[-2:] for segment in segments], 2)
-    offset_array = np.array(offsets, dtype=np.int64)
-    begins = _begins(start_array, offset_array, end_array)
-    letters = [segment[0] for segment in segments]
-    kinds = np.array([_KINDS[letter] for letter in letters], dtype=np.int8)
     arc_at = np.flatnonzero(kinds == KIND_ARC)
-    arcs = np.concatenate([begins[arc_at], _numbers([segments[k][1:] for k in arc_at.tolist()], 7)], axis=1)
+    arcs = np.concatenate([begins[arc_at], _columns(numbers, last[arc_at], 7)], axis=1)
     return Segments(
-        starts=start_array * factor,
-        offsets=offset_array,
+        starts=starts * factor,
+        offsets=offsets,
         kinds=kinds,
-        ends=end_array * factor,
+        ends=ends * factor,
         begins=begins * factor,
-        cubics=_cubics(segments, letters, begins, np.flatnonzero(kinds == KIND_CUBIC)) * factor,
+        cubics=_cubics(letters, numbers, last, begins) * factor,
         arcs=_scaled(centre_form(arcs), factor),
     )
 
 
-_KINDS = {"L": KIND_LINE, "C": KIND_CUBIC, "Q": KIND_CUBIC, "A": KIND_ARC}
+_KINDS, _NUMBERS = np.zeros(256, dtype=np.int8), np.zeros(256, dtype=np.int64)
+for _letter, _kind in (("L", KIND_LINE), ("C", KIND_CUBIC), ("Q", KIND_CUBIC), ("A", KIND_ARC)):
+    _KINDS[ord(_letter)] = _kind
+for _letter, _count in NUMBERS.items():
+    _NUMBERS[ord(_letter)] = _count
 
 
-def _numbers(rows: list[tuple[float, ...]], width: int) -> FloatArray:
-    """Rows of ``width`` numbers as an array."""
-    flat = np.fromiter(chain.from_iterable(rows), dtype=np.float64, count=width * len(rows))
-    return flat.reshape(-1, width)
+def _strung(subpaths: Iterable[Subpath]) -> tuple[NDArray[np.uint8], FloatArray, IntArray]:
+    """String subpaths together: the letters and the numbers of all segments, and how many segments each has."""
+    letters: list[bytes] = []
+    numbers: list[FloatArray] = [np.empty(0)]
+    for in_columns, some in groupby(subpaths, lambda sub: sub.columns is not None):
+        if in_columns:
+            columns = [sub.columns for sub in some if sub.columns is not None]
+            letters += [words for words, _ in columns]
+            numbers += [values for _, values in columns]
+            continue
+        lists = [sub.segments for sub in some]
+        letters += ["".join([segment[0] for segment in segments]).encode() for segments in lists]
+        flat = chain.from_iterable(segment[1:] for segments in lists for segment in segments)
+        numbers.append(np.fromiter(flat, dtype=np.float64))
+    sizes = np.fromiter(map(len, letters), dtype=np.int64, count=len(letters))
+    return np.frombuffer(b"".join(letters), dtype=np.uint8), np.concatenate(numbers), sizes
 
 
-def _cubics(segments: list[Segment], letters: list[str], begins: FloatArray, at: IntArray) -> FloatArray:
-    """Control points (C, 4, 2) of the segments ``at``, cubics and quadratics."""
-    rows = at.tolist()
-    quadratic = np.array([letters[k] == "Q" for k in rows], dtype=np.bool_)
+def _columns(numbers: FloatArray, last: IntArray, width: int) -> FloatArray:
+    """Give the numbers (n, width) of segments, of which those of each end before ``last``."""
+    columns: FloatArray = numbers[last[:, None] + np.arange(-width, 0)]
+    return columns
+
+
+def _cubics(letters: NDArray[np.uint8], numbers: FloatArray, last: IntArray, begins: FloatArray) -> FloatArray:
+    """Control points (C, 4, 2) of the cubics and quadratics among segments."""
+    at = np.flatnonzero(_KINDS[letters] == KIND_CUBIC)
+    quadratic = letters[at] == ord("Q")
     cubics = np.empty((len(at), 4, 2))
     cubics[:, 0] = begins[at]
-    cubics[~quadratic, 1:] = _numbers([segments[k][1:] for k in at[~quadratic].tolist()], 6).reshape(-1, 3, 2)
+    cubics[~quadratic, 1:] = _columns(numbers, last[at[~quadratic]], 6).reshape(-1, 3, 2)
     if quadratic.any():
         start = cubics[quadratic, 0]
-        middle, end = np.split(_numbers([segments[k][1:] for k in at[quadratic].tolist()], 4), 2, axis=1)
+        middle, end = np.split(_columns(numbers, last[at[quadratic]], 4), 2, axis=1)
         cubics[quadratic, 1:] = np.stack([(start + 2 * middle) / 3, (end + 2 * middle) / 3, end], axis=1)
     return cubics
 

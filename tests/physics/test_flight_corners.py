@@ -1,0 +1,166 @@
+"""Points under gravity that are thrown exactly at a vertex: they meet the face that looks at them, and stay inside."""
+
+import numpy as np
+import pytest
+import shapely
+
+from wallkit import Balls, Ending, Material, Scene, Walls, simulate, survey
+
+GRAVITY = np.array([0.0, -10.0])
+UP = [(0.0, 0.0), (8.0, 0.0), (10.0, 6.0), (12.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]
+"""A room with a tip at (10, 6) that stands up from its floor, between edges 1 and 2."""
+DOWN = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (12.0, 20.0), (10.0, 14.0), (8.0, 20.0), (0.0, 20.0)]
+"""One that hangs down at (10, 14), between edges 3 and 4."""
+
+
+def thrown_at(place, velocity, time):
+    """Where a flight begins that comes to a place at a velocity, and its velocity there."""
+    velocity = np.asarray(velocity)
+    return np.asarray(place) - time * velocity + GRAVITY * time**2 / 2, velocity - GRAVITY * time
+
+
+def inward(corners):
+    """Normals into a room that is drawn counter-clockwise: to the left of its edges."""
+    ways = np.roll(corners, -1, axis=0) - np.asarray(corners)
+    return np.stack([-ways[:, 1], ways[:, 0]], axis=1) / np.hypot(*ways.T)[:, None]
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.5, 0.8, 1.0])
+@pytest.mark.parametrize(
+    ("room", "tip", "velocity", "edges"),
+    [
+        # the face whose line has the place from which the point comes, V - v t, on the room's side
+        (UP, 2, (6.0, 1.0), {1}),
+        (UP, 2, (6.0, -2.0), {1}),
+        (UP, 2, (4.0, 9.0), {1}),
+        (UP, 2, (-6.0, 1.0), {2}),
+        (UP, 2, (-4.0, 9.0), {2}),
+        (UP, 2, (0.0, -8.0), {1, 2}),
+        (UP, 2, (1.0, -8.0), {1, 2}),
+        (DOWN, 4, (6.0, 1.0), {4}),
+        (DOWN, 4, (6.0, -3.0), {4}),
+        (DOWN, 4, (-6.0, 2.0), {3}),
+        (DOWN, 4, (-4.0, -9.0), {3}),
+        (DOWN, 4, (0.0, 8.0), {3, 4}),
+        (DOWN, 4, (-1.0, 8.0), {3, 4}),
+    ],
+)
+def test_a_point_thrown_at_a_tip_meets_the_face_that_looks_at_it(room, tip, velocity, edges, restitution):
+    start, speed = thrown_at(room[tip], velocity, 0.125)
+    walls = Walls.from_polylines([room], material=Material(restitution))
+    run = simulate(Scene(walls, Balls([start], [speed]), gravity=GRAVITY), until=5.0, bounces=200)
+    contacts = run.contacts[run.contacts["kind"] == 0]
+    assert contacts["edge"][0] in edges
+    assert contacts["time"][0] == pytest.approx(0.125, abs=1e-9)
+    assert run.ending[0] != Ending.LEFT_SCENE
+    # all that it meets throws it off into the room
+    normals = np.stack([contacts["nx"], contacts["ny"]], axis=1)
+    assert normals == pytest.approx(inward(room)[contacts["edge"]], abs=1e-12)
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.3])
+def test_a_point_that_comes_along_a_wall_to_its_end_flies_on(slope):
+    # The floor ends at (10, 5 + 10 slope), and falls away upright. Restitution 0 has the point run along the floor, and
+    # from its end it falls to y = 0, freely: at y0 + s t - 5 t^2 = 0, x = 10 + u t.
+    room = [(0.0, 5.0), (10.0, 5.0 + 10 * slope), (10.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0)]
+    end, way = np.array(room[1]), np.array([1.0, slope]) / np.hypot(1.0, slope)
+    start, velocity = thrown_at(end - 1e-12 * way, 9.0 * way + (0.0, -1.0), 0.1)
+    walls = Walls.from_polylines([room], material=Material(0.0))
+    contacts = simulate(Scene(walls, Balls([start], [velocity]), gravity=GRAVITY), until=20.0).contacts
+    struck = contacts[contacts["kind"] == 0]
+    along = (9.0 * way + (0.0, -1.0)) @ way
+    time = (along * way[1] + np.sqrt((along * way[1]) ** 2 + 20.0 * end[1])) / 10.0
+    assert list(struck["edge"][:2]) == [0, 2]
+    assert struck["x"][1] == pytest.approx(10.0 + along * way[0] * time, abs=1e-6)
+    assert struck["y"][1] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+def test_a_point_stopped_in_a_corner_overhead_between_two_of_three_walls_stays_between_them(restitution):
+    # Three walls meet at the top of a tent and divide it into two cells. In each of them the point falls on the floor.
+    top, feet = (1.0, 10.0), [(-9.0, 0.0), (2.0, 0.0), (6.0, 0.0)]
+    polylines = [[feet[0], top, feet[2]], [top, feet[1]]]
+    walls = Walls.from_polylines(polylines, closed=[True, False], material=Material(restitution))
+    cells = [shapely.Polygon([top, feet[0], feet[1]]), shapely.Polygon([top, feet[1], feet[2]])]
+    for cell, velocities in zip(cells, ([(2.0, 6.0), (4.0, 8.0)], [(-1.0, 4.0), (-3.0, 9.0)]), strict=True):
+        starts, speeds = zip(*(thrown_at(top, velocity, 0.0625) for velocity in velocities), strict=True)
+        assert shapely.contains_xy(cell, *np.transpose(starts)).all()
+        run = simulate(Scene(walls, Balls(starts, speeds), gravity=GRAVITY), until=30.0)
+        places = shapely.points(run.contacts["x"], run.contacts["y"])
+        assert shapely.distance(cell, places).max() < 1e-9
+        assert Ending.LEFT_SCENE not in run.ending
+
+
+def ring(rng, bowed):
+    """A random closed room about (0, 0) with tips: vertices, bulges."""
+    count = int(rng.choice([4, 6, 9, 14]))
+    angles = 2 * np.pi * (np.arange(count) + 0.8 * rng.random(count)) / count
+    points = (100.0 * (1 - 0.7 * rng.random(count)))[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return points, np.where(rng.random(count) < 0.6, rng.uniform(-0.15, 0.15, count), 0.0) * bowed
+
+
+def outline(points, bulges, pieces=400):
+    """The room with its arcs cut into chords, and how far these miss the arcs."""
+    path, missed = [], 0.0
+    for a, b, bulge in zip(points, np.roll(points, -1, axis=0), bulges, strict=True):
+        if bulge == 0.0:
+            path.append(a)
+            continue
+        angle, left = 4 * np.arctan(bulge), np.array([a[1] - b[1], b[0] - a[0]])
+        centre = (a + b) / 2 + left * (1 - bulge**2) / (4 * bulge)
+        turns = angle * np.arange(pieces) / pieces
+        x, y = a - centre
+        path.extend(
+            centre + np.stack([x * np.cos(turns) - y * np.sin(turns), x * np.sin(turns) + y * np.cos(turns)], 1)
+        )
+        missed = max(missed, np.hypot(x, y) * (1 - np.cos(angle / pieces / 2)))
+    return shapely.Polygon(path), missed
+
+
+def shots_at_vertices(rng, points, room, missed, count=200):
+    """Starts and velocities of points that fly exactly at vertices, whose way there is inside."""
+    place, angle = points[rng.integers(0, len(points), count)], rng.uniform(0, 2 * np.pi, count)
+    velocity = rng.choice([1.0, 10.0, 60.0], (count, 1)) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    time = rng.uniform(0.01, 0.4, (count, 1))
+    start, velocity = thrown_at(place, velocity, time)
+    inside = shapely.contains_xy(room.buffer(-missed - 1e-6), *start.T)
+    for part in np.linspace(0.05, 0.99, 20):
+        t = part * time
+        inside &= shapely.contains_xy(room, *(start + velocity * t + GRAVITY * t * t / 2).T)
+    return start[inside], velocity[inside]
+
+
+@pytest.mark.parametrize("bowed", [False, True])
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+def test_no_point_thrown_exactly_at_a_vertex_leaves_its_room(restitution, bowed):
+    rng = np.random.default_rng(int(10 * restitution) + bowed)
+    thrown = 0
+    for _ in range(25):
+        points, bulges = ring(rng, bowed)
+        room, missed = outline(points, bulges)
+        if not room.is_valid:
+            continue
+        start, velocity = shots_at_vertices(rng, points, room, missed)
+        if not len(start):
+            continue
+        walls = Walls.from_polylines([points], bulges=[bulges], material=Material(restitution))
+        totals = survey(Scene(walls, Balls(start, velocity), gravity=GRAVITY), until=10.0, bounces=200)
+        thrown += len(start)
+        assert Ending.LEFT_SCENE not in totals.ending
+        # chords miss their arcs by so much; positions are off by far less than 1e-9
+        assert shapely.distance(room, shapely.points(totals.position)).max() < missed + 1e-9
+    assert thrown > 300
+
+
+def test_many_points_at_corners_end_where_each_does_alone():
+    rng = np.random.default_rng(5)
+    points, bulges = ring(rng, bowed=False)
+    start, velocity = shots_at_vertices(rng, points, *outline(points, bulges), count=1500)
+    walls = Walls.from_polylines([points], material=Material(0.6))
+    scene = Scene(walls, Balls(start, velocity), gravity=GRAVITY)
+    totals, run = survey(scene, until=3.0, bounces=100), simulate(scene, until=3.0, bounces=100)
+    assert len(start) > 140  # more than fly in step at a time
+    assert list(totals.ending) == list(run.ending)
+    assert list(totals.bounces) == list(run.bounces)
+    for name, column in zip(("x", "y"), totals.position.T, strict=True):
+        assert list(column) == list(run.final[name])

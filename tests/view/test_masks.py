@@ -1,0 +1,137 @@
+"""Masks and pixels, judged by areas and distances of shapely, by whole numbers, and by Pillow's reader of PNG."""
+
+import io
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+from wallkit.view import pixels as picture
+from wallkit.view.masks import fill, ring, stroke
+from wallkit.view.pixels import Pixels
+
+SIZE = (300, 200)
+
+
+def star(points, x=150.0, y=100.0):
+    angle = np.arange(points) * 4 * np.pi / points + 0.1
+    return np.stack([x + 90 * np.cos(angle), y + 90 * np.sin(angle)], axis=1)
+
+
+def whole(mask):
+    """The mask on the whole picture, as parts of a pixel."""
+    result = np.zeros((SIZE[1], SIZE[0]))
+    rows, columns = mask.cover.shape
+    result[mask.top : mask.top + rows, mask.left : mask.left + columns] = mask.cover / 255
+    return result
+
+
+def distances(shape):
+    x, y = np.meshgrid(np.arange(SIZE[0]) + 0.5, np.arange(SIZE[1]) + 0.5)
+    return shapely.distance(shape, shapely.points(x, y))
+
+
+@pytest.mark.parametrize("width", [1.0, 2.0, 2.6, 3.0, 4.0, 5.0, 16.0])
+@pytest.mark.parametrize("angle", [0, 3, 17, 45, 60, 89, 90, 133])
+def test_a_stroke_is_as_wide_as_its_pen_in_every_direction(width, angle):
+    way = 80 * np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
+    line = np.array([150.3, 100.2]) + np.stack([-way, way])
+    cover = whole(stroke([line], width, SIZE))
+    away = distances(shapely.LineString(line))
+    # A pixel reaches 0.71 from its middle. Ends and lines are off by half a fine pixel each, 0.5 in all, and so is the
+    # number of lines, which is half of that, 0.13, on each side.
+    assert (cover[away < width / 2 - 1.4] == 1).all()
+    assert (cover[away > width / 2 + 1.4] == 0).all()
+    ends = np.pi * width * width / 4
+    assert cover.sum() == pytest.approx(160 * width + ends, abs=160 * 0.26 + ends)
+
+
+def test_a_stroke_through_a_thousand_points_has_no_holes_and_no_hairs():
+    angle = np.linspace(0, 2 * np.pi, 1001)
+    line = np.stack([150.2 + 70 * np.cos(angle), 100.4 + 70 * np.sin(angle)], axis=1)
+    away = distances(shapely.LineString(line))
+    cover = whole(stroke([line], 4.0, SIZE))
+    assert (cover[away < 0.7] == 1).all()
+    assert (cover[away > 3.3] == 0).all()
+
+
+def test_corners_stay_however_short_their_sides():
+    steps = np.cumsum([(100.0, 100.0), (3, 0), (0, 3), (3, 0), (0, 3), (40, 0)], axis=0)
+    away = distances(shapely.LineString(steps))
+    cover = whole(stroke([steps], 2.0, SIZE))
+    assert (cover[away > 2.0] == 0).all()
+    assert (cover[distances(shapely.MultiPoint(steps)) < 0.3] > 0).all()
+
+
+def test_a_stroke_far_beyond_the_picture_is_clipped():
+    cover = whole(stroke([np.array([(150.0, 100.0), (1e7, 100.0)])], 2.0, SIZE))
+    assert (cover[99:101, 152:] == 1).all()
+    assert stroke([np.array([(900.0, 100.0), (950.0, 100.0)])], 2.0, SIZE) is None
+
+
+def test_a_fill_covers_the_area_of_its_polygon():
+    outer, hole = np.array([(5.2, 5), (295, 15), (280.7, 190), (10, 170)]), np.array([(30, 30.5), (60, 25), (50, 60)])
+    polygon = shapely.Polygon(outer, [hole])
+    cover = whole(fill([outer, hole], SIZE))
+    # Of a pixel at the rim the four rows of samples see all but a quarter of its height, in the mean nothing.
+    assert cover.sum() == pytest.approx(polygon.area, abs=0.01 * polygon.length)
+    inside = shapely.contains_xy(polygon, *np.meshgrid(np.arange(300) + 0.5, np.arange(200) + 0.5))
+    clear = distances(polygon.boundary) > 0.8
+    assert (cover[clear] == inside[clear]).all()
+
+
+def test_a_fill_is_even_odd_where_it_crosses_itself():
+    assert whole(fill([star(5)], SIZE))[100, 150] == 0  # the middle of a pentagram, wound twice
+    assert whole(fill([star(5)], SIZE))[100, 150 + 60] == 1
+
+
+def test_a_fill_that_reaches_beyond_the_picture_covers_what_is_seen():
+    far = np.array([(-1e6, -1e6), (1e6, -1e6), (1e6, 1e6), (-1e6, 1e6)])
+    assert (whole(fill([far], SIZE)) == 1).all()
+    assert fill([far + 3e6], SIZE) is None
+    assert fill([], SIZE) is None
+
+
+@pytest.mark.parametrize("radius", [0.4, 2.2, 9.7, 60.0])
+def test_a_disc_and_a_ring_cover_their_areas(radius):
+    # A ramp of a pixel on both sides of the radius has the integral pi (r^2 + 1/12), and a little less under r = 1/2.
+    disc, hoop = ring(150.3, 99.8, radius, 0.0, SIZE), ring(150.3, 99.8, radius + 1, radius - 1, SIZE)
+    assert whole(disc).sum() == pytest.approx(np.pi * radius**2, abs=0.3 + 0.005 * radius**2)
+    assert whole(hoop).sum() == pytest.approx(np.pi * ((radius + 1) ** 2 - max(radius - 1, 0) ** 2), rel=0.05)
+    assert ring(-500.0, 0.0, radius, 0.0, SIZE) is None
+
+
+@pytest.mark.parametrize("hue", ["#000000", "#ffffff", "#3b528b"])
+def test_colours_are_mixed_to_the_nearest_whole_number(hue):
+    under, strength = np.meshgrid(np.arange(256), np.arange(256))
+    below = (under | (255 - under) << 8 | under << 16).astype(np.uint32)
+    mixed = picture._mixed(below, picture.number_of(hue), strength.astype(np.uint32))
+    for channel, there in enumerate((under, 255 - under, under)):
+        over = int(hue[1 + 2 * channel : 3 + 2 * channel], 16)
+        exact = there * (255 - strength) + over * strength  # in 255ths; never halfway, for 255 is odd
+        assert (mixed >> 8 * channel & 255 == (2 * exact + 255) // 510).all()
+
+
+@pytest.mark.parametrize("opacity", [1.0, 0.6])
+def test_few_pixels_and_many_are_painted_alike(monkeypatch, opacity):
+    masks = [fill([star(7)], SIZE), stroke([star(5)], 3.0, SIZE), ring(20, 30, 12, 8, SIZE)]
+    results = []
+    for small in (0, 10**9):
+        monkeypatch.setattr(picture, "_SMALL", small)
+        paper = Pixels(*SIZE, "#fcfbf8")
+        for mask in masks:
+            paper.paint(mask, "#1f66ad", opacity)
+        results.append(paper.values)
+    assert (results[0] == results[1]).all()
+
+
+def test_a_png_holds_the_pixels():
+    paper = Pixels(*SIZE, "#fcfbf8")
+    paper.paint(fill([star(5)], SIZE), "#1f66ad", 0.5)
+    image = Image.open(io.BytesIO(paper.png()))
+    image.load()
+    assert image.mode == "RGB"
+    assert (np.asarray(image) == paper.rgb()).all()
+    assert image.getpixel((0, 0)) == (0xFC, 0xFB, 0xF8)
+    assert (np.asarray(paper.image()) == paper.rgb()).all()
