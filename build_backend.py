@@ -79,10 +79,9 @@ class Kernels(BuildHookInterface):
 
     def _compile(self, level: str) -> bool:
         """Compile what ``wallkit warm`` does, for a level instead of this processor; take over what it made."""
-        others = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
         paths = os.pathsep.join(filter(None, [str(ROOT), *sys.path]))
         here = {"WALLKIT_CACHE_DIR": str(self._made / level), "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"}
-        command, env = [sys.executable, "-m", "wallkit", "warm"], {**others, **here, **settings_for(level)}
+        command, env = [sys.executable, "-m", "wallkit", "warm"], {**os.environ, **here, **settings_for(level)}
         ran = subprocess.run(command, cwd=ROOT, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         found = [*(self._made / level).glob("kernels-*/*/")]
         if ran.returncode or len(found) != 1:

@@ -1,7 +1,7 @@
 """wallkit turns a drawing into walls that can be trusted and shoots balls at them with the exact answer, fast.
 
 The names below are all that others may rely on. Each is imported when it is first used, so that
-``import wallkit`` stays quick: numba, scipy and pikepdf are only loaded by what needs them.
+``import wallkit`` stays quick: llvmlite, scipy and pikepdf are only loaded by what needs them.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 from wallkit.cli import app as cli
 
-HEAVY = ("numba", "scipy", "svgpathtools", "pikepdf", "shapely", "PIL", "lxml")
+HEAVY = ("llvmlite", "scipy", "svgpathtools", "pikepdf", "shapely", "PIL", "lxml")
 
 
 def run(*arguments, code=None):

@@ -80,7 +80,7 @@ def test_a_small_simulation_imports_nothing_that_converts_values():
         "import sys; sys.argv = ['wallkit', 'simulate', 'samples/lagoon.ai', '--ball', '396,150', '--radius', '2.5', "
         "'--bounces', '20', '--no-meeting']\n"
         "from wallkit.cli import main\n"
-        "late = {'pydantic', 'rich', 'numba', 'llvmlite', 'scipy', 'numpy.ma', 'PIL'}\n"
+        "late = {'pydantic', 'rich', 'llvmlite', 'scipy', 'numpy.ma', 'PIL'}\n"
         "try: main()\n"
         "finally: print(late & set(sys.modules), file=sys.stderr)\n"
     )

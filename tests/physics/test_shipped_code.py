@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from wallkit.kernels import shipped_code
+from wallkit.kernels import machine_code, shipped_code
 from wallkit.kernels.jit import MachineCode, kernel, own_folder
 from wallkit.kernels.machine_code import file_of, sources
 from wallkit.kernels.shipped_code import LEVELS, has_levels, settings_for, shipped_folders
@@ -59,8 +59,8 @@ def wheel(tmp_path_factory):
 @pytest.fixture
 def installed(wheel, tmp_path, monkeypatch):
     """This process as if it ran from that wheel, with an empty home: where its cache would be."""
-    for name in [name for name in os.environ if name.startswith("NUMBA_")]:
-        monkeypatch.delenv(name)
+    for name in machine_code.SETTINGS:
+        monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(shipped_code, "SHIPPED", wheel)
     monkeypatch.setattr("wallkit.kernels.jit.shipped_folders", shipped_folders.__wrapped__)
     monkeypatch.setenv("WALLKIT_CACHE_DIR", str(tmp_path / "home"))
@@ -108,9 +108,9 @@ def test_a_damaged_file_is_not_loaded_but_the_next_level_is_and_then_a_compiler(
 
 def test_code_of_other_sources_or_beside_other_settings_is_not_taken(installed, wheel, monkeypatch):
     assert shipped_folders.__wrapped__()
-    monkeypatch.setenv("NUMBA_OPT", "1")
+    monkeypatch.setenv("WALLKIT_CPU_NAME", "haswell")
     assert shipped_folders.__wrapped__() == ()
-    monkeypatch.delenv("NUMBA_OPT")
+    monkeypatch.delenv("WALLKIT_CPU_NAME")
     monkeypatch.setattr("wallkit.kernels.machine_code.sources", lambda: "of-another-day")
     assert shipped_folders.__wrapped__() == ()
 

@@ -16,7 +16,7 @@ from wallkit.accuracy.costs import Cost, costs
 from wallkit.accuracy.departure import Departure, departures
 from wallkit.version import __version__
 
-_PACKAGES = ("numpy", "numba", "pymunk", "box2d", "billiards", "pooltool-billiards", "mpmath")
+_PACKAGES = ("numpy", "llvmlite", "pymunk", "box2d", "billiards", "pooltool-billiards", "mpmath")
 Told = Callable[[str], None]
 
 

@@ -1,4 +1,4 @@
-"""The one home of compiler flags: one source, interpreted as it stands or compiled by Numba on request.
+"""One source, interpreted as it stands or compiled on request.
 
 ``@kernel`` marks a function and leaves it an ordinary Python function, so that importing the kernels costs
 nothing and a small run never waits for a compiler. :func:`compiled` gives the machine-code twin of an entry
@@ -17,11 +17,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
-from wallkit.kernels import intrinsics
 from wallkit.kernels.machine_code import (
     Code,
     alone,
-    entry_of,
     file_of,
     loaded,
     needs_of,
@@ -30,36 +28,35 @@ from wallkit.kernels.machine_code import (
     sources,
     write,
 )
+from wallkit.kernels.marks import ALONE, CALLED, INLINE
 from wallkit.kernels.shipped_code import shipped_folders
-from wallkit.kernels.signatures import Kind, Told, numba_type, result_of, taken
+from wallkit.kernels.signatures import Kind, Told, taken
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 KEPT = 4
 """Folders of machine code that stay: this version's, and those last used, for other environments have versions too."""
 
-_marked: list[Callable[..., Any]] = []
-_rare: list[Callable[..., Any]] = []
-_passes: list[Callable[..., Any]] = []
+_marks: dict[Callable[..., Any], str] = {}
 _compiling, _loading = threading.Lock(), threading.Lock()
 _refusing = threading.local()
 
 
 def kernel(function: Function) -> Function:
     """Mark a function of floats and arrays as one that may be compiled."""
-    _marked.append(function)
+    _marks[function] = INLINE
     return function
 
 
 def rare_kernel(function: Function) -> Function:
     """Mark a kernel that is seldom called: it stays a call, which keeps compiling short."""
-    _rare.append(function)
+    _marks[function] = CALLED
     return function
 
 
 def pass_kernel(function: Function) -> Function:
     """Mark a kernel that is a loop over many balls: vector instructions serve it best where it is optimised alone."""
-    _passes.append(function)
+    _marks[function] = ALONE
     return function
 
 
@@ -121,7 +118,7 @@ def _tell_once(folder: Path) -> None:
     if sys.stderr is None or not sys.stderr.isatty():
         return
     kept = f"once: they are kept in {folder}" if os.access(folder, os.W_OK) else f"each time: {folder} is not writable"
-    print(f"wallkit: compiling kernels for what this scene has, up to half a minute, {kept}", file=sys.stderr)
+    print(f"wallkit: compiling kernels for what this scene has, some seconds, {kept}", file=sys.stderr)
 
 
 @cache
@@ -131,9 +128,9 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     What does not come with the wheel is kept in a folder named by a digest of all kernel sources, for a kernel changes
     with those that it calls. ``WALLKIT_CACHE_DIR`` moves it; where no folder can be written, compiled code lasts as
     long as the process.
-    With ``NUMBA_DISABLE_JIT`` set there is none, and the kernel itself is called.
+    With ``WALLKIT_INTERPRET`` set there is none, and the kernel itself is called.
     """
-    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+    if os.environ.get("WALLKIT_INTERPRET", "0") not in ("", "0"):
         return lambda *arguments: entry(*(one.value if isinstance(one, Told) else one for one in arguments))
     return _twins.setdefault(entry, MachineCode(entry))  # one for all threads, which a cache alone does not promise
 
@@ -142,16 +139,11 @@ _twins: dict[Callable[..., Any], MachineCode] = {}
 
 
 def _compile(entry: Callable[..., Any], kinds: tuple[Kind, ...]) -> Code:
-    """Compile a kernel, and what calls it with words."""
-    from numba.extending import register_jitable
+    """Compile a kernel, with what takes its words."""
+    from wallkit.kernels.compiler.whole import compile_whole
 
-    from wallkit.kernels.one_module import compile_whole
-
-    _register_all(register_jitable)
-    intrinsics.register()
-    made = compile_whole(entry, tuple(map(numba_type, kinds)))
-    name, called = entry_of(made.symbol, kinds)
-    return Code(name, result_of(made.returned), (made.image, called), needs_of(made.module))
+    made = compile_whole(entry, kinds, _marks)
+    return Code(made.symbol, made.result, made.image, needs_of(made.module))
 
 
 def compile_for(entry: Callable[..., Any], *kinds: Kind) -> None:
@@ -177,18 +169,6 @@ def never_compiling() -> Iterator[None]:
         yield
     finally:
         _refusing.now = before
-
-
-def _register_all(register: Callable[..., Any]) -> None:
-    """Tell Numba of the kernels marked since the last time: some modules are imported after the first compiling."""
-    from wallkit.kernels.one_module import BARE, PartCompiler, PassCompiler
-
-    while _marked:
-        register(forceinline=True, pipeline_class=PartCompiler, **BARE)(_marked.pop())
-    while _passes:
-        register(forceinline=True, pipeline_class=PassCompiler, **BARE)(_passes.pop())
-    while _rare:
-        register(pipeline_class=PartCompiler, **BARE)(_rare.pop())
 
 
 def cache_folder() -> Path:

@@ -25,9 +25,9 @@ def has_levels() -> bool:
 
 
 def settings_for(level: str) -> dict[str, str]:
-    """Give what to set for Numba so that it compiles for a level, whatever processor compiles."""
+    """Give what to set so that kernels are compiled for a level, whatever processor compiles."""
     wide = "-prefer-256-bit" if level == "x86-64-v4" else ""  # LLVM would take vectors of 4 where there are 8
-    return {"NUMBA_CPU_NAME": level, "NUMBA_CPU_FEATURES": wide, "NUMBA_DISABLE_INTEL_SVML": "1"}
+    return {"WALLKIT_CPU_NAME": level, "WALLKIT_CPU_FEATURES": wide}
 
 
 @cache
@@ -35,7 +35,7 @@ def shipped_folders() -> tuple[Path, ...]:
     """Give the folders of shipped machine code that are here and that this processor can run, the fastest first.
 
     Those of other sources do not count: the digest of the kernels' sources, which are how they are called too, is in
-    the name. Nor do any where something is set for Numba, which compiles something else then.
+    the name. Nor do any where another processor is set.
     """
     from wallkit.kernels.machine_code import settings, sources  # NumPy, which is not yet there when a wheel is begun
 

@@ -1,7 +1,6 @@
 """What kind each argument of a kernel is, and the machine words that it is handed over as.
 
-Both are told without Numba, whose import takes longer than a short survey: machine code that lies on the disk is found
-by the kinds, and called with the words. The words are those of Numba's own calls: an array is seven or more of them,
+Machine code that lies on the disk is found by the kinds, and called with the words. An array is three or more of them,
 a tuple those of its items, None one that nobody looks at. They are handed over side by side in memory, eight bytes
 each: ctypes takes a tenth of a microsecond for an argument, and models are a hundred.
 """
@@ -83,14 +82,13 @@ def _tuple_of(values: tuple[Any, ...], words: list[Any]) -> tuple[Any, ...]:
 
 
 def _array(array: Any, words: list[Any]) -> Kind:
-    """Two owners, which nobody looks at; how many items, of how many bytes; where they lie; shape and strides."""
+    """Where its items lie, shape and strides."""
     flags = array.flags.num
     order = "C" if flags & C_ORDER else "F" if flags & F_ORDER else "A"
-    size = array.size
     # Three times as fast as array.ctypes.data, for arrays that may be lent for writing.
-    lent = size and flags & (C_ORDER | WRITEABLE | WARNS) == C_ORDER | WRITEABLE
+    lent = array.size and flags & (C_ORDER | WRITEABLE | WARNS) == C_ORDER | WRITEABLE
     place = addressof(lend(array)) if lent else array.ctypes.data
-    words += (0, 0, size, array.itemsize, place, *array.shape, *array.strides)
+    words += (place, *array.shape, *array.strides)
     return "array", array.dtype, array.ndim, order, bool(flags & ALIGNED)
 
 
@@ -119,46 +117,10 @@ def word_formats(kinds: tuple[Kind, ...]) -> list[str]:
         elif kind is None or kind[0] == "record":
             found.append("P")
         elif kind[0] == "array":
-            found += [*"PPqqP", *"q" * 2 * kind[2]]
+            found += ["P", *"q" * 2 * kind[2]]
         else:
             found += word_formats(kind[1:])
     return found
-
-
-def numba_type(kind: Kind) -> Any:
-    """Give Numba's type of a kind."""
-    from numba import types
-    from numba.np.numpy_support import from_dtype
-
-    if kind is None:
-        return types.none
-    if isinstance(kind, np.dtype):
-        return from_dtype(kind)
-    if kind[0] == "record":
-        return from_dtype(kind[1])
-    if kind[0] == "array":
-        _, dtype, dimensions, order, aligned = kind
-        return types.Array(from_dtype(dtype), dimensions, order, aligned=aligned)
-    return types.BaseTuple.from_types(tuple(map(numba_type, kind[1:])), kind[0])
-
-
-def result_of(numba_type: Any) -> Any:
-    """Give the kind of what a kernel returns, of Numba's type: None, a number's name, or a list of such.
-
-    Raises:
-        TypeError: it is nothing that kernels return.
-    """
-    from numba import types
-
-    numba_type = types.unliteral(numba_type)
-    if numba_type is types.none:
-        return None
-    if isinstance(numba_type, types.Boolean | types.Number):
-        return "bool" if isinstance(numba_type, types.Boolean) else numba_type.name
-    if isinstance(numba_type, types.BaseAnonymousTuple):
-        parts: Any = numba_type
-        return [result_of(part) for part in parts]
-    raise TypeError(f"kernels return numbers, tuples of them, or nothing, not {numba_type}")
 
 
 def result_type(kind: Any) -> Any:

@@ -303,7 +303,7 @@ def _empty_queue(count: int) -> Queue:
 
 
 def compile_each(*wanted: tuple[Any, tuple[Any, ...]]) -> None:
-    """Compile kernels, each given with Numba's types of its arguments."""
+    """Compile kernels, each given with the kinds of its arguments."""
     for entry, types in wanted:
         compile_for(entry, *types)
 

@@ -31,7 +31,7 @@ def work(pipe: Connection, make: Make, reader: Reader, memory: int) -> None:
     pipe.send(None)  # started
     warm = False
     while True:
-        if not warm and not pipe.poll():  # while nobody asks, so that no run waits for numba
+        if not warm and not pipe.poll():  # while nobody asks, so that no run waits for a compiler
             import wallkit.simulation.simulate  # noqa: F401
 
             warm = True

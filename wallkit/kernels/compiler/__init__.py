@@ -1,0 +1,1 @@
+"""From the Python of kernels to machine code: see ``whole``."""
