@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from typing import Literal
 
 import numpy as np
 
@@ -47,14 +48,16 @@ def one_sided_scene(seed: int) -> tuple[str, Scene, float]:
     """Make the scene of :func:`contact_scene` with every other open wall one-sided, from above or from below."""
     kind, scene, until = contact_scene(seed)
     random, walls = np.random.default_rng([seed, 3]), scene.walls
-    outlines, bulges, sides = [], [], []
+    outlines: list[FloatArray] = []
+    bulges: list[FloatArray] = []
+    sides: list[Literal["both", "outward"]] = []
     for first, after, closed in zip(walls.offsets[:-1], walls.offsets[1:], walls.closed, strict=True):
         outline, bulge, one = walls.vertices[first:after], walls.bulges[first:after], random.random(2) < 0.5
         if not closed and one[0]:  # the other way round, with the bulge of each edge turned round
             outline, bulge = outline[::-1], np.append(-bulge[-2::-1], 0.0)
         outlines, bulges = [*outlines, outline], [*bulges, bulge]
         sides.append("outward" if not closed and one[1] else "both")
-    walls = Walls.from_polylines(outlines, walls.closed, bulges=bulges, sides=sides, material=walls.materials)
+    walls = Walls.from_polylines(outlines, walls.closed.tolist(), bulges=bulges, sides=sides, material=walls.materials)
     return kind, dataclasses.replace(scene, walls=walls), until
 
 

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls import Walls
@@ -224,13 +225,14 @@ def _largest_free(walls: Walls, faces: Any) -> list[Any]:
     return chosen
 
 
-def _are_material(walls: Walls, edges: Edges, faces: Any) -> np.ndarray:
+def _are_material(walls: Walls, edges: Edges, faces: Any) -> NDArray[np.bool_]:
     """Tell for each face whether it is material by what the import has decided: by how many walls are around it."""
     import shapely
 
     around, _ = walls_around(edges, shapely.get_coordinates(shapely.point_on_surface(faces)))
     room = walls.solid is not None and walls.solid.room
-    return (np.bincount(around, minlength=len(faces)) + room) % 2 == 1
+    material: NDArray[np.bool_] = (np.bincount(around, minlength=len(faces)) + room) % 2 == 1
+    return material
 
 
 def _is_nearly_closed(face: Any, lines: Lines) -> bool:

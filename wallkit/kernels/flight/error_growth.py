@@ -147,7 +147,8 @@ def _lasts(path: Any, keep: Any, t: float, i: int) -> float:
     if path[i, 5] != STOPS:
         return t
     e, f = keep[i, 1], keep[i, 0]
-    return t * (1.0 - e) / (1.0 + e * f)
+    lasting: float = t * (1.0 - e) / (1.0 + e * f)
+    return lasting
 
 
 @kernel
