@@ -21,6 +21,7 @@ _BATCH = 20_000
 _BYTES_PER_TOKEN = 16  # of strings and of images within the content, whose cost grows with their length
 _MAX_OPERANDS = 4096
 _FORM_COSTS = 4  # operators' worth of work to go into a form
+_NEW_FORM_COSTS = 60  # and to unpack a form and look up what it says of itself, the first time
 _MAX_IMAGE_HEAD = 2000  # bytes of an image's dictionary, before its data
 # Blanks, numbers, and the operator if one follows: all may be missing, so it never fails and reads no number twice.
 _OPERATOR = re.compile(
@@ -309,6 +310,7 @@ class PageReader(Painter):
         """Read what a form says of itself, once."""
         key = stream.objgen
         if key not in self._forms:
+            self._operators += _NEW_FORM_COSTS
             data, damage = self.document.decode(stream)
             if damage:
                 self._find(findings.STREAM, damage)

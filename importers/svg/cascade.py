@@ -20,6 +20,7 @@ from importers.svg.style import (
     Declared,
     Pending,
     TooLarge,
+    Unread,
     parse_any_inline,
     parse_declaration,
     parse_inline,
@@ -33,6 +34,7 @@ STEPS_OF_A_LETTER = 6  # of CSS that only the slow parser can read
 # Fonts put into a drawing are larger than all else in it, and say nothing of its outlines.
 _FONT_FACE = re.compile(r"@font-face\s*+\{[^{}]*+\}", re.IGNORECASE)
 _TOO_LARGE = "has a number that is too large, and is not used"
+_UNREAD = "is wrong, so none of it is used"
 
 
 _NONE = Winners({}, {})
@@ -95,6 +97,8 @@ class Cascade:
             inline = _NONE if style is None else self._inline(style)
             for name in inline.too_large:
                 self._notes.add("bad-number", "error", f"{name} {_TOO_LARGE}", element, attribute="style")
+            for name in inline.unread:
+                self._notes.add("bad-transform", "warning", f"{name} {_UNREAD}", element, attribute="style")
             for rule in (*(one.normal for one in matched), inline.normal):
                 found.update(rule)
             for rule in (*(one.important for one in matched), inline.important):
@@ -119,7 +123,7 @@ class Cascade:
             elif value is not None:
                 found[name] = value
             elif name == "transform":
-                message = f"transform={text[:40]!r} is wrong, so none of it is used"
+                message = f"transform={text[:40]!r} {_UNREAD}"
                 self._notes.add("bad-transform", "warning", message, element, attribute="transform")
         return found
 
@@ -139,6 +143,9 @@ class Cascade:
                     value = None
                 if isinstance(value, TooLarge):
                     self._notes.add("bad-number", "error", f"{name} {_TOO_LARGE}", element)
+                    value = None
+                elif isinstance(value, Unread):
+                    self._notes.add("bad-transform", "warning", f"{name} {_UNREAD}", element)
                     value = None
                 value = unset(name) if value is None or isinstance(value, Pending) else value
             result[name] = value

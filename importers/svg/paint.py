@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from importers.limits import MAX_COORDINATE
+from importers.numbers import NumberError
 from importers.svg.cascade import Cascade
 from importers.svg.colour import NOTHING, parse_colour, split_url
 from importers.svg.inheritance import Style
@@ -44,7 +45,9 @@ class Paints:
         width = to_px(style.stroke_width, viewport.diagonal, style.font) * scale
         if width <= 0:
             return None, None
-        return stroke, width if width <= MAX_COORDINATE else None
+        if width > MAX_COORDINATE:
+            raise NumberError("stroke-width")
+        return stroke, width
 
     def _server(self, paint: str) -> str | None:
         parts = split_url(paint)

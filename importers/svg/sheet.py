@@ -195,6 +195,8 @@ class Sheet:
         for name in found.too_large:
             message = f"{name} in a style sheet has a number that is too large, and is not used"
             self._report("bad-number", "error", message)
+        for name in found.unread:
+            self._report("bad-transform", "warning", f"{name} in a style sheet is wrong, so none of it is used")
         if found.normal or found.important:
             for selector in self._compile(prelude):
                 self._matcher.add_selector(selector, found)

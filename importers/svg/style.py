@@ -44,6 +44,11 @@ class TooLarge:
 
 
 @dataclass(frozen=True, slots=True)
+class Unread:
+    """The value of a declaration that is as if it were not there, but is missed: a transform."""
+
+
+@dataclass(frozen=True, slots=True)
 class Pending:
     """The value of a declaration that waits for the custom properties of its element: it has a ``var()``.
 
@@ -180,7 +185,9 @@ def _single(name: str) -> Callable[[str, Origin], Any]:
     def parse(text: str, origin: Origin) -> Any:
         if text.strip().lower() == "none":
             return ()
-        return parse_transform_property(f"{name}({', '.join(text.split())})")
+        tokens = tinycss2.parse_component_value_list(text.strip(), skip_comments=True)
+        words = [tinycss2.serialize([token]) for token in tokens if token.type != "whitespace"]
+        return parse_transform_property(f"{name}({', '.join(words)})")
 
     return parse
 
@@ -255,6 +262,7 @@ _PARSERS: dict[str, Callable[[str, Origin], Any]] = {
     "mask": _words,
 }
 PROPERTIES = frozenset(_PARSERS)
+_TRANSFORMS = frozenset(("transform", "translate", "rotate", "scale"))
 # Attributes that are not declarations by themselves: geometry is looked up on the element that has it
 _LAZY = frozenset(("x", "y", "cx", "cy", "r", "rx", "ry", "width", "height", "d"))
 PRESENTATION = PROPERTIES - _LAZY - {"line-height", "translate", "rotate", "scale"}
@@ -263,7 +271,7 @@ PRESENTATION = PROPERTIES - _LAZY - {"line-height", "translate", "rotate", "scal
 def parse_declaration(name: str, text: str, origin: Origin) -> Any:
     """Give the parsed value of a declaration, None when it is invalid (and so is as if it were not there).
 
-    A TooLarge or a Pending stand for what they say.
+    A TooLarge, an Unread or a Pending stand for what they say.
     """
     return _parse_short(name, text, origin) if len(text) < SHORT else _parse(name, text, origin)
 
@@ -286,7 +294,8 @@ def _parse(name: str, text: str, origin: Origin) -> Any:
     if wide is not None:
         return unset(name) if wide == "unset" else wide
     try:
-        return _PARSERS[name](text, origin)
+        value = _PARSERS[name](text, origin)
+        return Unread() if value is None and name in _TRANSFORMS and origin != "attribute" else value
     except NumberError as error:
         return TooLarge(error.offset)
 

@@ -12,7 +12,7 @@ from importers.limits import limit_error
 from importers.numbers import finite
 from importers.svg.matrix import IDENTITY, Matrix, multiply, rotation, translation
 from importers.svg.path_data import COMMA, NUMBER
-from importers.svg.units import Font, Terms, parse_length, to_px
+from importers.svg.units import DEGREES, NUMBERS, Font, Terms, parse_calc, parse_length, to_px
 
 MAX_FUNCTIONS = 10_000
 _WS = r"[ \t\r\n\f]*+"
@@ -172,13 +172,12 @@ def _css_argument(kind: str, token: Any) -> float | Terms | None:
     if kind == "n":
         if token.type == "percentage":
             return finite(float(token.value)) / 100
-        return finite(float(token.value)) if token.type == "number" else None
+        return finite(float(token.value)) if token.type == "number" else parse_calc(token, NUMBERS)
     if token.type == "number" and token.value == 0:
         return 0.0
-    turn = {"deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0}
-    if token.type == "dimension" and token.lower_unit in turn:
-        return finite(float(token.value) * turn[token.lower_unit])
-    return None
+    if token.type == "dimension" and token.lower_unit in DEGREES:
+        return finite(float(token.value) * DEGREES[token.lower_unit])
+    return parse_calc(token, DEGREES)
 
 
 def resolve(functions: Functions, width: float, height: float, font: Font) -> Matrix:

@@ -47,6 +47,8 @@ _WINDOW_UNITS = {
 _WINDOW_UNITS |= {size + unit: px for size in "sld" for unit, px in _WINDOW_UNITS.items()}
 _FONT_UNITS = {"em", "ex", "ch", "cap", "ic", "lh", "rem", "rex", "rch", "rcap", "ric", "rlh"}
 UNITS = frozenset(_PX) | frozenset(_WINDOW_UNITS) | _FONT_UNITS | {"%"}
+DEGREES = {"deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0}
+NUMBERS = {"": 1.0}
 
 # Proportions of DejaVu Sans, the font of a browser on a bare machine, whatever a file asks for
 _FONT = {"em": 1.0, "ic": 1.0, "ex": 0.547, "ch": 0.63623, "cap": 0.7322}
@@ -215,15 +217,52 @@ _Sum = dict[Any, float]  # unit to factor
 
 def _parse_calc(text: str, unitless: bool) -> Terms | None:
     tokens = [t for t in tinycss2.parse_component_value_list(text, skip_comments=True) if t.type != "whitespace"]
-    if len(tokens) != 1 or tokens[0].type != "function":
+    terms = _terms(tokens[0]) if len(tokens) == 1 and tokens[0].type == "function" else None
+    if terms is None or not all(unit in UNITS for unit in units_of(terms)):
         return None
+    if not unitless and any(unit == "" for _, unit in terms):
+        return None
+    return tuple((finite(value), unit) for value, unit in terms)
+
+
+def parse_calc(token: Any, factors: dict[str, float]) -> float | None:
+    """Give the value of ``calc()`` and the like where it is no length; None for what is none.
+
+    Args:
+        token: of tinycss2.
+        factors: what one of each unit is (DEGREES, NUMBERS); no other unit may occur.
+
+    Raises:
+        LimitError: more than MAX_LENGTH_LETTERS.
+        NumberError: it is too large.
+    """
+    if token.type != "function" or token.lower_name not in _FUNCTIONS:
+        return None
+    if len(tinycss2.serialize([token])) > MAX_LENGTH_LETTERS:
+        raise limit_error("letters of a length", f"{MAX_LENGTH_LETTERS:,}")
+    terms = _terms(token)
+    if terms is None or not all(unit in factors for unit in units_of(terms)):
+        return None
+    return finite(_total(terms, factors))
+
+
+def _total(terms: Terms, factors: dict[str, float]) -> float:
+    total = 0.0
+    for value, unit in terms:
+        if isinstance(unit, tuple):
+            factor = _PICKS[unit[0]]([_total(argument, factors) for argument in unit[1]])
+        else:
+            factor = factors[unit]
+        total += finite(value * factor)
+    return total
+
+
+def _terms(token: Any) -> Terms | None:
+    """Add up what a function says, unit by unit; None where it makes no sense."""
     try:
-        terms = _value(tokens[0])
+        return tuple((value, unit) for unit, value in _value(token).items())
     except (ValueError, IndexError, ZeroDivisionError, RecursionError, OverflowError):
         return None
-    if not all(isinstance(unit, tuple) or unit in UNITS for unit in terms) or ("" in terms and not unitless):
-        return None
-    return tuple((finite(value), unit) for unit, value in terms.items())
 
 
 def _solid(tokens: list[Any]) -> list[Any]:
@@ -279,8 +318,6 @@ def _value(token: Any) -> _Sum:
     if token.lower_name == "clamp" and len(arguments) != 3:
         raise ValueError("clamp takes three")
     sums = tuple(tuple((value, unit) for unit, value in _sum(one).items()) for one in arguments)
-    if any(not isinstance(unit, tuple) and unit not in UNITS for terms in sums for _, unit in terms):
-        raise ValueError("an unknown unit")
     return {(token.lower_name, sums): 1.0}
 
 

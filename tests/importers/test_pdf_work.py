@@ -10,7 +10,7 @@ from importers.errors import LimitError
 from importers.pdf import painting, read_pdf
 
 
-def page(content, form=b"", **options):
+def page(content, form=b"", forms=1, **options):
     pdf = pikepdf.new()
     pdf.add_blank_page()
     layer = pdf.make_indirect(pikepdf.Dictionary(Type=pikepdf.Name.OCG, Name="Layer"))
@@ -18,7 +18,8 @@ def page(content, form=b"", **options):
         XObject={}, Properties={"/A": layer}, ExtGState={"/S": pikepdf.Dictionary({"/ca": 1, "/LW": 2})}
     )
     pdf.pages[0].Resources = resources = pdf.make_indirect(resources)
-    resources.XObject["/X"] = pdf.make_stream(form, Subtype=pikepdf.Name.Form, Resources=resources, **options)
+    for name in ("/X", *(f"/X{n}" for n in range(1, forms))):
+        resources.XObject[name] = pdf.make_stream(form, Subtype=pikepdf.Name.Form, Resources=resources, **options)
     pdf.pages[0].Contents = pdf.make_stream(content)
     out = io.BytesIO()
     pdf.save(out, compress_streams=False)
@@ -73,6 +74,7 @@ BOX = pikepdf.Array([0, 0, 1, 1])
 COSTLY = {
     "images without data": page(b"BI EI " * 100),
     "forms": page(b"/X Do " * 150),
+    "forms that differ": page(b"".join(b"/X%d Do " % n for n in range(1, 25)), forms=25),
     "forms with boxes": page(b"/X Do " * 60, BBox=BOX),
     "clips": page(b"0 0 m 9 0 l 9 9 l W n " * 90),
 }

@@ -13,6 +13,13 @@ INFINITE = {
     "a slope of an attribute": ('<rect id="a" width="1" height="1" transform="scale(1) skewX(1e400)"/>', "1e400", 1),
     "a product of scales": ('<rect id="a" width="1" height="1" transform="scale(1e200)scale(1e200)"/>', "", 1),
     "turns of a style": ('<rect id="a" width="1" height="1" style="transform:rotate(1e308turn)"/>', "", 1),
+    "turns of calc()": ('<rect id="a" width="1" height="1" style="transform:rotate(calc(1e308turn*10))"/>', "", 1),
+    "the larger of two angles": (
+        '<rect id="a" width="1" height="1" style="transform:rotate(max(1e308turn,1deg))"/>',
+        "",
+        1,
+    ),
+    "a factor of calc()": ('<rect id="a" width="1" height="1" style="scale:calc(1e308*10)"/>', "", 1),
     "a slope of a style": ('<rect id="a" width="1" height="1" style="transform:skewX(1e308turn)"/>', "", 1),
     "an angle about another axis": ('<rect id="a" width="1" height="1" style="transform:rotateX(1e308turn)"/>', "", 1),
     "a rule": ('<style>rect{rotate:1e308turn}</style><rect id="a" width="1" height="1"/>', "", 1),
@@ -32,6 +39,11 @@ INFINITE = {
         0,
     ),
     "the width of a stroke": ('<rect id="a" width="1" height="1" stroke="red" stroke-width="1e308in"/>', "", 0),
+    "a width of a stroke that no coordinate has": (
+        '<rect id="a" width="1" height="1" stroke="red" stroke-width="1e300em"/>',
+        "",
+        0,
+    ),
     "a viewBox within": ('<svg viewBox="0 0 1e400 1"><rect id="a" width="1" height="1"/></svg>', "1e400", 0),
     "a quotient of calc()": ('<rect id="a" width="calc(1e300px / 1e-300)" height="1"/>', "", 0),
 }
@@ -50,6 +62,21 @@ def test_an_infinite_number_is_a_problem_with_its_place_and_not_in_the_drawing(s
         assert problems[0].column == body.index(at) + 1
     assert len(drawing.paths) == left
     json.dumps(drawing.to_json(), allow_nan=False)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<rect width="1" height="1" style="transform:rotate(5)"/>',
+        '<rect width="1" height="1" style="color:red; /* */ rotate:calc(3px)"/>',
+        '<style>rect{scale:calc(50% + 1deg)}</style><rect width="1" height="1"/>',
+        '<rect width="1" height="1" style="--a:3;transform:turn(var(--a))"/>',
+    ],
+)
+def test_a_transform_of_css_that_is_wrong_is_said(body):
+    drawing = read_svg(f"<svg {NS}>\n{body}</svg>".encode())
+    assert [(problem.code, problem.line) for problem in drawing.problems] == [("bad-transform", 2)]
+    assert len(drawing.paths) == 1
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ import pytest
 from importers.errors import WallkitError
 from wallkit.cli.play import reader
 from wallkit.scene.wishes import USUAL
-from wallkit.view.page.answers import Answers
+from wallkit.view.page.answers import Answers, QuestionError
 from wallkit.view.page.bounds import HEAVY, LIGHT, LIGHT_CONTACTS
 from wallkit.view.page.questions import Opening
 from wallkit.view.page.server import PageServer
@@ -99,6 +99,13 @@ def test_a_light_question_is_answered_while_a_heavy_one_is_held(workers, room):
     with held(workers, room):
         assert flown(workers.ask("simulate", run(room, 5))) == ["bounce limit"]
         assert workers.light.ended == 0
+
+
+@pytest.mark.parametrize("change", [{"until": 10**400}, {"until": "soon"}, {"bounces": 1e9}])
+@pytest.mark.parametrize("name", ["simulate", "save"])
+def test_a_number_out_of_range_is_told_while_a_heavy_question_is_held(workers, room, name, change):
+    with held(workers, room), pytest.raises(QuestionError, match=next(iter(change))):
+        workers.ask(name, {**run(room, 5), "bounces": None, **change})
 
 
 def test_a_heavy_question_ends_when_its_asker_goes_and_the_next_is_answered(workers, room):

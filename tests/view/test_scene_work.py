@@ -5,7 +5,7 @@ import json
 import pytest
 
 from importers.errors import LimitError, WallkitError
-from wallkit import Balls, Scene, Walls, simulate
+from wallkit import Balls, Scene, Walls, import_walls, simulate
 from wallkit.globs import MOST_LETTERS, fits
 from wallkit.scene.scene_files import read_scene
 from wallkit.simulation.run_files import load, save
@@ -79,6 +79,23 @@ def test_rules_are_charged_by_the_walls_that_they_are_matched_with(monkeypatch):
     read_scene(scene_with(20, 100))
     with pytest.raises(LimitError, match="rules matched with walls"):
         read_scene(scene_with(400, 100))
+
+
+def drawing_of(layers):
+    paths = "".join(
+        f'<g inkscape:groupmode="layer" inkscape:label="wall {n}"><path d="M0 0h1"/></g>' for n in range(layers)
+    )
+    spaces = 'xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
+    return f"<svg {spaces}>{paths}</svg>"
+
+
+def test_globs_on_layers_are_charged_by_the_names_that_they_are_matched_with(monkeypatch, tmp_path):
+    drawn = tmp_path / "layers.svg"
+    drawn.write_text(drawing_of(40))
+    monkeypatch.setattr("importers.limits.MAX_STEPS", 30_000)
+    assert len(import_walls(drawn, layers=["* 3", "wall 7"] * 20)) == 2
+    with pytest.raises(LimitError, match="matched with globs"):
+        import_walls(drawn, layers=["wall*"] * 400)
 
 
 def test_long_globs_are_refused_since_python_reads_them_in_the_square_of_their_length():

@@ -19,7 +19,7 @@ from multiprocessing.connection import Connection
 
 from importers.errors import LimitError, WallkitError
 from wallkit.scene.opening import read_file
-from wallkit.view.page.answers import Answers
+from wallkit.view.page.answers import Answers, limits_of
 from wallkit.view.page.bounds import HEAVY, LIGHT, LIGHT_CONTACTS, PAUSE, TICK, Bounds
 from wallkit.view.page.documents import Reader, Shelf
 from wallkit.view.page.payload import Table
@@ -113,6 +113,8 @@ class Workers:
         """
         if name == "saved":
             return self.saved(body, gone)
+        if name in ("simulate", "save"):
+            limits_of(body, 1)  # a time or a number that is out of range need not wait for a turn to be told
         kept = self.shelf.get(body.get("document")) if name in _ABOUT_DOCUMENTS else None
         worker = self.light if name == "simulate" and is_light(body) else self.heavy
         return self._kept(worker.ask(Question(name, body, edition=kept.edition if kept else ""), kept, gone))

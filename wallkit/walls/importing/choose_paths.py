@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from importers.drawing import Drawing, DrawnPath
+from importers.limits import Work
 from importers.problems import Problem
-from wallkit.globs import fits
+from wallkit.globs import fits, steps_of
 from wallkit.walls.import_options import ImportOptions
 from wallkit.walls.importing.drawn_balls import DrawnBall, marks_a_ball
 from wallkit.walls.roles import plain_name, role_of, tag_problems
@@ -60,9 +61,10 @@ def choose(drawing: Drawing, options: ImportOptions, balls: list[DrawnBall]) -> 
 
     Raises:
         WallsError: a glob fits no layer of the drawing.
+        LimitError: globs times names are more work than a file may ask for.
     """
-    _check_globs(drawing, options.layers)
-    sorted_out = [(path, _reason(path, options)) for path in drawing.paths]
+    layers = None if options.layers is None else _fitting(drawing, options.layers)
+    sorted_out = [(path, _reason(path, options, layers)) for path in drawing.paths]
     told = [(path, reason) for path, reason in sorted_out if reason in _TAGGED]
     sorted_out = [pair for pair in sorted_out if pair[1] not in _TAGGED]
     candidates = [path for path, reason in sorted_out if reason in ("", "other-layer")]
@@ -86,7 +88,8 @@ def _painted(path: DrawnPath) -> bool:
     return path.fill is not None or path.stroke is not None
 
 
-def _reason(path: DrawnPath, options: ImportOptions) -> str:
+def _reason(path: DrawnPath, options: ImportOptions, layers: frozenset[str] | None) -> str:
+    """Give why a path is left out; layers: names of layers and groups that are taken, None for all."""
     if path.guide:
         return "guide"
     if path.clip:
@@ -96,28 +99,26 @@ def _reason(path: DrawnPath, options: ImportOptions) -> str:
         return _ELSEWHERE[role]
     if role in _TAGGED:
         return role if path.visible or options.hidden else "hidden"
-    if options.layers is not None and not _on_layer(path, options.layers):
+    if layers is not None and path.layer not in layers and layers.isdisjoint(path.groups):
         return "other-layer"
     return "hidden" if not path.visible and not options.hidden else ""
 
 
-def _on_layer(path: DrawnPath, globs: Sequence[str]) -> bool:
-    return any(_fits(name, glob) for name in (path.layer, *path.groups) for glob in globs)
-
-
-def _fits(name: str, glob: str) -> bool:
-    """Tell whether a glob fits a name, with the words in it or without."""
-    return fits(name, glob) or fits(plain_name(name), glob)
-
-
-def _check_globs(drawing: Drawing, globs: Sequence[str] | None) -> None:
-    if globs is None:
-        return
+def _fitting(drawing: Drawing, globs: Sequence[str]) -> frozenset[str]:
+    """Give the names of layers and groups that globs fit, with the words in them or without; each is matched once."""
     names = {layer.name for layer in drawing.layers}.union(*((p.layer, *p.groups) for p in drawing.paths))
+    plain = {name: plain_name(name) for name in names}
+    work = Work(elements=len(drawing.paths))
+    steps = steps_of(plain) + steps_of(plain.values())
+    fitting: set[str] = set()
     for glob in globs:
-        if not any(_fits(name, glob) for name in names):
+        work.charge("names of layers and groups matched with globs (--layer)", steps)
+        fit = [name for name in names if fits(name, glob) or fits(plain[name], glob)]
+        if not fit:
             known = ", ".join(repr(name) for name in sorted(names) if name) or "none"
-            raise WallsError(f"no layer fits {glob!r}", code="no-such-layer", fix=f"the layers are: {known}")
+            raise WallsError(f"no layer fits {glob!r}", code="no-such-layer", fix=f"the layers are: {known[:500]}")
+        fitting.update(fit)
+    return frozenset(fitting)
 
 
 def _problem(reason: str, count: int, path: DrawnPath) -> Problem:
