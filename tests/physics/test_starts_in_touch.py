@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from wallkit import Balls, ContactKind, Material, Scene, Walls, simulate
+from wallkit import Balls, ContactKind, Material, Scene, Walls, simulate, survey
 from wallkit.accuracy.contact_scenes import touching_scene
 
 G = 9.81
@@ -120,3 +120,12 @@ def test_a_ball_laid_on_a_wall_keeps_its_speed_whatever_the_wall_takes_from_boun
         # v = v0 - g sin(angle) t along the slope
         speed = np.dot((final["vx"], final["vy"]), along)
         assert speed == pytest.approx(1.24 - G * math.sin(angle), abs=1e-12)
+
+
+def test_surveys_in_lockstep_count_what_balls_laid_on_a_wall_meet():
+    walls = half_pipe(4.0, 2.0, Material(0.5, 0.9))
+    discs = Balls([(3.8, 1.0), (-3.8, 0.5), (3.8, 1.9)], [(0.0, -1.0), (0.0, 0.0), (0.0, 9.0)], 0.2)
+    scene = Scene(walls, discs, gravity=(0.0, -G))
+    run = simulate(scene, until=1.5, mode="interpreted")
+    totals = survey(scene, until=1.5)
+    assert np.array_equal(totals.position, np.stack([run.final["x"], run.final["y"]], axis=1))

@@ -77,7 +77,7 @@ def keep(
     if hold == STARTING:
         edge, laid = _laid_on(model, gravity, radius, x, y, vx, vy, last, tolerance)
         if edge != NO_HIT:
-            return x, y, vx, vy, 0.0, energy, last, edge, PASSING, laid, 0, changes, NO_ROW, NO_HIT, RUNNING
+            return x, y, vx, vy, 0.0, energy, edge, edge, PASSING, laid, 0, changes, NO_ROW, NO_HIT, RUNNING
         feature = _struck(model, radius, x, y, vx, vy, gravity, last, tolerance)
         return x, y, vx, vy, 0.0, energy, last, held, FREE, side, 0, changes, NO_ROW, feature, RUNNING
     if hold == LEAVING:
