@@ -76,8 +76,8 @@ def test_a_slow_disc_pivots_about_the_end_of_a_table_and_leaves_it_where_nothing
 
 @pytest.mark.parametrize("speed", [49.0, 60.0, 300.0])
 def test_a_fast_disc_leaves_the_end_of_a_table_at_once(speed):
-    contacts = table(speed, 8.0).contacts  # v^2 >= g r = 2400
-    assert contacts["kind"].tolist() == [ContactKind.EDGE, ContactKind.SLIDE, ContactKind.LEAVE]
+    contacts = table(speed, 8.0).contacts  # v^2 >= g r = 2400; laid on the table, it slides from the start: no bounce
+    assert contacts["kind"].tolist() == [ContactKind.SLIDE, ContactKind.LEAVE]
     assert contacts["x"][-1] == pytest.approx(100.0, abs=1e-12)
 
 
@@ -96,7 +96,7 @@ def test_a_valley_takes_the_normal_part_of_the_speed_by_the_restitution_of_its_o
     level = walls(line, restitution=restitution)
     start = np.array([-200.0, 150.0]) + radius * np.array([0.6, 0.8])
     run = simulate(Scene(level, Balls(start, [0.0, 0.0], radius), gravity=DOWN), until=20.0)
-    bounce = run.contacts[run.contacts["kind"] == ContactKind.EDGE][1]
+    bounce = run.contacts[run.contacts["kind"] == ContactKind.EDGE][0]
     speed = math.sqrt(2.0 * G * (start[1] - bounce["y"]))
     assert bounce["vx"] == pytest.approx(0.8 * speed, rel=1e-12)
     assert bounce["vy"] == pytest.approx(restitution * 0.6 * speed, abs=1e-9)

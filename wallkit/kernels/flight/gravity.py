@@ -76,7 +76,9 @@ def bounce(model, gravity, wall, nx, ny, twice, x, y, vx, vy, energy):
     """
     if gravity is None:
         return reflect(model.restitution, wall, nx, ny, twice, vx, vy, energy)
-    if vx * nx + vy * ny >= 0.0:  # it begins to be pressed on the wall: nothing to turn yet
+    # It comes along the wall, to rounding, and begins to be pressed on it: nothing to turn yet. twice is 2 / (n.n).
+    into, speed = vx * nx + vy * ny, LEVEL_SPEED * (abs(vx) + abs(vy))
+    if into >= 0.0 or into * into * twice <= 2.0 * speed * speed:
         return vx, vy, energy
     energy = energy_now(gravity, model.drag, x, y, vx, vy, energy)
     # energy = v^2 - 2 g.p, so v^2 = energy + 2 g.p at the wall.

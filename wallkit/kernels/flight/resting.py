@@ -18,7 +18,7 @@ import math
 
 from wallkit.kernels.flight.contact_state import stretch
 from wallkit.kernels.flight.gravity import LEVEL, kept_energy
-from wallkit.kernels.flight.guide import STRAIGHT, ahead_of, guide, outside, press
+from wallkit.kernels.flight.guide import STRAIGHT, ahead_of, guide, off_guide, outside, press
 from wallkit.kernels.flight.joints import following, next_face, one_sided, side_after
 from wallkit.kernels.flight.last_bounces import join
 from wallkit.kernels.flight.obstacles import SMOOTH_JOINT
@@ -75,6 +75,9 @@ def keep(
         noted or NO_ROW, feature off which it bounces or NO_HIT, ending or RUNNING).
     """
     if hold == STARTING:
+        edge, laid = _laid_on(model, gravity, radius, x, y, vx, vy, last, tolerance)
+        if edge != NO_HIT:
+            return x, y, vx, vy, 0.0, energy, edge, edge, PASSING, laid, 0, changes, NO_ROW, NO_HIT, RUNNING
         feature = _struck(model, radius, x, y, vx, vy, gravity, last, tolerance)
         return x, y, vx, vy, 0.0, energy, last, held, FREE, side, 0, changes, NO_ROW, feature, RUNNING
     if hold == LEAVING:
@@ -114,6 +117,39 @@ def keep(
     elif event != GOES_ON:
         feature = event
     return x, y, vx, vy, time, energy, last, held, hold, side, turns, changes, kind, feature, ending
+
+
+@rare_kernel
+def _laid_on(model, gravity, radius, x, y, vx, vy, last, tolerance):
+    """Edge on which a ball starts along it, pressed on it, and the side on which it is: (edge, side) or (NO_HIT, 1).
+
+    What it is off by rounding would be a fall, and a bounce whose restitution along the wall takes its speed. A disc
+    beside a line along gravity keeps to that, too; a point on it has no side.
+    """
+    if last != NO_HIT:
+        return NO_HIT, 1.0
+    cell = model.cells[home(model, model.grid, x, y)]
+    for k in range(cell.first, cell.corners):
+        edge = int(model.ids[k])
+        nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
+        out = 1.0 if radius == 0.0 else _is_out(model, model.arcs, edge, x, y)
+        if radius == 0.0 and gravity[0] * nx + gravity[1] * ny > 0.0:
+            out = -1.0  # a point is on the side from which it is pressed
+        side = side_of(model, model.arcs, edge, x, y, out * nx, out * ny)
+        if side < 0.0 and one_sided(model.one_sided, model.edge_wall[edge]):
+            continue
+        if abs(off_guide(model, model.arcs, edge, side, radius, x, y)) > tolerance:
+            continue
+        length = out * math.sqrt(nx * nx + ny * ny)
+        foot_x, foot_y = x - radius * nx / length, y - radius * ny / length
+        if not touching(model, model.arcs, edge, foot_x, foot_y, 2.0 * tolerance)[0]:
+            continue
+        if abs(vx * nx + vy * ny) > LEVEL_SPEED * (abs(vx) + abs(vy)) * abs(length):
+            continue
+        plumb = radius > 0.0 and _is_plumb(model, gravity, radius, edge, side, x, y)
+        if plumb or _clings(model, gravity, radius, edge, side, x, y, vx, vy, tolerance):
+            return edge, side
+    return NO_HIT, 1.0
 
 
 @rare_kernel

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.impact.arc_impact import FALLING_MOULD, is_wide, to_end
-from wallkit.kernels.impact.drag_motion import along, pulled
+from wallkit.kernels.impact.drag_motion import along, pulled, speed_after
 from wallkit.kernels.impact.drag_roots import Gap, first_fall, first_fall_after
 from wallkit.kernels.impact.leaving import LEVEL_SPEED, left_along
 from wallkit.kernels.impact.line_impact import from_across, precedes, slack_of, stands_across
@@ -405,7 +405,45 @@ def _time_to_arc(
                 drag, far, side, -level, wx, wy, arc.sx, arc.sy, vx, vy, gx, gy, side * c4, side * c3, b2, b1, c0, t,
                 LATER * best, True,
             )  # fmt: skip
+        if not from_outside and not is_mould and (from_behind or c0 <= 0.0 or (found == NEVER and t < NEVER)):
+            found = _time_onto(arc, radius, wx, wy, vx, vy, gx, gy, drag, far, slack, best, found)
     return found
+
+
+@rare_kernel
+def _time_onto(arc, radius, wx, wy, vx, vy, gx, gy, drag, far, slack, best, found):
+    """Time up to ``best`` at which a ball comes beside an end of an arc's hollow and goes on along that, or ``found``.
+
+    A flight down a wall that goes over into the arc has the gap 0 there, and falling, but on the way to it none above
+    0 from which to fall: rounding alone says whether there is one, and puts its fall later, by the root of rounding.
+    So a gap of rounding counts as 0 there.
+    """
+    fx, fy = to_end(arc)
+    ux, uy = wx - (arc.bx - arc.ax), wy - (arc.by - arc.ay)
+    meets = found
+    for end in range(2):
+        # In front of its end the arc has s x e < 0 or e x f < 0, see ``_beside``: the negative of that falls through 0.
+        if end == 0:
+            a, b, c = arc.sy * gx - arc.sx * gy, arc.sy * vx - arc.sx * vy, arc.sy * wx - arc.sx * wy
+        else:
+            a, b, c = fx * gy - fy * gx, fx * vy - fy * vx, fx * uy - fy * ux
+        t = _line_fall(drag, far, a, b, c) if c > 0.0 else _fall_from_behind(drag, far, 0.5 * a, b, c)
+        if not 0.0 < t <= min(best, meets):
+            continue
+        px, py = along(drag, wx, vx, gx, t), along(drag, wy, vy, gy, t)
+        if not _beside(arc, px, py, slack):
+            continue
+        gap = px * (px + 2.0 * arc.sx) + py * (py + 2.0 * arc.sy) + radius * (2.0 * arc.radius - radius)
+        if abs(gap) > 2.0 * arc.radius * slack:
+            continue
+        qx, qy = speed_after(drag, vx, gx, t), speed_after(drag, vy, gy, t)
+        ex, ey = px + arc.sx, py + arc.sy
+        # Off it at w = -e.v / R, pressed back by p = (v.v + e.g) / R, it would rise by w^2 / 2 p: by rounding, no more.
+        outwards, pressed = ex * qx + ey * qy, qx * qx + qy * qy + ex * gx + ey * gy
+        grazes = outwards * outwards <= 2.0 * pressed * arc.radius * slack
+        if pressed > 0.0 and (grazes or (outwards > 0.0 and found == NEVER)):
+            meets = t
+    return meets
 
 
 @rare_kernel
