@@ -91,6 +91,32 @@ def test_a_point_stopped_in_a_corner_overhead_between_two_of_three_walls_stays_b
         assert Ending.LEFT_SCENE not in run.ending
 
 
+@pytest.mark.parametrize("velocity", [(0.0, -6.0), (0.5, -6.0), (-0.25, -7.0)])
+@pytest.mark.parametrize(
+    ("degrees", "restitution", "ending"),
+    [
+        # Reflections at two walls commute where their angle is pi / n, and where it is right and they take speed.
+        (60.0, 1.0, Ending.TIME_REACHED),
+        (90.0, 1.0, Ending.TIME_REACHED),
+        (90.0, 0.5, Ending.TIME_REACHED),
+        (50.0, 1.0, Ending.AMBIGUOUS_CORNER),
+        (60.0, 0.5, Ending.AMBIGUOUS_CORNER),
+    ],
+)
+def test_orders_of_bounces_are_compared_at_the_velocity_of_the_hit(degrees, restitution, ending, velocity):
+    # Thrown up, with a velocity that recedes from both walls, and falling into the tip of a valley.
+    half = 10.0 * np.tan(np.radians(degrees / 2))
+    valley = Walls.from_polylines([[(0.0, 0.0), (half, 10.0), (-half, 10.0)]], material=Material(restitution))
+    start, speed = thrown_at((0.0, 0.0), velocity, 0.875)
+    assert speed[1] > 2.0 * abs(speed[0])
+    run = simulate(Scene(valley, Balls([start], [speed]), gravity=GRAVITY), until=0.9)
+    assert run.ending[0] == ending
+    if restitution == 1.0 and ending == Ending.TIME_REACHED:  # n bounces: straight back, or mirrored where n is odd
+        back = np.array([velocity[0] if degrees == 60.0 else -velocity[0], -velocity[1]])
+        place = back * 0.025 + GRAVITY * 0.025**2 / 2
+        assert (run.final["x"][0], run.final["y"][0]) == pytest.approx(tuple(place), abs=1e-9)
+
+
 def ring(rng, bowed):
     """A random closed room about (0, 0) with tips: vertices, bulges."""
     count = int(rng.choice([4, 6, 9, 14]))
