@@ -190,3 +190,24 @@ def test_many_points_at_corners_end_where_each_does_alone():
     assert list(totals.bounces) == list(run.bounces)
     for name, column in zip(("x", "y"), totals.position.T, strict=True):
         assert list(column) == list(run.final[name])
+
+
+def test_a_disc_that_comes_over_a_corner_along_its_edge_meets_one_of_the_two():
+    # It comes from afar to where it touches the very end of a slope, in the direction of the slope, and falls on to it:
+    # with v^2 / r > g the vertex alone would be grazed, and the line alone is reached from below it, beside the edge.
+    rng, radius = np.random.default_rng(4), 0.01
+    for _ in range(60):
+        angle = rng.uniform(-0.7, 0.7)
+        way = np.array([np.cos(angle), np.sin(angle)])
+        normal = np.array([-way[1], way[0]])
+        block = [np.zeros(2), 30.0 * way, 30.0 * way - 5.0 * normal, 6.0 * way - 5.0 * normal]
+        block[3][1] -= 40.0  # its other edge at the vertex goes down, out of the way
+        block[2][1] -= 40.0
+        start, velocity = thrown_at(radius * normal + rng.normal(0.0, 1e-12, 2), rng.uniform(20.0, 40.0) * way, 0.8)
+        room = [(-90.0, -90.0), (90.0, -90.0), (90.0, 90.0), (-90.0, 90.0)]
+        scene = Scene(Walls.from_polylines([room, block]), Balls([start], [velocity], radius), gravity=GRAVITY)
+        contacts = simulate(scene, until=0.9, bounces=50).contacts
+        assert len(contacts)
+        assert contacts["time"][0] == pytest.approx(0.8, abs=1e-5)
+        height = contacts["x"] * normal[0] + contacts["y"] * normal[1]
+        assert height.min() > radius - 1e-9
