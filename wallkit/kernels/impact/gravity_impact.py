@@ -202,6 +202,8 @@ def _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, size, t_max):
     They are off by the rounding of ``size``^2, which is 1 / r of that in the distance: where a disc comes over a corner
     on to its edge, along that, neither the edge nor the corner would stop it. So it is asked again from near by.
     """
+    if not size < math.inf:
+        return NEVER
     near = first_fall_quartic(c4, c3, c2, c1, c0 - GRAZING_ROUNDING * size * size, t_max, False)
     if not near < NEVER:
         return NEVER
@@ -209,7 +211,10 @@ def _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, size, t_max):
     ux, uy = vx + near * gx, vy + near * gy
     # The quartic of the flight from there: its c0 is of the size of r^2, not of the way to the corner.
     f3, f2 = ux * gx + uy * gy, ux * ux + uy * uy + px * gx + py * gy
-    f1, f0 = 2.0 * (px * ux + py * uy), px * px + py * py - radius * radius
+    # Within the rounding of places it touches the corner: else it might be just past that, and just below the line.
+    way = abs(ex) + abs(ey) + near * (abs(vx) + abs(vy) + near * (abs(gx) + abs(gy)))
+    reach = radius + 2.0**-50 * way
+    f1, f0 = 2.0 * (px * ux + py * uy), px * px + py * py - reach * reach
     return near + first_fall_quartic(c4, f3, f2, f1, f0, t_max - near, False)
 
 
