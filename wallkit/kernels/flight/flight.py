@@ -110,7 +110,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
         hits[tally_of(model, feature)] += 1
         noted = note(log, noted, clock, ball, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
         ball, grip, ending = after_bounce(model, gravity, radius, feature, wall, ball, grip, nx, ny, tolerance)
-        ending = AMBIGUOUS_CORNER if splits else ending
+        ending = AMBIGUOUS_CORNER if splits and ending == RUNNING else ending
     ball, clock, start, ending = flown_on(model, gravity, ball, clock, start, ending, until)
     write_state(state, counts, ball, clock, start, grip, last, bounces, ending, still, before)
     return noted

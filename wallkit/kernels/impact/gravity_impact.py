@@ -26,7 +26,7 @@ SMOOTH_ON = 1.0 - 2.0**-20
 HULL_ROUNDING = 2.0**-45
 """Of the size of a hull, beyond the rounding of its points and of what is made of them."""
 GRAZING_ROUNDING = 2.0**-46
-"""Of the squared size of a flight's hull, above the rounding of the quartic's coefficients."""
+"""Of the squared way to a corner, above the rounding of the quartic's coefficients."""
 LATER = 1.0 + 2.0**-18
 """Roots are looked for up to so much after the time that matters: ``_polished`` moves them by less."""
 
@@ -181,7 +181,7 @@ def fall_corners(
         )  # fmt: skip
         if drag is None:
             if t == NEVER and c0 > 0.0 and not from_behind and -2 - ids[k] != last:
-                t = _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, size, LATER * min(best, until))
+                t = _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, LATER * min(best, until))
         if one_sided is not None:
             if t <= best and t < NEVER:
                 there_x, there_y = along(drag, ex, vx, gx, t), along(drag, ey, vy, gy, t)
@@ -196,14 +196,18 @@ def fall_corners(
 
 
 @rare_kernel
-def _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, size, t_max):
+def _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, t_max):
     """First fall of a disc on to a corner that the rounding of the quartic's coefficients hides, or NEVER.
 
-    They are off by the rounding of ``size``^2, which is 1 / r of that in the distance: where a disc comes over a corner
-    on to its edge, along that, neither the edge nor the corner would stop it. So it is asked again from near by.
+    They are off by the rounding of the squared way, which is 1 / r of that in the distance: where a disc comes over a
+    corner on to its edge, along that, neither the edge nor the corner would stop it. So it is asked again from near by.
     """
-    if not size < math.inf:
+    # At the corner e + v t + g t^2 / 2 = 0: g t^2 / 2 <= |e| + |v| t, so t <= (|v| + sqrt(v^2 + 2 g |e|)) / g.
+    pull, speed, off = math.sqrt(gx * gx + gy * gy), abs(vx) + abs(vy), abs(ex) + abs(ey)
+    if pull == 0.0:
         return NEVER
+    latest = (speed + math.sqrt(speed * speed + 2.0 * pull * off)) / pull
+    size = 2.0 * (off + speed * latest)
     near = first_fall_quartic(c4, c3, c2, c1, c0 - GRAZING_ROUNDING * size * size, t_max, False)
     if not near < NEVER:
         return NEVER
