@@ -8,7 +8,8 @@ Each drawing is a star-shaped ring, every second one with some edges bowed into 
 ball is lost if it ends outside its ring by more than the rounding of coordinates, or leaves the scene. With
 ``--falling`` balls fall, walls take from them what they like (restitution 0 to 1, along the wall too), half of the
 drawings have rolling friction or drag, and balls slide, glide, pivot and rest; their energy must never grow. With
-``--corners`` they are thrown at vertices from nearby, some of them exactly.
+``--corners`` they are thrown at vertices from nearby, some of them exactly; with ``--falling`` half of the discs, small
+ones, come from afar to where they touch the beginning of an edge, along that.
 """
 
 from __future__ import annotations
@@ -90,16 +91,31 @@ def thrown_at_corners(rng, points, free, pull):
     return position, velocity + rng.choice([0.0, 1e-9, 1e-6, 1e-4, 0.05]) * rng.normal(size=way.shape)
 
 
+def thrown_along_edges(rng, points, free, radius):
+    """Places, and velocities with which falling discs graze a vertex just where they touch the edge after it."""
+    first = rng.integers(0, len(points), BALLS)
+    edge = np.roll(points, -1, axis=0)[first] - points[first]
+    way = edge / np.hypot(*edge.T)[:, None]
+    time, speed = rng.uniform(0.1, 1.0, (BALLS, 1)), rng.uniform(5.0, 60.0, (BALLS, 1))
+    there = points[first] + radius * np.stack([-way[:, 1], way[:, 0]], axis=1)
+    position = there - speed * way * time + np.array(PULL) * time**2 / 2
+    inside = shapely.contains_xy(free, position[:, 0], position[:, 1])
+    return position[inside], (speed * way - np.array(PULL) * time)[inside]
+
+
 def fly(rng, number, falling, corners):
     """Fly one drawing: (bounces, lost, drift of the energy, balls that ended in an ambiguous corner)."""
     points, bulges = ring(rng, bowed=number % 2 == 1)
-    radius = float(rng.choice([0.0, 0.3, 1.5])) if number % 4 < 2 else 0.0
+    radius = float(rng.choice([0.0, 0.01, 0.3] if corners else [0.0, 0.3, 1.5])) if number % 4 < 2 else 0.0
     region, missed = outline(points, bulges)
     free = region.buffer(-radius - missed - 1e-6)
     if not region.is_valid or free.is_empty:
         return 0, 0, 0.0, 0
     if corners:
         position, velocity = thrown_at_corners(rng, points, free, PULL if falling else (0.0, 0.0))
+        if falling and radius > 0.0:
+            more = thrown_along_edges(rng, points, free, radius)
+            position, velocity = np.concatenate([position, more[0]]), np.concatenate([velocity, more[1]])
     else:
         position, velocity = scattered(rng, free)
     material, acts = acting(rng) if falling else (wallkit.Material(), {})

@@ -91,6 +91,32 @@ def test_a_point_stopped_in_a_corner_overhead_between_two_of_three_walls_stays_b
         assert Ending.LEFT_SCENE not in run.ending
 
 
+@pytest.mark.parametrize("velocity", [(0.0, -6.0), (0.5, -6.0), (-0.25, -7.0)])
+@pytest.mark.parametrize(
+    ("degrees", "restitution", "ending"),
+    [
+        # Reflections at two walls commute where their angle is pi / n, and where it is right and they take speed.
+        (60.0, 1.0, Ending.TIME_REACHED),
+        (90.0, 1.0, Ending.TIME_REACHED),
+        (90.0, 0.5, Ending.TIME_REACHED),
+        (50.0, 1.0, Ending.AMBIGUOUS_CORNER),
+        (60.0, 0.5, Ending.AMBIGUOUS_CORNER),
+    ],
+)
+def test_orders_of_bounces_are_compared_at_the_velocity_of_the_hit(degrees, restitution, ending, velocity):
+    # Thrown up, with a velocity that recedes from both walls, and falling into the tip of a valley.
+    half = 10.0 * np.tan(np.radians(degrees / 2))
+    valley = Walls.from_polylines([[(0.0, 0.0), (half, 10.0), (-half, 10.0)]], material=Material(restitution))
+    start, speed = thrown_at((0.0, 0.0), velocity, 0.875)
+    assert speed[1] > 2.0 * abs(speed[0])
+    run = simulate(Scene(valley, Balls([start], [speed]), gravity=GRAVITY), until=0.9)
+    assert run.ending[0] == ending
+    if restitution == 1.0 and ending == Ending.TIME_REACHED:  # n bounces: straight back, or mirrored where n is odd
+        back = np.array([velocity[0] if degrees == 60.0 else -velocity[0], -velocity[1]])
+        place = back * 0.025 + GRAVITY * 0.025**2 / 2
+        assert (run.final["x"][0], run.final["y"][0]) == pytest.approx(tuple(place), abs=1e-9)
+
+
 def ring(rng, bowed):
     """A random closed room about (0, 0) with tips: vertices, bulges."""
     count = int(rng.choice([4, 6, 9, 14]))
@@ -164,3 +190,24 @@ def test_many_points_at_corners_end_where_each_does_alone():
     assert list(totals.bounces) == list(run.bounces)
     for name, column in zip(("x", "y"), totals.position.T, strict=True):
         assert list(column) == list(run.final[name])
+
+
+def test_a_disc_that_comes_over_a_corner_along_its_edge_meets_one_of_the_two():
+    # It comes from afar to where it touches the very end of a slope, in the direction of the slope, and falls on to it:
+    # with v^2 / r > g the vertex alone would be grazed, and the line alone is reached from below it, beside the edge.
+    rng, radius = np.random.default_rng(4), 0.01
+    for _ in range(60):
+        angle = rng.uniform(-0.7, 0.7)
+        way = np.array([np.cos(angle), np.sin(angle)])
+        normal = np.array([-way[1], way[0]])
+        block = [np.zeros(2), 30.0 * way, 30.0 * way - 5.0 * normal, 6.0 * way - 5.0 * normal]
+        block[3][1] -= 40.0  # its other edge at the vertex goes down, out of the way
+        block[2][1] -= 40.0
+        start, velocity = thrown_at(radius * normal + rng.normal(0.0, 1e-12, 2), rng.uniform(20.0, 40.0) * way, 0.8)
+        room = [(-90.0, -90.0), (90.0, -90.0), (90.0, 90.0), (-90.0, 90.0)]
+        scene = Scene(Walls.from_polylines([room, block]), Balls([start], [velocity], radius), gravity=GRAVITY)
+        contacts = simulate(scene, until=0.9, bounces=50).contacts
+        assert len(contacts)
+        assert contacts["time"][0] == pytest.approx(0.8, abs=1e-5)
+        height = contacts["x"] * normal[0] + contacts["y"] * normal[1]
+        assert height.min() > radius - 1e-9

@@ -11,7 +11,7 @@ from wallkit.kernels.flight.joints import NO_END, end_at, next_face
 from wallkit.kernels.flight.motion import advance
 from wallkit.kernels.flight.point_in_corner import settle
 from wallkit.kernels.flight.resting import held_after, keep, side_of, stopped_between
-from wallkit.kernels.flight.vertex import first_face
+from wallkit.kernels.flight.vertex import first_face, order_shows
 from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.records import (
@@ -75,7 +75,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
     ball, clock, start, grip, last, bounces, still, before = read_state(state, counts)
     tolerance, noted, ending = state[STATE.tolerance], 0, RUNNING
     while ending == RUNNING and noted < capacity:
-        face, ending = 0.0, ending_at_once(gravity, ball[4], bounces, limit)
+        face, splits, ending = 0.0, False, ending_at_once(gravity, ball[4], bounces, limit)
         if ending != RUNNING:
             break
         remaining = (until - clock[0]) - clock[1]
@@ -95,7 +95,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                 if still > still_limit(model.restitution):
                     ending = COLLAPSE
                     break
-            ball, clock, start, grip, last, still, feature, face = arrived(
+            ball, clock, start, grip, last, still, feature, face, splits = arrived(
                 model, gravity, radius, ball, clock, start, grip, last, still, feature, t, passed, slower, tolerance
             )
         if feature == NO_HIT:
@@ -110,6 +110,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
         hits[tally_of(model, feature)] += 1
         noted = note(log, noted, clock, ball, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
         ball, grip, ending = after_bounce(model, gravity, radius, feature, wall, ball, grip, nx, ny, tolerance)
+        ending = AMBIGUOUS_CORNER if splits and ending == RUNNING else ending
     ball, clock, start, ending = flown_on(model, gravity, ball, clock, start, ending, until)
     write_state(state, counts, ball, clock, start, grip, last, bounces, ending, still, before)
     return noted
@@ -237,8 +238,11 @@ def flown(model, gravity, radius, ball, clock, grip, t, passed, slower):
 
 @kernel
 def arrived(model, gravity, radius, ball, clock, start, grip, last, still, feature, t, passed, slower, tolerance):
-    """Take a ball to what it meets: (ball, clock, start, grip, last, still, feature, face), see ``at_vertex``."""
-    face = 0.0
+    """Take a ball to what it meets: (ball, clock, start, grip, last, still, feature, face, splits).
+
+    See ``at_vertex``; ``splits`` tells that no digit decides where it goes on from an exact hit, see ``order_shows``.
+    """
+    face, splits = 0.0, False
     if t > 0.0:
         ball, clock, start = flown(model, gravity, radius, ball, clock, grip, t, passed, slower)
     if gravity is not None:
@@ -248,7 +252,9 @@ def arrived(model, gravity, radius, ball, clock, start, grip, last, still, featu
         if feature == NO_HIT:  # it flies past a vertex, and not without end
             still += 1
             feature = COLLAPSES if still > still_limit(model.restitution) else NO_HIT
-    return ball, clock, start, grip, last, still, feature, face
+        elif face != 0.0 and t > 0.0:
+            splits = order_shows(model, feature, face, ball, tolerance)
+    return ball, clock, start, grip, last, still, feature, face, splits
 
 
 @kernel

@@ -33,7 +33,7 @@ def settle(model, last, side, x, y, vx, vy, from_x, from_y, from_vx, from_vy, to
     has no limit; COLLAPSES if restitution takes all speed before the point gets out.
     """
     cell = model.cells[home(model, model.grid, x, y)]
-    found, found_side, last_side = NO_HIT, 0.0, side * outward(model.arcs, last)
+    found, found_side, found_joined, last_side = NO_HIT, 0.0, False, side * outward(model.arcs, last)
     if side == 0.0:
         last_side = _left(model, last, x, y, vx, vy, from_x, from_y, from_vx, from_vy, tolerance)
     closest = -2.0
@@ -49,11 +49,15 @@ def settle(model, last, side, x, y, vx, vy, from_x, from_y, from_vx, from_vy, to
         # Of the edges that it runs against, the one that leans most over its way is the next one in the wedge.
         lean = _lean(model, last, last_side, edge, came, x, y, vx, vy, tolerance)
         if lean > closest:
-            closest, found, found_side = lean, edge, came
+            closest, found, found_side, found_joined = lean, edge, came, joined
     if found == NO_HIT:
         return NO_HIT
     if still > 0:
         return found
+    # Under gravity both orders are compared at the hit itself, see ``vertex.order_shows``; here where it has not flown.
+    if found_joined and (x != from_x or y != from_y):
+        ax, ay = _leave(model, found, found_side, last, last_side, x, y, vx, vy)
+        return COLLAPSES if _is_nothing(model.restitution, ax, ay, vx, vy) else found
     return _outcome(model, last, last_side, found, found_side, x, y, from_vx, from_vy)
 
 
@@ -181,12 +185,26 @@ def _passes(one_sided, model, arcs, edge, came):
 def _outcome(model, first, first_side, second, second_side, x, y, vx, vy):
     """Tell what bouncing off two edges in turn comes to, whichever is first: the second edge if that is the same."""
     ax, ay = _leave(model, first, first_side, second, second_side, x, y, vx, vy)
+    if _is_nothing(model.restitution, ax, ay, vx, vy):
+        return COLLAPSES
+    return AMBIGUOUS if order_matters(model, first, first_side, second, second_side, x, y, vx, vy) else second
+
+
+@rare_kernel
+def order_matters(model, first, first_side, second, second_side, x, y, vx, vy):
+    """Tell whether bouncing off two edges in turn comes to something else where the second one is the first."""
+    ax, ay = _leave(model, first, first_side, second, second_side, x, y, vx, vy)
     bx, by = _leave(model, second, second_side, first, first_side, x, y, vx, vy)
     # Reflections at two walls commute, bounce for bounce, where their angle is pi / n; else the order shows.
-    small = SAME * SAME * (vx * vx + vy * vy)
-    if model.restitution is not None and ax * ax + ay * ay <= small:
-        return COLLAPSES
-    return second if (ax - bx) * (ax - bx) + (ay - by) * (ay - by) <= small else AMBIGUOUS
+    return (ax - bx) * (ax - bx) + (ay - by) * (ay - by) > SAME * SAME * (vx * vx + vy * vy)
+
+
+@kernel
+def _is_nothing(restitution, ax, ay, vx, vy):
+    """Tell whether restitution has taken all speed of a ball: a is what is left of v."""
+    if restitution is None:
+        return False
+    return ax * ax + ay * ay <= SAME * SAME * (vx * vx + vy * vy)
 
 
 @rare_kernel

@@ -12,7 +12,8 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.flight.joints import AT_VERTEX, NO_END, end_at, left_face, one_sided, other_bound
-from wallkit.kernels.flight.point_in_corner import touching
+from wallkit.kernels.flight.motion import reflect
+from wallkit.kernels.flight.point_in_corner import order_matters, touching
 from wallkit.kernels.impact.contact_normal import normal_at, outward
 from wallkit.kernels.impact.drag_motion import pulled
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
@@ -59,6 +60,35 @@ def first_face(model, gravity, feature, end, last, ball, start, tolerance):
     if bends < 0.0 and (out_first if beside == first else out_second) > 0.0:
         return beside >> 1, face, NO_HIT, 0.0  # it is pressed on it
     return NO_HIT, 0.0, beside >> 1, face
+
+
+@rare_kernel
+def order_shows(model, feature, face, ball, tolerance):
+    """Tell whether a point that comes to a vertex, and meets a face there, bounces on elsewhere than from the other.
+
+    It is asked of the velocity at the hit. A point that recedes from the other face after the first bounce is free.
+    """
+    x, y, vx, vy, _energy = ball
+    own = end_at(model, feature, x, y, tolerance)
+    if own == NO_END or not touching(model, model.arcs, feature, x, y, tolerance)[0]:
+        return False
+    end, other_face = other_bound(model, own, face)
+    other = end >> 1
+    if other_face == 0.0 or other == feature or not touching(model, model.arcs, other, x, y, tolerance)[0]:
+        return False
+    # Of a sector of half a turn or more the other bound is not met after a bounce.
+    one, two = model.joints[own], model.joints[end]
+    if face * left_face(own) * (one.tx * two.ty - one.ty * two.tx) <= TOGETHER:
+        return False
+    side, other_side = face * outward(model.arcs, feature), other_face * outward(model.arcs, other)
+    nx, ny, twice = normal_at(model, model.arcs, feature, x, y)
+    bounced_x, bounced_y, _square = reflect(
+        model.restitution, model.edge_wall[feature], nx, ny, twice, vx, vy, vx * vx + vy * vy
+    )
+    mx, my, _twice = normal_at(model, model.arcs, other, x, y)
+    if other_side * (bounced_x * mx + bounced_y * my) >= 0.0:
+        return False
+    return order_matters(model, feature, side, other, other_side, x, y, vx, vy)
 
 
 @kernel

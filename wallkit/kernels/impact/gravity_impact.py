@@ -25,6 +25,8 @@ SMOOTH_ON = 1.0 - 2.0**-20
 """Cosine between the normals of a wall that a point has left and of an arc that goes on from it: some 2^-10 apart."""
 HULL_ROUNDING = 2.0**-45
 """Of the size of a hull, beyond the rounding of its points and of what is made of them."""
+GRAZING_ROUNDING = 2.0**-46
+"""Of the squared way to a corner, above the rounding of the quartic's coefficients."""
 LATER = 1.0 + 2.0**-18
 """Roots are looked for up to so much after the time that matters: ``_polished`` moves them by less."""
 
@@ -177,6 +179,9 @@ def fall_corners(
             drag, far, 1.0, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy, c4, c3, c2, c1, c0, 0.0,
             LATER * min(best, until), from_behind,
         )  # fmt: skip
+        if drag is None:
+            if t == NEVER and c0 > 0.0 and not from_behind and -2 - ids[k] != last:
+                t = _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, LATER * min(best, until))
         if one_sided is not None:
             if t <= best and t < NEVER:
                 there_x, there_y = along(drag, ex, vx, gx, t), along(drag, ey, vy, gy, t)
@@ -188,6 +193,33 @@ def fall_corners(
         if t < best or (t == best and precedes(-2 - ids[k], feature)):
             best, feature = t, -2 - ids[k]
     return best, feature
+
+
+@rare_kernel
+def _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, t_max):
+    """First fall of a disc on to a corner that the rounding of the quartic's coefficients hides, or NEVER.
+
+    They are off by the rounding of the squared way, which is 1 / r of that in the distance: where a disc comes over a
+    corner on to its edge, along that, neither the edge nor the corner would stop it. So it is asked again from near by.
+    """
+    # At the corner e + v t + g t^2 / 2 = 0: g t^2 / 2 <= |e| + |v| t, so t <= (|v| + sqrt(v^2 + 2 g |e|)) / g.
+    pull, speed, off = math.sqrt(gx * gx + gy * gy), abs(vx) + abs(vy), abs(ex) + abs(ey)
+    if pull == 0.0:
+        return NEVER
+    latest = (speed + math.sqrt(speed * speed + 2.0 * pull * off)) / pull
+    size = 2.0 * (off + speed * latest)
+    near = first_fall_quartic(c4, c3, c2, c1, c0 - GRAZING_ROUNDING * size * size, t_max, False)
+    if not near < NEVER:
+        return NEVER
+    px, py = ex + near * (vx + 0.5 * near * gx), ey + near * (vy + 0.5 * near * gy)
+    ux, uy = vx + near * gx, vy + near * gy
+    # The quartic of the flight from there: its c0 is of the size of r^2, not of the way to the corner.
+    f3, f2 = ux * gx + uy * gy, ux * ux + uy * uy + px * gx + py * gy
+    # Within the rounding of places it touches the corner: else it might be just past that, and just below the line.
+    way = abs(ex) + abs(ey) + near * (abs(vx) + abs(vy) + near * (abs(gx) + abs(gy)))
+    reach = radius + 2.0**-50 * way
+    f1, f0 = 2.0 * (px * ux + py * uy), px * px + py * py - reach * reach
+    return near + first_fall_quartic(c4, f3, f2, f1, f0, t_max - near, False)
 
 
 @rare_kernel
