@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from wallkit import Balls, Ending, Material, Scene, Walls, simulate, survey
-from wallkit.kernels.impact.gravity_impact import fall_arcs, fall_corners
+from wallkit.kernels.impact.arc_fall import fall_arcs
+from wallkit.kernels.impact.gravity_impact import fall_corners
 from wallkit.kernels.impact.polynomial_roots import NEVER
 from wallkit.kernels.records import NO_HIT, Corner, in_lists
 from wallkit.simulation.edge_records import arcs_of, lines_of

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.batches.lockstep_lanes import Outcome
-from wallkit.kernels.flight.flight import end_all
+from wallkit.kernels.flight.ball_state import end_all
 from wallkit.kernels.flight.watch import OTHER, REGULAR, REPEATS, ROWS, SLOW, Watch, fly_watched
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.records import LOG_STRIDE, in_lists

@@ -43,8 +43,8 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import circles
+from wallkit.kernels.flight.ball_state import FALLING_TOLERANCE
 from wallkit.kernels.flight.error_growth import BOUNCES, LEAVES, PASSES, SLIDES, SLOWS, STOPS, TURNS, carry, stretch
-from wallkit.kernels.flight.flight import FALLING_TOLERANCE
 from wallkit.kernels.jit import compile_for, compiled
 from wallkit.kernels.signatures import kinds_of
 from wallkit.scene.scene import Scene

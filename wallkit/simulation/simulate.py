@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from wallkit.arguments import flag, number, of_type, refused, whole_number, word
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.compile_aside import at_hand
-from wallkit.kernels.flight.flight import FALLING_TOLERANCE, TOLERANCE, fly, fly_all
+from wallkit.kernels.flight.ball_state import FALLING_TOLERANCE, TOLERANCE
+from wallkit.kernels.flight.flight import fly, fly_all
 from wallkit.kernels.flight.resting import side_of
 from wallkit.kernels.jit import compile_for, compiled
 from wallkit.kernels.records import (

@@ -17,7 +17,8 @@ from wallkit.kernels.batches.lockstep_lanes import LANES, ROW_SIZE, SCRATCH, Out
 from wallkit.kernels.batches.wave import MET, WAVES, WaveScratch, fly_wave
 from wallkit.kernels.batches.wave_columns import COUNTS, FLOATS, INTEGERS, LISTED, MOVER
 from wallkit.kernels.batches.wave_columns import LANES as WAVE
-from wallkit.kernels.flight.flight import begin_all, end_all, fly_all
+from wallkit.kernels.flight.ball_state import begin_all, end_all
+from wallkit.kernels.flight.flight import fly_all
 from wallkit.kernels.flight.sensors import fly_sensed
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.records import LOG_STRIDE, STATE_SIZE, Model

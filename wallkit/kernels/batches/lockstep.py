@@ -54,7 +54,8 @@ from wallkit.kernels.batches.lockstep_lanes import (
     row_of,
 )  # fmt: skip
 from wallkit.kernels.batches.lockstep_straight import WIDER, ask_straight, bounce_straight, set_out
-from wallkit.kernels.flight.flight import FALLING_OVER, flown_on, fly, has_left, tolerance_of
+from wallkit.kernels.flight.ball_state import FALLING_OVER, has_left, tolerance_of
+from wallkit.kernels.flight.flight import flown_on, fly
 from wallkit.kernels.flight.gravity import kept_energy
 from wallkit.kernels.jit import kernel, pass_kernel, rare_kernel
 from wallkit.kernels.records import (

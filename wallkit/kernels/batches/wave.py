@@ -55,17 +55,16 @@ from wallkit.kernels.batches.wave_columns import (
 )
 from wallkit.kernels.batches.wave_impact import meet
 from wallkit.kernels.batches.wave_walk import cross, decide, prefetch_cells, prefetch_listed
+from wallkit.kernels.flight.ball_state import has_left, tolerance_of
 from wallkit.kernels.flight.damping import free_time, slowed
 from wallkit.kernels.flight.flight import (
     absorbs,
     ending_without,
     flown_on,
-    has_left,
     normal_of,
     passes,
     still_limit,
     tally_of,
-    tolerance_of,
     wall_of,
 )
 from wallkit.kernels.flight.motion import advance, reflect

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import math
 
+from wallkit.kernels.impact.arc_fall import fall_arcs
 from wallkit.kernels.impact.drag_motion import along, beyond, speed_after, standstill, time_of_way
-from wallkit.kernels.impact.gravity_impact import fall_arcs, fall_corners, fall_line
+from wallkit.kernels.impact.gravity_impact import fall_corners, fall_line
 from wallkit.kernels.impact.polynomial_roots import NEVER
 from wallkit.kernels.index.grid import clearing, leaf, moves_to_next, place
 from wallkit.kernels.jit import kernel
