@@ -19,7 +19,7 @@ import tinycss2
 from importers.limits import Work
 
 STEPS = 40  # of work for a part that is compiled
-STEPS_OF_A_LETTER = 6  # besides, for what is compiled is read and written several times
+STEPS_OF_A_LETTER = 12  # of a long one, which is read and written several times
 STEPS_OF_A_TEST = 2  # of an element by a chain of parts, besides those of the way
 MOST_NESTED = (
     10  # blanks within blanks of ``:is(...)`` and its like: Python 3.14 compiles 2 ** 10 copies of the innermost
@@ -82,7 +82,7 @@ def _compiled(tokens: list[Any], namespaces: dict[str | None, str], work: Work) 
         if nested > MOST_NESTED:
             raise NotUnderstoodError
         text = tinycss2.serialize(part)
-        work.charge("selectors", (STEPS << nested) + STEPS_OF_A_LETTER * len(text))
+        work.charge("selectors", max(STEPS << nested, STEPS_OF_A_LETTER * len(text)))
         try:
             (test,) = cssselect2.compile_selector_list(text, namespaces=namespaces)
         except _NOT_UNDERSTOOD as error:
