@@ -15,15 +15,18 @@ ones, come from afar to where they touch the beginning of an edge, along that.
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import shapely
 
 import wallkit
 from wallkit.simulation.run import Ending
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "physics"))
+from outlines import outline
 
 BALLS, BOUNCES = 400, 25_000
 PULL = (0.0, -30.0)
@@ -36,24 +39,6 @@ def ring(rng, bowed):
     angle = 2 * np.pi * (np.arange(count) + 0.8 * rng.random(count)) / count
     points = (100.0 * (1 - 0.6 * rng.random(count)))[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     return points, np.where(rng.random(count) < 0.5, rng.uniform(-0.15, 0.15, count), 0.0) if bowed else np.zeros(count)
-
-
-def outline(points, bulges, pieces=400):
-    """The ring with its arcs cut into many chords, and how far these miss the arcs."""
-    path, missed = [], 0.0
-    for a, b, bulge in zip(points, np.roll(points, -1, axis=0), bulges, strict=True):
-        if bulge == 0.0:
-            path.append(a)
-            continue
-        angle = 4 * math.atan(bulge)
-        chord = b - a
-        left = np.array([-chord[1], chord[0]])
-        centre = (a + b) / 2 + left * (1 - bulge**2) / (4 * bulge)
-        radius = math.hypot(*(a - centre))
-        turns = math.atan2(*(a - centre)[::-1]) + angle * np.arange(pieces) / pieces
-        path.extend(centre + radius * np.stack([np.cos(turns), np.sin(turns)], axis=1))
-        missed = max(missed, radius * (1 - math.cos(angle / pieces / 2)))
-    return shapely.Polygon(path), missed
 
 
 def acting(rng):

@@ -154,16 +154,24 @@ def to_px(terms: Terms, percent_of: float, font: Font) -> float:
     Raises:
         NumberError: it is infinite.
     """
-    total = 0.0
-    for value, unit in terms:
-        if isinstance(unit, tuple):
-            pick, arguments = unit
-            total += value * _PICKS[pick]([to_px(argument, percent_of, font) for argument in arguments])
-            continue
+
+    def px(unit: str) -> float:
         factor = _PX.get(unit)
         if factor is None:
             factor = percent_of / 100 if unit == "%" else _WINDOW_UNITS.get(unit)
-        total += value * (factor if factor is not None else _font_unit(unit, font))
+        return factor if factor is not None else _font_unit(unit, font)
+
+    return _total(terms, px)
+
+
+def _total(terms: Terms, factor: Callable[[str], float]) -> float:
+    """Add up terms, each unit being worth a factor; NumberError where that, or an argument, is infinite."""
+    total = 0.0
+    for value, unit in terms:
+        if isinstance(unit, tuple):
+            total += value * _PICKS[unit[0]]([_total(argument, factor) for argument in unit[1]])
+        else:
+            total += value * factor(unit)
     return finite(total)
 
 
@@ -243,18 +251,7 @@ def parse_calc(token: Any, factors: dict[str, float]) -> float | None:
     terms = _terms(token)
     if terms is None or not all(unit in factors for unit in units_of(terms)):
         return None
-    return finite(_total(terms, factors))
-
-
-def _total(terms: Terms, factors: dict[str, float]) -> float:
-    total = 0.0
-    for value, unit in terms:
-        if isinstance(unit, tuple):
-            factor = _PICKS[unit[0]]([_total(argument, factors) for argument in unit[1]])
-        else:
-            factor = factors[unit]
-        total += finite(value * factor)
-    return total
+    return _total(terms, factors.__getitem__)
 
 
 def _terms(token: Any) -> Terms | None:

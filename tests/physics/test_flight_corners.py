@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import shapely
+from outlines import outline
 
 from wallkit import Balls, Ending, Material, Scene, Walls, simulate, survey
 
@@ -123,24 +124,6 @@ def ring(rng, bowed):
     angles = 2 * np.pi * (np.arange(count) + 0.8 * rng.random(count)) / count
     points = (100.0 * (1 - 0.7 * rng.random(count)))[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     return points, np.where(rng.random(count) < 0.6, rng.uniform(-0.15, 0.15, count), 0.0) * bowed
-
-
-def outline(points, bulges, pieces=400):
-    """The room with its arcs cut into chords, and how far these miss the arcs."""
-    path, missed = [], 0.0
-    for a, b, bulge in zip(points, np.roll(points, -1, axis=0), bulges, strict=True):
-        if bulge == 0.0:
-            path.append(a)
-            continue
-        angle, left = 4 * np.arctan(bulge), np.array([a[1] - b[1], b[0] - a[0]])
-        centre = (a + b) / 2 + left * (1 - bulge**2) / (4 * bulge)
-        turns = angle * np.arange(pieces) / pieces
-        x, y = a - centre
-        path.extend(
-            centre + np.stack([x * np.cos(turns) - y * np.sin(turns), x * np.sin(turns) + y * np.cos(turns)], 1)
-        )
-        missed = max(missed, np.hypot(x, y) * (1 - np.cos(angle / pieces / 2)))
-    return shapely.Polygon(path), missed
 
 
 def shots_at_vertices(rng, points, room, missed, count=200):

@@ -9,6 +9,7 @@ import shapely
 
 from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.checking.climbing import Segments, climb
+from wallkit.walls.checking.room_circles import climbed_from
 from wallkit.walls.checking.triangle_circles import TOO_SMALL, triangle_circles
 
 _NOTHING = 1e-6  # of the square root of the face's area: circles below are no room
@@ -31,13 +32,11 @@ def roomiest_circle(mesh: Triangulation, face: Any) -> tuple[float, float, float
     radius, place = triangle_circles(mesh, _NOTHING * float(np.sqrt(shapely.area(face))), where)
     if not radius.any():
         return None
-    known = np.argsort(-radius, kind="stable")[:_STARTS]
-    known = known[TOO_SMALL * radius[known] >= radius[known[0]]]
-    longest = np.where(where, mesh.length[mesh.edge].max(axis=1), 0.0)
-    more = np.argsort(-longest, kind="stable")[:_STARTS]
-    more = more[longest[more] > np.sqrt(3) * radius[known[0]]]
+    largest, longest = float(radius.max()), mesh.length[mesh.edge].max(axis=1)
+    roomy = np.where(TOO_SMALL * radius >= largest, radius, 0.0)
+    starts = climbed_from(roomy, longest, where, largest, (_STARTS, _STARTS))
     walls = Segments.of(*(mesh.points[mesh.ends[mesh.wall, end]] for end in (0, 1)))
-    places, distance = climb(walls, place[np.union1d(known, more)])
+    places, distance = climb(walls, place[starts])
     distance[~shapely.contains_xy(face, places)] = 0.0
     best = int(distance.argmax())
     return float(places[best, 0]), float(places[best, 1]), float(distance[best])

@@ -120,6 +120,16 @@ class Lines:
         return np.array([shapely.polygons(ring, holes or None) for ring, holes in zip(rings, inside, strict=True)])
 
     @cached_property
+    def around(self) -> tuple[list[Any], list[Any]]:
+        """What remains of the box around the lines: all of it, and the large ones that are nearly closed."""
+        import shapely
+
+        whole = shapely.envelope(shapely.multilinestrings(self.tree.geometries))
+        parts = shapely.get_parts(shapely.difference(whole, shapely.union_all(self.bounded)))
+        parts = [part for part in parts if part.geom_type == "Polygon" and not part.is_empty]
+        return parts, [part for part in sorted(parts, key=shapely.area)[-4:] if _is_nearly_closed(part, self)]
+
+    @cached_property
     def mesh(self) -> Triangulation | None:
         """Triangles between the pieces; None for a tangle."""
         from wallkit.geometry.triangulation import triangulate
@@ -161,7 +171,7 @@ def has_room(walls: Walls, anywhere: bool = False, lines: Lines | None = None) -
     """Tell whether there is a place that :func:`roomiest` would find, which is asked likewise."""
     lines = Lines.of(walls) if lines is None else lines
     for face in _faces(walls, lines, anywhere):
-        if (anywhere or walls.solid is not None) and len(_standing(face, lines)) > MOST_STANDING:
+        if (anywhere or walls.solid is not None) and len(_standing(_within(face), lines)) > MOST_STANDING:
             return True  # somewhere between them
         spot = _spot(face, lines)
         if spot is not None and (anywhere or not _in_material(walls, spot)):
@@ -193,10 +203,7 @@ def _faces(walls: Walls, lines: Lines, anywhere: bool) -> list[Any]:
     bounded = lines.bounded
     faces = [*bounded] if anywhere else _largest_free(walls, bounded)
     if not walls.closed.all() and (anywhere or walls.solid is None or not walls.solid.room):
-        whole = shapely.envelope(shapely.multilinestrings(lines.tree.geometries))
-        around = shapely.get_parts(shapely.difference(whole, shapely.union_all(bounded)))
-        around = [part for part in around if part.geom_type == "Polygon" and not part.is_empty]
-        nearly = [part for part in sorted(around, key=shapely.area)[-4:] if _is_nearly_closed(part, lines)]
+        around, nearly = lines.around
         faces += nearly if faces or nearly else around
     faces.sort(key=shapely.area, reverse=True)
     if faces and any(sides == "both" for sides in walls.sides):
@@ -267,11 +274,11 @@ def _spot(face: Any, lines: Lines) -> Spot | None:
     """The roomiest spot of a face, in which some of all lines may lie."""
     import shapely
 
-    standing = _standing(face, lines)
+    within = _within(face)
+    standing = _standing(within, lines)
     if len(standing) > MOST_STANDING:
         return _spot_in_a_crowd(face, lines)
-    size = math.sqrt(shapely.area(face))
-    free, within = face, shapely.buffer(face, -_INWARDS * size)
+    size, free = math.sqrt(shapely.area(face)), face
     inner = shapely.intersection(shapely.multilinestrings(lines.tree.geometries[standing]), within)
     if not shapely.is_empty(inner):  # open walls inside: thickened by a hair, they become holes
         free = shapely.difference(face, shapely.buffer(inner, 1e-6 * size))
@@ -286,11 +293,15 @@ def _spot(face: Any, lines: Lines) -> Spot | None:
     return Spot(float(x), float(y), room, free)
 
 
-def _standing(face: Any, lines: Lines) -> IntArray:
-    """The numbers of the pieces of lines that stand in a face, in rising order."""
+def _within(face: Any) -> Any:
+    """What is within a face, without its own edges."""
     import shapely
 
-    within = shapely.buffer(face, -_INWARDS * math.sqrt(shapely.area(face)))
+    return shapely.buffer(face, -_INWARDS * math.sqrt(shapely.area(face)))
+
+
+def _standing(within: Any, lines: Lines) -> IntArray:
+    """The numbers of the pieces of lines that stand within a face, in rising order."""
     standing: IntArray = np.sort(lines.tree.query(within, predicate="intersects"))
     return standing
 

@@ -86,8 +86,9 @@ def meet(model, radius, movers, s, q, pairs):
             _touch(s, pairs, LINE_MOVERS + first, near & real)
         else:
             met, behind = _meet_lines_disc(s, radius, padded)
-        met = _solid_lines(model, model.one_sided, pairs, LINE_IDS + first, met & real, behind)
-        _keep(s, pairs, LINE_MOVERS + first, met)
+        met &= real
+        through = _one_way(model, model.one_sided, pairs, LINE_IDS + first, met & behind)
+        _keep(s, pairs, LINE_MOVERS + first, met & ~through)
     _meet_arcs(model, model.arcs, radius, movers, s, pairs, arcs)
     if radius is not None:
         for first in range(0, corners, PAIRS):
@@ -106,20 +107,6 @@ def _part(left):
     """How many pairs to work on next, with those that make them up to whole vectors; the bits of those there are."""
     count = min(left, PAIRS)
     return (count + AT_ONCE - 1) // AT_ONCE * AT_ONCE, (1 << count) - 1
-
-
-@kernel
-def _solid_lines(model, one_sided, pairs, first, met, behind):
-    """Of the bits of contacts with lines, keep those that one-sided walls do not let through from ``behind``."""
-    if one_sided is None:
-        return met
-    left = met & behind
-    while left > 0:
-        j = lowest(left)
-        left &= left - 1
-        if one_sided[model.edge_wall[pairs[first + j]]] != 0:
-            met -= 1 << j
-    return met
 
 
 @kernel
@@ -145,8 +132,8 @@ def _solid_corners(model, one_sided, radius, s, pairs, first, met):
 
 
 @kernel
-def _one_way_arcs(model, one_sided, pairs, first, asked):
-    """Of the bits of arcs, those that belong to one-sided walls."""
+def _one_way(model, one_sided, pairs, first, asked):
+    """Of the bits of lines or arcs, those that belong to one-sided walls."""
     if one_sided is None:
         return 0
     found, left = 0, asked
@@ -194,7 +181,7 @@ def _meet_arcs(model, arcs, radius, movers, s, pairs, listed):
             fetch(arcs, pairs, ARC_IDS + first + i, s, ID + i, PAIRS)
         met, again = _meet_arcs_point(s, padded) if radius is None else _meet_arcs_disc(s, radius, padded)
         # Which of its sides stops a ball, and whether it has to leave it first, the scalar kernel knows.
-        alone = _one_way_arcs(model, model.one_sided, pairs, ARC_IDS + first, met & real)
+        alone = _one_way(model, model.one_sided, pairs, ARC_IDS + first, met & real)
         _keep(s, pairs, ARC_MOVERS + first, met & real & ~alone)
         again = (again & real) | alone
         while again > 0:

@@ -292,11 +292,6 @@ def one_type(of: Maybe) -> Type:
     return of.type if isinstance(of, Value) else constant(of).type
 
 
-def is_constant(of: Any) -> bool:
-    """Tell whether Python knows it."""
-    return not isinstance(of, Value)
-
-
 CALLS: dict[Any, Any] = {
     abs: lambda emitter, one: emitter.magnitude(one),
     max: lambda emitter, *values: emitter.extreme("Gt", values),

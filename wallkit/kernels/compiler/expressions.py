@@ -9,7 +9,7 @@ import ast
 from collections.abc import Callable
 from typing import Any
 
-from wallkit.kernels.compiler.emitter import CALLS, Maybe
+from wallkit.kernels.compiler.emitter import CALLS, Maybe, one_type
 from wallkit.kernels.compiler.memory import field_of, item, length, load, shape, tail
 from wallkit.kernels.compiler.values import (
     BOOL,
@@ -225,7 +225,13 @@ class Expressions(Variables):
         left = [one for one in node.values if self.static(one) is None]
 
         def make(one: ast.expr) -> Callable[[], Maybe]:
-            return lambda: self.to.truth(self.expression(one))
+            def truth() -> Maybe:
+                found = self.expression(one)
+                if one_type(found) != BOOL:  # Python gives the operand itself
+                    raise UnknownError(ast.unparse(node))
+                return found
+
+            return truth
 
         return self._decided([make(one) for one in left], decides)
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import builtins
+from functools import cache
 from typing import Any
 
 from wallkit.kernels.compiler.emitter import Emitter, Maybe
@@ -167,16 +168,10 @@ def without(known: dict[str, Maybe], names: set[str]) -> dict[str, Maybe]:
 
 def assigned_in(statements: list[ast.stmt]) -> set[str]:
     """Name all variables that statements assign to."""
-    found = set()
-    for statement in statements:
-        if (names := _ASSIGNED.get(statement)) is None:
-            names = _ASSIGNED[statement] = {
-                node.id
-                for node in ast.walk(statement)
-                if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
-            }
-        found |= names
-    return found
+    return {name for statement in statements for name in _assigned_by(statement)}
 
 
-_ASSIGNED: dict[ast.stmt, set[str]] = {}
+@cache
+def _assigned_by(statement: ast.stmt) -> frozenset[str]:
+    names = (node for node in ast.walk(statement) if isinstance(node, ast.Name))
+    return frozenset(node.id for node in names if isinstance(node.ctx, ast.Store))

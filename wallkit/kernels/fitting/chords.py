@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from wallkit.kernels.jit import kernel
+from wallkit.kernels.ordering import put_in_order
 
 DEEPEST = 40
 """Halvings: t is then below 1e-12, and rounding, not the curve, is what is left."""
@@ -272,18 +273,7 @@ def cut_the_rest(cubics, tolerance, halvings, room, waiting, cuts, counts):
         elif counts[n] < 0:
             counts[n] = halved(cubics, n, tolerance, halvings[n], waiting, cuts, room[n])
         else:
-            sort(cuts, room[n], counts[n])
-
-
-@kernel
-def sort(values, first, count):
-    """Sort some values that are in order, but for rounding."""
-    for k in range(first + 1, first + count):
-        value, at = values[k], k
-        while (at > first) and (values[at - 1] > value):
-            values[at] = values[at - 1]
-            at -= 1
-        values[at] = value
+            put_in_order(cuts, room[n], room[n] + counts[n])  # they are, but for rounding
 
 
 @kernel

@@ -6,6 +6,8 @@ side of a wall, 1 its outward one and -1 the other. Ends of edges are numbered a
 
 from __future__ import annotations
 
+import math
+
 from wallkit.kernels.jit import kernel, rare_kernel
 
 AT_VERTEX = 64.0
@@ -26,6 +28,20 @@ def end_at(model, edge, x, y, tolerance):
     if starts:
         return 2 * edge
     return 2 * edge + 1 if ends else NO_END
+
+
+@kernel
+def leading_along(model, first, wx, wy):
+    """The end, of all at the vertex of ``first``, whose edge goes off most along w, counted from that on."""
+    found, best, end = first, -math.inf, first
+    while True:
+        joint = model.joints[end]
+        along = wx * joint.tx + wy * joint.ty
+        if along > best:
+            found, best = end, along
+        end = int(joint.counter)
+        if end == first:
+            return found
 
 
 @kernel

@@ -19,7 +19,7 @@ import math
 from wallkit.kernels.flight.contact_state import stretch
 from wallkit.kernels.flight.gravity import LEVEL, kept_energy
 from wallkit.kernels.flight.guide import STRAIGHT, ahead_of, guide, off_guide, outside, press
-from wallkit.kernels.flight.joints import following, next_face, one_sided, side_after
+from wallkit.kernels.flight.joints import following, leading_along, next_face, one_sided, side_after
 from wallkit.kernels.flight.last_bounces import join
 from wallkit.kernels.flight.obstacles import SMOOTH_JOINT
 from wallkit.kernels.flight.pendulum import period
@@ -278,17 +278,7 @@ def _edge_at(model, corner, x, y):
     vertex = model.corners[-2 - corner]
     px, py = x - vertex.x, y - vertex.y
     # Of the edges around the vertex the one along which the centre is farthest: it is square to the normal there.
-    first = int(model.spokes[-2 - corner])
-    end = first
-    found, best = first, -math.inf
-    while True:
-        joint = model.joints[end]
-        along = px * joint.tx + py * joint.ty
-        if along > best:
-            found, best = end, along
-        end = int(joint.counter)
-        if end == first:
-            break
+    found = leading_along(model, int(model.spokes[-2 - corner]), px, py)
     joint = model.joints[found]
     to_right = px * joint.ty - py * joint.tx > 0.0
     return found >> 1, 1.0 if to_right == (found & 1 == 0) else -1.0

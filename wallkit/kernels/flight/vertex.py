@@ -9,9 +9,7 @@ For sectors, faces and ends see ``joints``, and docs/where-is-inside.md for why 
 
 from __future__ import annotations
 
-import math
-
-from wallkit.kernels.flight.joints import AT_VERTEX, NO_END, end_at, left_face, one_sided, other_bound
+from wallkit.kernels.flight.joints import AT_VERTEX, NO_END, end_at, leading_along, left_face, one_sided, other_bound
 from wallkit.kernels.flight.motion import reflect
 from wallkit.kernels.flight.point_in_corner import order_matters, touching
 from wallkit.kernels.impact.contact_normal import normal_at, outward
@@ -135,16 +133,7 @@ def _sector_of_way(model, gravity, end, ball, tolerance):
     if vx * vx + vy * vy <= 2.0 * pull * tolerance:
         wx, wy = gravity[0], gravity[1]  # at the top of its way: p - v t + g t^2 / 2
     # Nearest to the way lies an edge beside it; of edges that go off together the bend tells.
-    nearest, most, other = place, -math.inf, place
-    while True:
-        joint = model.joints[other]
-        along = wx * joint.tx + wy * joint.ty
-        if along > most:
-            nearest, most = other, along
-        other = int(joint.counter)
-        if other == place:
-            break
-    end = nearest
+    end = nearest = leading_along(model, place, wx, wy)
     lies_left = _is_left(model, gravity, end, wx, wy, ball, tolerance)
     while True:
         joint = model.joints[end]

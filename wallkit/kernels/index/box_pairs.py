@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from wallkit.kernels.intrinsics import lowest
 from wallkit.kernels.jit import kernel
+from wallkit.kernels.ordering import put_in_order
 
 WIDTH = 16
 """Boxes of a row."""
@@ -13,17 +14,6 @@ DEEPEST = 16
 
 MOST_SORTED = 64
 """Boxes of one question that are put in order one by one."""
-
-
-@kernel
-def put_in_order(values, first, stop):
-    """Sort a few values."""
-    for k in range(first + 1, stop):
-        value, at = values[k], k
-        while (at > first) and (values[at - 1] > value):
-            values[at] = values[at - 1]
-            at -= 1
-        values[at] = value
 
 
 @kernel

@@ -42,12 +42,8 @@ def largest_circles(
     of_room = [parts[width] == parts[width][at] for at, width in zip(home, rooms[chosen, 3].tolist(), strict=True)]
     longest = np.where((mesh.corners < len(mesh.points) - 4).all(axis=1), mesh.length[mesh.edge].max(axis=1), 0.0)
     for inside, radius in zip(of_room, rooms[chosen, 2].tolist(), strict=True):
-        known = np.flatnonzero(inside & (circle > radius / 2))
-        known = known[np.argsort(-circle[known], kind="stable")[:_STARTS]]
-        # no place in a triangle is farther from all corners than 1 / sqrt 3 of the longest side
-        more = np.flatnonzero(inside & (longest > math.sqrt(3) * radius))
-        more = more[np.argsort(-longest[more], kind="stable")[: 4 * _STARTS]]
-        starts.append(distinct(np.concatenate([known, more])))
+        roomy = np.where(inside & (circle > radius / 2), circle, 0.0)
+        starts.append(climbed_from(roomy, longest, inside, radius, (_STARTS, 4 * _STARTS)))
     room = np.repeat(np.arange(len(chosen)), [len(rows) for rows in starts[1:]])
     summit, radius = climb(walls, place[np.concatenate(starts)])
     at = triangles_at(mesh, summit)
@@ -58,6 +54,26 @@ def largest_circles(
             best = mine[radius[mine].argmax()]
             result[number] = *summit[best], radius[best]
     return result
+
+
+def climbed_from(
+    circle: FloatArray, longest: FloatArray, inside: NDArray[np.bool_], radius: float, most: tuple[int, int]
+) -> IntArray:
+    """Choose triangles from whose circles a larger one may be climbed to.
+
+    Args:
+        circle: (T,) radius of a circle in each; 0 for those that are not roomy.
+        longest: (T,) their longest sides.
+        inside: (T,) those that may have more room than they seem to.
+        radius: that of the largest circle so far.
+        most: how many of the roomiest are taken, and of the longest.
+    """
+    roomy = np.flatnonzero(circle)
+    roomy = roomy[np.argsort(-circle[roomy], kind="stable")[: most[0]]]
+    # no place in a triangle is farther from all corners than 1 / sqrt 3 of the longest side
+    wide = np.flatnonzero(inside & (longest > math.sqrt(3) * radius))
+    wide = wide[np.argsort(-longest[wide], kind="stable")[: most[1]]]
+    return distinct(np.concatenate([roomy, wide]))
 
 
 def triangles_at(mesh: Triangulation, points: FloatArray) -> IntArray:
