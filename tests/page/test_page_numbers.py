@@ -17,7 +17,11 @@ ROOM = [(0, 0), (0, 300), (400, 300), (400, 0)]
 MINUS = "\N{MINUS SIGN}"
 GRAPHS = ("height", "speed", "energy", "spin")
 LABELS = {"spin": "Graph of angular momentum"}
-DRAWN = "Wallkit.page.instruments.graphs.drawn && !Wallkit.page.instruments.graphs.job"
+GRAPH = "Wallkit.page.instruments.graphs"
+DRAWN = (  # what is wanted, at the size that the graphs have by now
+    f"{GRAPH}.drawn?.key === {GRAPH}.wanted() && !{GRAPH}.job"
+    f" && {GRAPH}.size.height === {GRAPH}.host.getBoundingClientRect().height"
+)
 
 
 def room(balls, **acts):
