@@ -12,7 +12,7 @@ from wallkit.kernels.flight.joints import NO_END, end_at, next_face
 from wallkit.kernels.flight.motion import advance
 from wallkit.kernels.flight.point_in_corner import settle
 from wallkit.kernels.flight.resting import held_after, keep, side_of, stopped_between
-from wallkit.kernels.flight.vertex import first_face, order_shows
+from wallkit.kernels.flight.vertex import first_face, order_shows, rests_anyhow
 from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.records import (
@@ -68,7 +68,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
     ball, clock, start, grip, last, bounces, still, before = read_state(state, counts)
     tolerance, noted, ending = state[STATE.tolerance], 0, RUNNING
     while ending == RUNNING and noted < capacity:
-        face, splits, ending = 0.0, False, ending_at_once(gravity, ball[4], bounces, limit)
+        face, fate, ending = 0.0, RUNNING, ending_at_once(gravity, ball[4], bounces, limit)
         if ending != RUNNING:
             break
         remaining = (until - clock[0]) - clock[1]
@@ -88,7 +88,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
                 if still > still_limit(model.restitution):
                     ending = COLLAPSE
                     break
-            ball, clock, start, grip, last, still, feature, face, splits = arrived(
+            ball, clock, start, grip, last, still, feature, face, fate = arrived(
                 model, gravity, radius, ball, clock, start, grip, last, still, feature, t, passed, slower, tolerance
             )
         if feature == NO_HIT:
@@ -102,8 +102,7 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
         before, last, bounces = (before if feature == last else last), feature, bounces + 1
         hits[tally_of(model, feature)] += 1
         noted = note(log, noted, clock, ball, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
-        ball, grip, ending = after_bounce(model, gravity, radius, feature, wall, ball, grip, nx, ny, tolerance)
-        ending = AMBIGUOUS_CORNER if splits and ending == RUNNING else ending
+        ball, grip, ending = after_bounce(model, gravity, radius, feature, wall, fate, ball, grip, nx, ny, tolerance)
     ball, clock, start, ending = flown_on(model, gravity, ball, clock, start, ending, until)
     write_state(state, counts, ball, clock, start, grip, last, bounces, ending, still, before)
     return noted
@@ -180,11 +179,12 @@ def flown(model, gravity, radius, ball, clock, grip, t, passed, slower):
 
 @kernel
 def arrived(model, gravity, radius, ball, clock, start, grip, last, still, feature, t, passed, slower, tolerance):
-    """Take a ball to what it meets: (ball, clock, start, grip, last, still, feature, face, splits).
+    """Take a ball to what it meets: (ball, clock, start, grip, last, still, feature, face, fate).
 
-    See ``at_vertex``; ``splits`` tells that no digit decides where it goes on from an exact hit, see ``order_shows``.
+    See ``at_vertex``; ``fate`` is what an exact hit leads to, where no digit tells from which wall it goes on (see
+    ``order_shows``): an ending, or else RUNNING.
     """
-    face, splits = 0.0, False
+    face, fate = 0.0, RUNNING
     if t > 0.0:
         ball, clock, start = flown(model, gravity, radius, ball, clock, grip, t, passed, slower)
     if gravity is not None:
@@ -194,9 +194,9 @@ def arrived(model, gravity, radius, ball, clock, start, grip, last, still, featu
         if feature == NO_HIT:  # it flies past a vertex, and not without end
             still += 1
             feature = COLLAPSES if still > still_limit(model.restitution) else NO_HIT
-        elif face != 0.0 and t > 0.0:
-            splits = order_shows(model, feature, face, ball, tolerance)
-    return ball, clock, start, grip, last, still, feature, face, splits
+        elif face != 0.0 and t > 0.0 and order_shows(model, feature, face, ball, tolerance):
+            fate = AT_REST if rests_anyhow(model, gravity, feature, face, ball, tolerance) else AMBIGUOUS_CORNER
+    return ball, clock, start, grip, last, still, feature, face, fate
 
 
 @kernel
@@ -281,17 +281,20 @@ def turned(model, gravity, radius, feature, face, ball):
 
 
 @kernel
-def after_bounce(model, gravity, radius, feature, wall, ball, grip, nx, ny, tolerance):
-    """What a bounce leads to: (ball, grip, ending or RUNNING); a wall may absorb the ball, or hold it from now on."""
-    ending = ABSORBED if absorbs(model.restitution, wall) else RUNNING
+def after_bounce(model, gravity, radius, feature, wall, fate, ball, grip, nx, ny, tolerance):
+    """What a bounce leads to: (ball, grip, ending or RUNNING); a wall may absorb the ball, or hold it from now on.
+
+    ``fate`` is what it leads to by itself, see ``arrived``.
+    """
+    ending = ABSORBED if absorbs(model.restitution, wall) else fate
     x, y, vx, vy, energy = ball
     held, hold, side = grip[0], grip[1], grip[2]
     if gravity is not None:
         held, hold, side = held_after(
             model, gravity, radius, feature, held, hold, side, x, y, vx, vy, nx, ny, tolerance
         )
-        if hold == WEDGED:
-            ending, vx, vy = AT_REST, 0.0, 0.0
+        if hold == WEDGED or ending == AT_REST:
+            hold, ending, vx, vy = WEDGED, AT_REST, 0.0, 0.0
     return (x, y, vx, vy, energy), (held, hold, side, 0, 0), ending
 
 
