@@ -15,12 +15,19 @@ import time
 import numpy as np
 
 import wallkit
-from wallkit.accuracy.contact_scenes import KINDS, contact_scene, one_sided_scene, rolling_scene, touching_scene
+from wallkit.accuracy.contact_scenes import (
+    KINDS,
+    contact_scene,
+    drag_scene,
+    one_sided_scene,
+    rolling_scene,
+    touching_scene,
+)
 from wallkit.accuracy.reference_contact import ContactReference
 from wallkit.accuracy.sure_digits import PrecisionError
 
 TOLERANCE = 1e-9
-SCENES = {"rolling": rolling_scene, "one-sided": one_sided_scene, "touching": touching_scene}
+SCENES = {"rolling": rolling_scene, "drag": drag_scene, "one-sided": one_sided_scene, "touching": touching_scene}
 
 
 def judge(seed, scene_of):
@@ -48,7 +55,9 @@ def main() -> None:
     asked = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     asked.add_argument("--scenes", type=int, default=100)
     asked.add_argument("--seed", type=int, default=0)
-    asked.add_argument("--with", dest="kind", choices=SCENES, help="rolling friction, one-sided walls, starts in touch")
+    asked.add_argument(
+        "--with", dest="kind", choices=SCENES, help="rolling friction, drag, one-sided walls, starts in touch"
+    )
     asked = asked.parse_args()
     table = {kind: {} for kind in KINDS}
     begin, states, worst = time.process_time(), 0, 0.0

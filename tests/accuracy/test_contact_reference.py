@@ -118,6 +118,18 @@ def test_runs_with_rolling_friction_end_where_the_reference_ends_them(first):
         assert off[1:].max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
 
 
+def test_the_last_bounces_of_a_disc_in_a_corner_do_not_take_it_into_the_other_wall():
+    # with rolling friction it goes on along the wall in them, by some 1e-10, and the other wall is nearer
+    _kind, scene, until = rolling_scene(587)
+    end, walls = ContactReference(scene).run(until)[-1], scene.walls.vertices
+    place = np.array([float(value) for value in end.position])
+    for a, b in zip(walls, np.roll(walls, -1, axis=0), strict=True):
+        along = (b - a) / np.hypot(*(b - a))
+        beside = a + np.clip((place - a) @ along, 0.0, np.hypot(*(b - a))) * along
+        assert np.hypot(*(place - beside)) >= 0.2 - 1e-9
+    assert simulate(scene, until=until).final[0].tolist()[1:3] == pytest.approx(place, abs=1e-9)
+
+
 @pytest.mark.parametrize("bulge", [0.0, 0.25])
 def test_the_reference_lets_rolling_friction_wait_for_the_end_of_endless_bounces(bulge):
     # on a level wall they take sqrt(2 h / g) (1 + e) / (1 - e), and nothing slows the ball down along it; at the bottom

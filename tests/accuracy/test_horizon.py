@@ -10,6 +10,7 @@ from wallkit.accuracy import scenes
 from wallkit.accuracy.contact_scenes import contact_scene, rolling_scene
 from wallkit.accuracy.reference import Reference, sure_events
 from wallkit.accuracy.reference_contact import ContactReference
+from wallkit.kernels.flight.error_growth import JOINS, stretch
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation import horizon
 from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, near_misses
@@ -162,6 +163,47 @@ def test_the_end_of_a_slowed_slide_is_off_by_no_more_than_predicted_and_not_by_f
     own = horizon._and_end(run.contacts[run.contacts["kind"] < horizon.ENTER], run.final[0])
     promised = horizon.predicted_errors(scene, own)[1][-1]
     assert off <= promised <= 1e-8
+
+
+@pytest.mark.parametrize("seed", [15437, 18275, 18887, 19613])
+def test_a_hit_in_a_corner_by_a_ball_that_still_hops_on_the_other_wall_is_not_called_good(seed):
+    # It has joined a wall, and meets the next one before its endless bounces, lower than 2^-41 of the walls, are over.
+    _kind, scene, until = contact_scene(seed)
+    run = simulate(scene, until=until)
+    true = iter(change for change in ContactReference(scene).run(until) if change.kind == "bounce")
+    promised = horizon.predicted_errors(scene, run.contacts)[1]
+    for row, most in zip(run.contacts, promised, strict=True):
+        if row["kind"] <= horizon.VERTEX:
+            place = next(true).position
+            assert math.hypot(row["x"] - float(place[0]), row["y"] - float(place[1])) <= most
+
+
+def test_a_hollow_that_is_met_along_its_tangent_ends_no_trust():
+    # Down an upright side of a half pipe into its arc: what a neighbour, off by d, loses there is of the size of d.
+    _kind, scene, until = contact_scene(11349)
+    run, true = simulate(scene, until=until), ContactReference(scene).run(until)[-1]
+    assert run.trusted_until(1e-6)[0].whole
+    off = math.hypot(run.final["x"][0] - float(true.position[0]), run.final["y"][0] - float(true.position[1]))
+    own = horizon._and_end(run.contacts[run.contacts["kind"] < horizon.ENTER], run.final[0])
+    assert off <= horizon.predicted_errors(scene, own)[1][-1] <= 1e-8
+
+
+@pytest.mark.parametrize("aside", [1e-6, 1e-7, 1e-9])
+def test_a_point_that_comes_down_beside_a_hollow_s_tangent_parts_by_no_more_than_is_carried(aside):
+    # Beside the upright side by `aside` it strikes the arc below at a small angle and hops on it.
+    _kind, scene, _until = contact_scene(11349)
+    (x, y), runs = scene.walls.vertices[0], []
+    for off in (0.0, aside):
+        ball = Balls([(x + off, y + 0.3)], [(0.0, 1.0)], 0.0)
+        runs.append(simulate(Scene(scene.walls, ball, gravity=scene.gravity), until=1.5))
+    own = horizon._and_end(runs[0].contacts, runs[0].final[0])
+    course = horizon._course(runs[0].scene, own, 0)
+    assert course[1][0, 5] == JOINS
+    # that one error alone: the logarithms of its growth, which begins with a length of 1
+    logs = np.zeros(len(own))
+    stretch(*course, np.array([1.0, 0.0, 0.0, 0.0]), logs)
+    apart = math.dist(*((run.final["x"][0], run.final["y"][0]) for run in runs))
+    assert 0.0 < apart <= 1.5 * aside * math.exp(logs.sum())
 
 
 def test_a_ball_that_comes_to_rest_is_good_throughout():

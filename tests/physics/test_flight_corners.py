@@ -6,6 +6,7 @@ import shapely
 from outlines import outline
 
 from wallkit import Balls, Ending, Material, Scene, Walls, simulate, survey
+from wallkit.kernels.flight import point_in_corner
 
 GRAVITY = np.array([0.0, -10.0])
 UP = [(0.0, 0.0), (8.0, 0.0), (10.0, 6.0), (12.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]
@@ -175,10 +176,11 @@ def test_many_points_at_corners_end_where_each_does_alone():
         assert list(column) == list(run.final[name])
 
 
-def test_a_disc_that_comes_over_a_corner_along_its_edge_meets_one_of_the_two():
+@pytest.mark.parametrize("radius", [0.01, 1e-4, 1e-6])
+def test_a_disc_that_comes_over_a_corner_along_its_edge_meets_one_of_the_two(radius):
     # It comes from afar to where it touches the very end of a slope, in the direction of the slope, and falls on to it:
     # with v^2 / r > g the vertex alone would be grazed, and the line alone is reached from below it, beside the edge.
-    rng, radius = np.random.default_rng(4), 0.01
+    rng = np.random.default_rng(4)
     for _ in range(60):
         angle = rng.uniform(-0.7, 0.7)
         way = np.array([np.cos(angle), np.sin(angle)])
@@ -194,3 +196,23 @@ def test_a_disc_that_comes_over_a_corner_along_its_edge_meets_one_of_the_two():
         assert contacts["time"][0] == pytest.approx(0.8, abs=1e-5)
         height = contacts["x"] * normal[0] + contacts["y"] * normal[1]
         assert height.min() > radius - 1e-9
+        if contacts["edge"][0] < 0:  # places are sums of parts of some 100: 64 roundings of these are 7e-13
+            far = np.hypot(contacts["x"][0], contacts["y"][0])
+            assert far == pytest.approx(radius, abs=1e-12 if radius < 1e-5 else 1e-9)  # a larger one by its quartic
+
+
+def test_bounces_that_take_all_speed_in_a_thin_tip_are_counted_only_until_that_is_sure(monkeypatch):
+    # In a tip of 5 degrees with e = 0.743 < (1 - sin a) / (1 + sin a) = 0.84 bounces have no end: each pair leaves
+    # the part q of the speed, so that 2^-10 of 1e-9 of it is left after log(2^-10 1e-9) / log(q) pairs.
+    turn, e = np.radians(5.0), 0.743
+    pair = np.eye(2)
+    for normal in ([0.0, 1.0], [-np.sin(turn), np.cos(turn)]):
+        pair = pair - (1.0 + e) * np.outer(normal, normal) @ pair
+    pairs = np.log(2.0**-10 * 1e-9) / np.log(np.abs(np.linalg.eigvals(pair)).max())
+    turns, reflect = [], point_in_corner.reflect
+    monkeypatch.setattr(point_in_corner, "reflect", lambda *given: turns.append(1) or reflect(*given))
+    walls = Walls.from_polylines([[(0.0, 0.0), (100.0, 0.0), (100.0, 100.0 * np.tan(turn))]], material=Material(e, 1.0))
+    scene = Scene(walls, Balls([(50.0, 2.0)], [(-20.0, 0.3)], 0.0), gravity=(-1.0, -0.2))
+    run = simulate(scene, until=10.0)
+    assert run.ending == (Ending.AT_REST,)
+    assert 0 < len(turns) <= 3 * 2 * (pairs + 2)  # asked once whether it comes out, and twice whether the order shows

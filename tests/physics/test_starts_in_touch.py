@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from wallkit import Balls, ContactKind, Material, Scene, Walls, simulate, survey
+from wallkit import Balls, ContactKind, Material, Scene, Walls, World, simulate, survey
 from wallkit.accuracy.contact_scenes import touching_scene
 
 G = 9.81
@@ -129,3 +129,50 @@ def test_surveys_in_lockstep_count_what_balls_laid_on_a_wall_meet():
     run = simulate(scene, until=1.5, mode="interpreted")
     totals = survey(scene, until=1.5)
     assert np.array_equal(totals.position, np.stack([run.final["x"], run.final["y"]], axis=1))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_point_laid_on_an_upright_side_of_a_half_pipe_stays_in_it(seed):
+    # whichever way round the pipe is drawn: it is on the side to which the wall turns below
+    random = np.random.default_rng(seed)
+    pipe, height, shift = random.uniform(1.0, 5.0), random.uniform(0.5, 4.0), random.uniform(-3.0, 3.0, 2)
+    material = Material(random.choice([0.0, 0.4, 1.0, random.random()]), random.choice([1.0, 0.9, 0.3]))
+    walls = half_pipe(pipe, height, material, pieces=int(random.integers(1, 3)), turned=seed % 2 == 1, shift=shift)
+    start, drop = walls.vertices[random.choice([0, -1])], random.uniform(0.01, 0.99) * height
+    speed = random.choice([0.0, -1.0, 1.0]) * math.sqrt(2.0 * G * (height - drop)) * random.random()  # not over its end
+    scene = Scene(walls, Balls([(start[0], shift[1] + drop)], [(0.0, speed)], 0.0), gravity=(0.0, -G))
+    run = simulate(scene, until=3.0, mode="interpreted")
+    assert beyond(run, pipe, 0.0, height, shift) < 5e-12  # as for discs
+    if material.restitution == 1.0:  # it comes to the arc along it, and keeps all its energy
+        final = run.final[0]
+        energy = speed * speed + 2.0 * G * (shift[1] + drop - final["y"])
+        assert final["vx"] ** 2 + final["vy"] ** 2 == pytest.approx(energy, rel=1e-10)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("side", [0, 1])
+def test_a_point_laid_on_an_upright_side_of_a_closed_wall_is_where_balls_are_free(side, turned):
+    # A room runs clockwise and a pillar counter-clockwise, so that material is on the left; both have floors below.
+    square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
+    ring = square[::-1] if turned else square
+    ground = [(-9.0, -3.0), (9.0, -3.0)]
+    walls = Walls.from_polylines([ring, ground], closed=[True, False], material=Material(0.0, 1.0))
+    scene = Scene(walls, Balls([(4.0 * side, 2.0)], [(0.0, 0.0)], 0.0), gravity=(0.0, -G))
+    final = simulate(scene, until=3.0, mode="interpreted").final[0]
+    assert final["y"] == pytest.approx(0.0 if turned else -3.0, abs=1e-11)  # the room's floor, or the ground outside
+    assert final["x"] == pytest.approx(4.0 * side, abs=1e-11)
+    world = World(scene)
+    for _ in range(180):
+        world.step(1 / 60)
+    assert world.position[0] == pytest.approx((final["x"], final["y"]), abs=1e-11)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_interpreted_and_compiled_kernels_agree_on_points_laid_on_upright_sides(turned):
+    walls = half_pipe(4.0, 2.0, Material(0.5, 0.9), pieces=2, turned=turned)
+    points = Balls([(4.0, 1.0), (-4.0, 0.5), (4.0, 1.9)], [(0.0, -1.0), (0.0, 0.0), (0.0, 0.5)], 0.0)
+    one, other = (
+        simulate(Scene(walls, points, gravity=(0.0, -G)), until=2.0, mode=m) for m in ("interpreted", "compiled")
+    )
+    assert one.contacts.tobytes() == other.contacts.tobytes()
+    assert one.final.tobytes() == other.final.tobytes()

@@ -127,6 +127,29 @@ class Joints:
                 return barrier
         return None
 
+    def is_free_side(self, barrier: Barrier, down: Vector) -> bool:
+        """Tell whether a point laid on a line along gravity is on this side of it.
+
+        It is outward of a closed wall, and of an open one where that turns to below the line, if it turns to one side.
+        """
+        obstacle, shape = self.reference.obstacles[barrier.obstacle], self.reference.obstacles[barrier.obstacle].shape
+        assert isinstance(shape, _Line)
+        out, index = bool(_dot(barrier.normal, shape.unit_normal) > 0), barrier.obstacle
+        while not self.reference.scene.walls.closed[obstacle.wall]:
+            end = min(self.ends_of[index], key=lambda end: _dot(end.out, down))
+            others = [other for other in self.around[end.place] if other is not end]
+            if len(others) != 1:
+                break
+            turn, following = down[0] * others[0].out[1] - down[1] * others[0].out[0], others[0].obstacle
+            if abs(turn) <= SMOOTH and _dot(down, others[0].out) > 0:
+                arc, index = self.reference.obstacles[following].shape, following
+                if isinstance(arc, _Line):
+                    continue
+                assert isinstance(arc, _Arc)
+                turn = 1 if arc.turns_left != others[0].last else -1
+            return bool((turn > 0) == (down[0] * barrier.normal[1] - down[1] * barrier.normal[0] > 0))
+        return out
+
     def is_before(self, vertex: Barrier, place: Vector) -> bool:
         """Tell whether a disc that touches a vertex of a one-sided wall is outside it, and stands across none of it.
 

@@ -168,7 +168,7 @@ class OnCircle:
         stops = [least, *(turn for turn in self._extremes(wave, 2 * mp.pi) if turn > least), 2 * mp.pi]
         for low, high in itertools.pairwise(stops):
             if over(low)[0] > 0 > over(high)[0]:
-                yield _root(mp, over, low, high, (low + high) / 2, 64 * mp.eps, rises=False)
+                yield root(mp, over, low, high, (low + high) / 2, 64 * mp.eps, rises=False)
                 return
 
     def square_at(self, way: Real) -> Real:
@@ -202,10 +202,10 @@ class OnCircle:
             return self.time_to(way, square) - time, rho / mp.sqrt(square) if square > 0 else mp.mpf(0)
 
         with mp.workdps(15):
-            way = _root(mp, late, mp.mpf(0), most, most / 2, mp.mpf(10) ** -10, rises=True)
+            way = root(mp, late, mp.mpf(0), most, most / 2, mp.mpf(10) ** -10, rises=True)
         near = way * mp.mpf(10) ** -5
         same = mp.mpf(10) ** (-0.75 * mp.dps)
-        way = _root(mp, late, max(way - near, mp.mpf(0)), min(way + near, most), way, same, rises=True)
+        way = root(mp, late, max(way - near, mp.mpf(0)), min(way + near, most), way, same, rises=True)
         if not abs(late(way)[0]) < mp.mpf(10) ** (-mp.mpf(mp.dps) / 4):
             raise PrecisionError("a glide's angle is not sure", code="precision", fix="ask for more digits")
         speed = mp.sqrt(squares(way))
@@ -213,17 +213,7 @@ class OnCircle:
         return place, (speed * x, speed * y)
 
 
-Motion = Smooth | OnLine | OnCircle
-
-
-def motion(mp: Any, guide: Guide, gravity: Vector, square: Real, mu: Real | None) -> Motion:
-    """How a ball goes on along a guide, mu its coefficient of rolling friction or None."""
-    if mu is None:
-        return Smooth(mp, guide, gravity, square)
-    return (OnLine if guide.barrier.bend == 0 else OnCircle)(mp, guide, gravity, square, mu)
-
-
-def _root(
+def root(
     mp: Any, value: Callable[[Real], tuple[Real, Real]], low: Real, high: Real, start: Real, same: Real, *, rises: bool
 ) -> Real:
     """Where a monotone function is 0 that gives its value and slope: Newton's steps, halving where they leave.

@@ -44,6 +44,14 @@ def rolling_scene(seed: int) -> tuple[str, Scene, float]:
     return kind, dataclasses.replace(scene, rolling_friction=part * PULL), until
 
 
+def drag_scene(seed: int) -> tuple[str, Scene, float]:
+    """Make the scene of :func:`contact_scene` with drag, in every third with rolling friction too."""
+    kind, scene, until = (rolling_scene if seed % 3 == 0 else contact_scene)(seed)
+    random = np.random.default_rng([seed, 5])
+    drag = float(random.choice([0.001, 0.05, 0.3, random.uniform(0.0, 3.0)]))
+    return kind, dataclasses.replace(scene, drag=drag), until
+
+
 def one_sided_scene(seed: int) -> tuple[str, Scene, float]:
     """Make the scene of :func:`contact_scene` with every other open wall one-sided, from above or from below."""
     kind, scene, until = contact_scene(seed)

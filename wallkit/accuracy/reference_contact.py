@@ -8,7 +8,8 @@ to one barrier (see ``contact_guides``); what touches it and moves neither to no
 * what it moves along and what presses it holds it; a wall along gravity holds it too; nothing else does;
 * without speed it slides along the wall on which the pull leads away from what it touches, or rests between two;
 * one that starts within ``TOUCHING`` of a wall touches it, and moves along it where it leaves it by no more; a point is
-  on the side from which it is pressed, or of a wall along gravity on that to which it moves;
+  on the side from which it is pressed, or of a wall along gravity on that to which it moves, and if it moves to
+  neither on the outward one of a closed wall, or that to which an open one turns below;
 * at the end of an edge the next one around that place, on the ball's side, goes on smoothly, rises (a bounce), or
   falls away: a point leaves, a disc pivots while something presses it on the vertex.
 """
@@ -19,10 +20,11 @@ import dataclasses
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from wallkit.accuracy.contact_drag import Motion, eased, motion
 from wallkit.accuracy.contact_guides import Barrier, Guide, barriers_of, minus
 from wallkit.accuracy.contact_joints import Joints
-from wallkit.accuracy.contact_motions import Motion, Smooth, motion
 from wallkit.accuracy.contact_search import Search
+from wallkit.accuracy.drag_search import DragSearch
 from wallkit.accuracy.reference import Real, Reference, Vector, _dot, _reflect
 from wallkit.accuracy.sure_digits import PrecisionError
 from wallkit.scene.scene import Scene
@@ -55,7 +57,7 @@ class ContactReference:
     """One ball of a scene under gravity.
 
     Args:
-        scene: walls and balls under gravity; drag is not known here and raises.
+        scene: walls and balls under gravity.
         ball: which ball.
         digits: decimal digits, at least 30.
 
@@ -64,7 +66,7 @@ class ContactReference:
     """
 
     def __init__(self, scene: Scene, ball: int = 0, digits: int = 40) -> None:
-        reference = Reference(dataclasses.replace(scene, rolling_friction=None), digits)
+        reference = Reference(dataclasses.replace(scene, rolling_friction=None, drag=None), digits)
         if reference.gravity is None or digits < 30:
             raise PrecisionError("contact states need gravity and 30 digits", code="precision", fix="give both")
         self.mp = mp = reference.mp
@@ -82,7 +84,9 @@ class ContactReference:
         self.low = self.size * mp.mpf(10) ** (-digits / mp.mpf(2))
         self.tiny = mp.mpf(10) ** (-0.6 * digits)
         self.joints = Joints(reference, self.barriers)
-        self.search = Search(reference, self.barriers, self.joints, self.gravity, self.tiny * self.size)
+        self.drag = mp.mpf(float(scene.drag)) if scene.drag else None
+        parts = reference, self.barriers, self.joints, self.gravity, self.tiny * self.size
+        self.search = Search(*parts) if self.drag is None else DragSearch(*parts, drag=self.drag)
         self.touching: dict[int, Barrier] = {}
         self.sides: dict[int, Barrier] = {}  # of obstacles off which the ball has bounced
         self.now = mp.mpf(0)
@@ -131,7 +135,11 @@ class ContactReference:
         pressed = -_dot(self.gravity, normal)
         if abs(pressed) > TOUCHING * self.pull:
             return bool(pressed > 0)
-        return bool(_dot(self.velocity, normal) > -TOUCHING * self.mp.sqrt(_dot(self.velocity, self.velocity)))
+        across = _dot(self.velocity, normal)
+        if abs(across) > TOUCHING * self.mp.sqrt(_dot(self.velocity, self.velocity)):
+            return bool(across > 0)
+        down = self.gravity[0] / self.pull, self.gravity[1] / self.pull
+        return barrier.bend == 0 and self.joints.is_free_side(barrier, down)
 
     # -- flight
 
@@ -139,12 +147,12 @@ class ContactReference:
         hit = self.search.first(self.position, self.velocity, self.touching, end - self.now)
         time = end - self.now if hit is None else hit[0]
         before = self.position
-        half = time * time / 2
+        left, free, second = (1, time, time * time / 2) if self.drag is None else eased(self.mp, self.drag, time)
         gx, gy = self.gravity
         (x, y), (u, v) = self.position, self.velocity
         self.position, self.velocity = (
-            (x + u * time + gx * half, y + v * time + gy * half),
-            (u + gx * time, v + gy * time),
+            (x + u * free + gx * second, y + v * free + gy * second),
+            (u * left + gx * free, v * left + gy * free),
         )
         self.now += time
         if hit is None:
@@ -209,22 +217,42 @@ class ContactReference:
         if e >= 1 or pressed <= 0 or w <= self._level() or w * w > 2 * pressed * self.low:
             return
         if f >= 1:  # nothing slows it down along the wall in them: it slides, and friction begins when they are over
-            self.velocity = u * ahead[0], u * ahead[1]
             if self.rolling is not None:
-                time = 2 * w / (pressed * (1 - e))
+                time, before = 2 * w / (pressed * (1 - e)), self.velocity
+                self.velocity = u * ahead[0], u * ahead[1]
                 guide, square = self._guide(barrier)
-                self.position, self.velocity = Smooth(mp, guide, self.gravity, square).after(time, mp.inf)
+                slides = motion(mp, guide, self.gravity, square, None, self.drag, time)
+                place, velocity = slides.after(time, mp.inf)
+                if self._meets_before(barrier, place):
+                    self.velocity = before
+                    return
+                self.position, self.velocity = place, velocity
                 self.now += time
+                return
+            self.velocity = u * ahead[0], u * ahead[1]
             return
         time, way, pull = mp.mpf(0), mp.mpf(0), _dot(self.gravity, ahead)
         while w > self.tiny * self.low:
             t = 2 * w / pressed
             time, way = time + t, way + t * (u + pull * t / 2)
             u, w = f * (u + pull * t), e * w
-        u = mp.mpf(0)  # infinitely many bounces leave nothing of it
+        place = self.position[0] + way * ahead[0], self.position[1] + way * ahead[1]
+        if self._meets_before(barrier, place):
+            return
         self.now += time
-        self.position = self.position[0] + way * ahead[0], self.position[1] + way * ahead[1]
-        self.velocity = u * ahead[0], u * ahead[1]
+        self.position, self.velocity = place, (mp.mpf(0), mp.mpf(0))  # infinitely many bounces leave nothing of it
+
+    def _meets_before(self, barrier: Barrier, place: Vector) -> bool:
+        """Tell whether a ball would pass another barrier on the way of its last bounces: then it bounces on, up to it.
+
+        At the other side of a wall its gap is below 0 from the start.
+        """
+        moved = minus(place, self.position)
+        least = -self.tiny * self.size * (1 + self.size)
+        for other in self.search.near(self.position, 2 * self.mp.sqrt(_dot(moved, moved)) + self.low):
+            if other.obstacle != barrier.obstacle and other.gap(self.position) >= least > other.gap(place):
+                return True
+        return False
 
     def _touch_all(self) -> None:
         """A ball without speed touches whatever is nearer than the last bounces were high."""
@@ -283,7 +311,7 @@ class ContactReference:
         mp, held = self.mp, self.held
         assert held is not None
         guide, square = self._guide(held)
-        goes = motion(mp, guide, self.gravity, square, self.rolling)
+        goes = motion(mp, guide, self.gravity, square, self.rolling, self.drag, end - self.now)
         way, event = self._first_event(guide, goes, held)
         then = mp.mpf(0) if event == "turn" or way == mp.inf else goes.square_at(way)
         time = goes.time_to(way, max(then, mp.mpf(0))) if way < mp.inf else mp.inf

@@ -43,24 +43,33 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.bulge_arcs import circles
-from wallkit.kernels.flight.ball_state import FALLING_TOLERANCE
-from wallkit.kernels.flight.error_growth import BOUNCES, LEAVES, PASSES, SLIDES, SLOWS, STOPS, TURNS, carry, stretch
+from wallkit.kernels.flight.error_growth import (
+    BOUNCES,
+    JOINS,
+    LEAVES,
+    PASSES,
+    SLIDES,
+    SLOWS,
+    STOPS,
+    TURNS,
+    carry,
+    stretch,
+)
+from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.jit import compile_for, compiled
 from wallkit.kernels.signatures import kinds_of
 from wallkit.scene.scene import Scene
+from wallkit.simulation.contact_errors import SURE, Course, drawing_errors, roundings
 from wallkit.simulation.damping import damping_of, on_a_free_clock, slowing_of
 from wallkit.simulation.glide_errors import COLUMNS, glides_of
 from wallkit.simulation.gliding import pull_along
 from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, FlightTable, near_misses
 
 ErrorSource = Literal["rounding", "drawing"]
-Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, float, FloatArray]
-RMS_ROUNDING = 0.6 * 2.0**-53
 VERTEX, ENTER, END = 1, 4, 8
 """Kinds of contacts, see ``wallkit.simulation.run.ContactKind``: bounces up to the first, sensors from the second; and
 of a row that is none, where the run ends."""
 COMPILED_FROM = 50_000  # contacts
-SURE = 3.0  # promised is this many times the root mean square
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,7 +188,7 @@ def _root_mean_squares(scene: Scene, own: Any, ball: int, source: ErrorSource) -
 def _carried(scene: Scene, own: Any, ball: int, source: ErrorSource) -> tuple[Any, ...]:
     """What the kernel takes that carries errors along; the last is where variances go."""
     course = _course(scene, own, ball)
-    fresh = _roundings(scene, own, course, ball) if source == "rounding" else drawing_errors(scene, own)
+    fresh = roundings(scene, own, course, ball) if source == "rounding" else drawing_errors(scene, own)
     return (*course, fresh, np.full((len(own), 2), np.inf))
 
 
@@ -235,7 +244,27 @@ def _course(scene: Scene, own: Any, ball: int) -> Course:
     for row in np.flatnonzero(path[:, 5] == SLOWS).tolist():
         pull[row + 1] = _pull_after_bounces(gravity, slowing.rolling or 0.0, path[row - 1], path[row], keep[row, 1])
     glides = glides_of(scene, own, gravity) if slides.any() else np.full((len(own), COLUMNS), math.nan)
-    return start, np.ascontiguousarray(path), bends(scene, own, ball), keep, pull, slowing.drag or 0.0, glides
+    course = start, np.ascontiguousarray(path), bends(scene, own, ball), keep, pull, slowing.drag or 0.0, glides
+    if slides.any():
+        _mark_joins(course)
+    return course
+
+
+def _mark_joins(course: Course) -> None:
+    """Mark the bounces at which a ball comes along a hollow's tangent to where it begins, and goes on along it.
+
+    They turn nothing, and no neighbour is turned by more than its error; a wall that takes speed along it takes it all
+    from a neighbour that strikes it, so there they are left to be what they are, a doubt.
+    """
+    _, path, bend, keep, _, _, _ = course
+    at_once = np.diff(path[:, 0], append=np.inf) == 0.0
+    held = np.concatenate([path[1:, 5], [LEAVES]]) == SLIDES
+    found = (path[:, 5] == BOUNCES) & at_once & held & (bend < 0.0) & (keep[:, 0] == 1.0)
+    if found.any():
+        velocity = _velocities_before(course)
+        across = (velocity * path[:, 3:5]).sum(axis=1)
+        rows = np.flatnonzero(found & (np.abs(across) <= LEVEL_SPEED * np.abs(velocity).sum(axis=1)))
+        path[rows, 5], path[rows + 1, 5] = JOINS, PASSES
 
 
 def _pull_after_bounces(
@@ -246,70 +275,6 @@ def _pull_after_bounces(
     pressed = 2.0 * float(bounce[1:3] @ bounce[3:5]) / ((1.0 - restitution) * (slide[0] - bounce[0]))
     pull = float(gravity @ ahead) - math.copysign(rolling * pressed, float(slide[1:3] @ ahead))
     return pull * ahead
-
-
-def _roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
-    """(n, 4) what the arithmetic of each contact adds: see :func:`wallkit.kernels.flight.error_growth.carry`.
-
-    A rounding is at most EPS = 2^-53 of the number, and some 0.6 of that as a root mean square. Places are as
-    large as the distance from the local origin; the normal about a corner or on an arc is taken from the place,
-    so it turns by that rounding times the curvature. A wall along an axis turns one sign and rounds nothing.
-    """
-    from wallkit.simulation.modelled import local_origin
-
-    _, path, bend, keep, _, _, _ = course
-    begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
-    origin = local_origin(scene.walls.vertices)
-    places = np.concatenate([begin[None], np.stack([own["x"], own["y"]], axis=1)]) - origin
-    place = RMS_ROUNDING * np.hypot(*places[1:].T)
-    plain = (bend == 0) & ((path[:, 3] == 0) | (path[:, 4] == 0)) & (keep == 1).all(axis=1)
-    speed = np.where(plain, 0.0, RMS_ROUNDING)
-    if scene.gravity is not None:
-        place, speed = _falling_roundings(course, places)
-    turn = np.where(plain, 0.0, RMS_ROUNDING + place * np.abs(bend))
-    # An edge is where its first vertex is: what is left of the way from there is rounded as that is long.
-    edge = scene.walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
-    d = scene.walls.vertices[scene.walls.edge_starts[edge]] - np.stack([own["x"], own["y"]], axis=1)
-    wall = np.hypot(place, np.where(own["edge"] < 0, 0.0, RMS_ROUNDING * np.hypot(*d.T)))
-    if scene.gravity is not None:  # nearer to a corner than the tolerance it bounces off both walls in no time
-        at_once = (np.diff(path[:, 0], prepend=-1.0) == 0.0) & (path[:, 5] == BOUNCES)
-        near = FALLING_TOLERANCE * float(np.abs(scene.walls.vertices - origin).max(initial=0.0))
-        place = np.where(at_once, np.hypot(place, near / SURE), place)
-    return np.stack([wall, turn, place, speed], axis=1)
-
-
-def _falling_roundings(course: Course, places: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Rounding of places, and of velocities relative to the speed, under gravity; of (n + 1, 2) places.
-
-    p + v t + g t^2 / 2 is summed up of larger parts, each of which is rounded, as are v + g t and the squared speed,
-    v^2 - 2 g.p at the start plus 2 g.p here: half of its error, over v^2, is that of the speed.
-    """
-    start, path, _, _, pull, _, glides = course
-    time, force = np.diff(path[:, 0], prepend=0.0), np.hypot(*pull[:-1].T)
-    before = np.hypot(*np.concatenate([start[None], path[:-1, 1:3]]).T)
-    after = np.hypot(path[:, 1], path[:, 2])
-    after = np.where(after > 1e-70, after, 1.0)  # below all speeds that are modelled it rests, and nothing follows
-    far = np.hypot(*places.T)
-    force = np.where(np.isnan(glides[:, 0]), force, 0.0)  # along a circle it comes back, and no part is that large
-    place = np.sqrt(far[1:] ** 2 + far[:-1] ** 2 + (np.maximum(before, after) * time) ** 2 + (force * time**2 / 2) ** 2)
-    height = (pull[:-1] * places[1:]).sum(axis=1)
-    speed = np.hypot(np.hypot(1.0, force * time / after), height / after / after)
-    return RMS_ROUNDING * place, RMS_ROUNDING * speed
-
-
-def drawing_errors(scene: Scene, own: Any) -> FloatArray:
-    """(n, 4) what walls that are off by their ``measured_error`` add at each contact."""
-    walls = scene.walls
-    fresh = np.zeros((len(own), 4))
-    fresh[:, 0] = walls.measured_error
-    if walls.measured_normal_error is not None:
-        fresh[:, 1] = walls.measured_normal_error
-    else:  # a chord of length c with the sagitta s is turned by at most 4 s / c from its arc
-        d = walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]
-        chord = np.maximum(np.hypot(d[:, 0], d[:, 1]), walls.measured_error or 1.0)
-        edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
-        fresh[:, 1] = 4 * walls.measured_error / chord[edge]
-    return fresh
 
 
 def bends(scene: Scene, own: Any, ball: int) -> FloatArray:

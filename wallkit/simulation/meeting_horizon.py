@@ -31,14 +31,13 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.scene.scene import Scene
 from wallkit.scene.start_overlaps import clearances
+from wallkit.simulation.contact_errors import RMS_ROUNDING, drawing_errors
 from wallkit.simulation.damping import damping_of
 from wallkit.simulation.horizon import (
-    RMS_ROUNDING,
     VERTEX,
     ErrorSource,
     Horizon,
     bends,
-    drawing_errors,
     grazing_depths,
     trusted_until,
 )

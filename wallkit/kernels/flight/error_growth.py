@@ -8,11 +8,11 @@ from typing import Any
 from wallkit.kernels.impact.drag_motion import eased
 from wallkit.kernels.jit import kernel
 
-BOUNCES, SLIDES, LEAVES, PASSES, STOPS, SLOWS, TURNS, ENDS = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0
+BOUNCES, SLIDES, LEAVES, PASSES, STOPS, SLOWS, TURNS, ENDS, JOINS = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0
 """What a contact is to an error. Who passes slides on from another edge. Where one stops or slows, endless bounces end:
 they have taken its speed, or left it what it has along the wall, so that rolling friction acts from here on. Who turns
 round on a wall is slowed down on it: from there on what slows it down acts the other way. Where a run ends nothing is
-turned."""
+turned. Who joins a hollow comes to it along its tangent, to rounding, and goes on along it."""
 
 
 @kernel
@@ -85,6 +85,9 @@ def contact(
         jx, jy = (0.0, 0.0) if square == 0.0 else ((hx - ax) / square, (hy - ay) / square)
         return one, one, (jx * vx, jx * vy, jy * vx, jy * vy), one
     along = _along(nx, ny)
+    if path[i, 5] == JOINS:
+        k = bend[i]
+        return one, along, (k * ux * nx, k * ux * ny, k * uy * nx, k * uy * ny), along
     if path[i, 5] == PASSES:  # from edge to edge: that place is where it is
         return none, along, none, along
     if path[i, 5] == TURNS:  # who stays there goes off with nothing

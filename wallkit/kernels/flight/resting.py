@@ -25,6 +25,7 @@ from wallkit.kernels.flight.obstacles import SMOOTH_JOINT
 from wallkit.kernels.flight.pendulum import period
 from wallkit.kernels.flight.point_in_corner import came_from, touching
 from wallkit.kernels.flight.slowed_contact import slows
+from wallkit.kernels.flight.vertex import free_side
 from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.index.grid import home
@@ -123,8 +124,8 @@ def keep(
 def _laid_on(model, gravity, radius, x, y, vx, vy, last, tolerance):
     """Edge on which a ball starts along it, pressed on it, and the side on which it is: (edge, side) or (NO_HIT, 1).
 
-    What it is off by rounding would be a fall, and a bounce whose restitution along the wall takes its speed. A disc
-    beside a line along gravity keeps to that, too; a point on it has no side.
+    What it is off by rounding would be a fall, and a bounce whose restitution along the wall takes its speed. A ball
+    beside a line along gravity keeps to that, too; for the side of a point on it see ``free_side``.
     """
     if last != NO_HIT:
         return NO_HIT, 1.0
@@ -133,8 +134,11 @@ def _laid_on(model, gravity, radius, x, y, vx, vy, last, tolerance):
         edge = int(model.ids[k])
         nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
         out = 1.0 if radius == 0.0 else _is_out(model, model.arcs, edge, x, y)
-        if radius == 0.0 and gravity[0] * nx + gravity[1] * ny > 0.0:
-            out = -1.0  # a point is on the side from which it is pressed
+        if radius == 0.0:  # a point is on the side from which it is pressed
+            if _is_plumb(model, gravity, radius, edge, 1.0, x, y):
+                out = free_side(model, gravity, edge)
+            elif gravity[0] * nx + gravity[1] * ny > 0.0:
+                out = -1.0
         side = side_of(model, model.arcs, edge, x, y, out * nx, out * ny)
         if side < 0.0 and one_sided(model.one_sided, model.edge_wall[edge]):
             continue
@@ -146,7 +150,7 @@ def _laid_on(model, gravity, radius, x, y, vx, vy, last, tolerance):
             continue
         if abs(vx * nx + vy * ny) > LEVEL_SPEED * (abs(vx) + abs(vy)) * abs(length):
             continue
-        plumb = radius > 0.0 and _is_plumb(model, gravity, radius, edge, side, x, y)
+        plumb = _is_plumb(model, gravity, radius, edge, side, x, y)
         if plumb or _clings(model, gravity, radius, edge, side, x, y, vx, vy, tolerance):
             return edge, side
     return NO_HIT, 1.0

@@ -13,6 +13,7 @@ import math
 
 from wallkit.kernels.flight.joints import AT_VERTEX, NO_END, end_at, leading_along, left_face, one_sided, other_bound
 from wallkit.kernels.flight.motion import reflect
+from wallkit.kernels.flight.obstacles import SMOOTH_JOINT
 from wallkit.kernels.flight.point_in_corner import order_matters, touching
 from wallkit.kernels.impact.contact_normal import normal_at, outward
 from wallkit.kernels.impact.drag_motion import pulled
@@ -188,7 +189,7 @@ def _together(model, first, second):
     across = one.tx * other.ty - one.ty * other.tx
     if one.tx * other.tx + one.ty * other.ty < 0.0 or not 0.0 <= across <= TOGETHER:
         return False
-    return across > 0.0 or _curvature(model.arcs, second) >= _curvature(model.arcs, first)
+    return across > 0.0 or curvature_out(model.arcs, second) >= curvature_out(model.arcs, first)
 
 
 @kernel
@@ -224,14 +225,51 @@ def _bend(model, gravity, end, vx, vy):
     """How a flight along an edge bends away from it, to the left of the way out from its end: a.n - k v^2."""
     joint = model.joints[end]
     ax, ay = pulled(model.drag, vx, gravity[0]), pulled(model.drag, vy, gravity[1])
-    return ay * joint.tx - ax * joint.ty - _curvature(model.arcs, end) * (vx * vx + vy * vy)
+    return ay * joint.tx - ax * joint.ty - curvature_out(model.arcs, end) * (vx * vx + vy * vy)
 
 
 @kernel
-def _curvature(arcs, end):
+def curvature_out(arcs, end):
     """Curvature of an edge, above 0 where it bends to the left on its way out from an end."""
     if arcs is not None:
         arc = arcs[end >> 1]
         if arc.radius > 0.0:
             return 1.0 / arc.radius if (arc.sweep > 0.0) == (end & 1 == 0) else -1.0 / arc.radius
     return 0.0
+
+
+@rare_kernel
+def free_side(model, gravity, edge):
+    """On which side of a line along gravity a point lies that is laid on it: 1 the outward one, or -1.
+
+    Nothing presses it there. Of a closed wall it is the outward side, where balls are free; of an open one that to
+    which the wall turns below the line, for what comes down along it comes to that hollow. Else it is the outward one.
+    """
+    first = last = edge
+    while first > 0 and model.edge_wall[first - 1] == model.edge_wall[edge]:
+        first -= 1
+    while last + 1 < len(model.edge_wall) and model.edge_wall[last + 1] == model.edge_wall[edge]:
+        last += 1
+    if first < last and model.joints[2 * first].place == model.joints[2 * last + 1].place:
+        return 1.0
+    line = model.lines[edge]
+    below = edge
+    for _edge in range(last - first + 1):
+        end = 2 * below
+        if model.joints[end].tx * gravity[0] + model.joints[end].ty * gravity[1] > 0.0:
+            end += 1
+        joint = model.joints[end]
+        following_end = int(joint.counter)
+        if following_end == end or int(joint.clockwise) != following_end:
+            return 1.0  # it ends here, or walls go off to both sides
+        there = model.joints[following_end]
+        # Down is against the way out from the lower end.
+        turn = there.tx * joint.ty - there.ty * joint.tx
+        if abs(turn) <= SMOOTH_JOINT and there.tx * joint.tx + there.ty * joint.ty < 0.0:
+            turn = curvature_out(model.arcs, following_end)
+        if turn != 0.0:
+            # Outward is n, and to the left of the way down lies (-gy, gx).
+            out_left = line.ny * gravity[0] - line.nx * gravity[1] > 0.0
+            return 1.0 if (turn > 0.0) == out_left else -1.0
+        below = following_end >> 1
+    return 1.0

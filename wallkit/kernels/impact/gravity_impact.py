@@ -24,6 +24,8 @@ HULL_ROUNDING = 2.0**-45
 """Of the size of a hull, beyond the rounding of its points and of what is made of them."""
 GRAZING_ROUNDING = 2.0**-46
 """Of the squared way to a corner, above the rounding of the quartic's coefficients."""
+HIDING = 2.0**-23
+"""Of the way to a corner: the square of a smaller radius is below that rounding, and a root of it tells nothing."""
 LATER = 1.0 + 2.0**-18
 """Roots are looked for up to so much after the time that matters: ``_polished`` moves them by less."""
 
@@ -177,7 +179,8 @@ def fall_corners(
             LATER * min(best, until), from_behind,
         )  # fmt: skip
         if drag is None:
-            if t == NEVER and c0 > 0.0 and not from_behind and -2 - ids[k] != last:
+            hides = t == NEVER or radius < HIDING * way_of(ex, ey, vx, vy, gx, gy, t)
+            if hides and c0 > 0.0 and not from_behind and -2 - ids[k] != last:
                 t = _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, LATER * min(best, until))
         if one_sided is not None:
             if t <= best and t < NEVER:
@@ -197,7 +200,8 @@ def _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, t_max):
     """First fall of a disc on to a corner that the rounding of the quartic's coefficients hides, or NEVER.
 
     They are off by the rounding of the squared way, which is 1 / r of that in the distance: where a disc comes over a
-    corner on to its edge, along that, neither the edge nor the corner would stop it. So it is asked again from near by.
+    corner on to its edge, along that, neither the edge nor the corner would stop it. So it is asked again from near by,
+    as is where a disc that is smaller than the rounding seems to meet it.
     """
     # At the corner e + v t + g t^2 / 2 = 0: g t^2 / 2 <= |e| + |v| t, so t <= (|v| + sqrt(v^2 + 2 g |e|)) / g.
     pull, speed, off = math.sqrt(gx * gx + gy * gy), abs(vx) + abs(vy), abs(ex) + abs(ey)
@@ -213,10 +217,15 @@ def _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, t_max):
     # The quartic of the flight from there: its c0 is of the size of r^2, not of the way to the corner.
     f3, f2 = ux * gx + uy * gy, ux * ux + uy * uy + px * gx + py * gy
     # Within the rounding of places it touches the corner: else it might be just past that, and just below the line.
-    way = abs(ex) + abs(ey) + near * (abs(vx) + abs(vy) + near * (abs(gx) + abs(gy)))
-    reach = radius + 2.0**-50 * way
+    reach = radius + 2.0**-50 * way_of(ex, ey, vx, vy, gx, gy, near)
     f1, f0 = 2.0 * (px * ux + py * uy), px * px + py * py - reach * reach
     return near + first_fall_quartic(c4, f3, f2, f1, f0, t_max - near, False)
+
+
+@kernel
+def way_of(ex, ey, vx, vy, gx, gy, t):
+    """How large the parts are that the place after a time of flight is made of."""
+    return abs(ex) + abs(ey) + t * (abs(vx) + abs(vy) + t * (abs(gx) + abs(gy)))
 
 
 @rare_kernel
