@@ -9,7 +9,7 @@ import pytest
 
 from wallkit import Balls, Ending, Material, Scene, Walls, World, simulate, survey
 from wallkit.kernels.flight.slowed_contact import swing_on
-from wallkit.kernels.impact.drag_motion import eased, time_of_way
+from wallkit.kernels.impact.drag_motion import eased, time_of_way, time_to_border
 from wallkit.kernels.records import GOES_ON, LIFTS, TIME_IS_UP, TURNS
 from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.run import ContactKind
@@ -61,8 +61,9 @@ def test_the_times_of_drag_have_all_digits(k, x):
     assert eased(k, t) == pytest.approx(expected, rel=4e-16 * (1 + x))
 
 
+@pytest.mark.parametrize("when", [time_of_way, time_to_border])
 @pytest.mark.parametrize("seed", range(40))
-def test_a_way_takes_its_time(seed):
+def test_a_way_takes_its_time(seed, when):
     rng = np.random.default_rng(seed)
     k, v, a = 10 ** rng.uniform(-5, 2), 10 ** rng.uniform(-3, 3), rng.choice([-1, 0, 1]) * 10 ** rng.uniform(-2, 2)
     t = rng.uniform(0, 1) * (math.log1p(-k * v / a) / k if a < 0 else 10 / k)
@@ -70,7 +71,7 @@ def test_a_way_takes_its_time(seed):
     # a way rounded by 2^-52 of its parts moves the time by that over the speed
     speed = v * math.exp(-k * t) + a * free
     bound = 4e-16 * (v * free + abs(a) * second) / speed + 4e-15 * t
-    assert time_of_way(k, v, a, v * free + a * second) == pytest.approx(t, abs=bound)
+    assert when(k, v, a, v * free + a * second) == pytest.approx(t, abs=bound)
 
 
 def test_friction_stops_a_ball_on_a_level_wall_as_it_does_without_gravity():

@@ -59,7 +59,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
 from wallkit.kernels.batches.lockstep_straight import WIDER, turned
 from wallkit.kernels.flight.flight import still_limit
 from wallkit.kernels.flight.joints import AT_VERTEX
-from wallkit.kernels.impact.gravity_impact import fall_corners, hull_of
+from wallkit.kernels.impact.gravity_impact import fall_corners, hull_of, strays
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.impact.line_impact import slack_of
 from wallkit.kernels.impact.polynomial_roots import NEVER, first_fall_quadratic
@@ -194,18 +194,16 @@ def _outline(s, gravity, radius):
 def _pass_corner(s, row, corner):
     """Note which discs may meet a corner before what they have found, by the hull of their flights: ``fall_corners``.
 
-    That is the box of a hull, and the bound of the distance that is ``least_of``.
+    That is the box of a hull, and the strip of ``strays``.
     """
     cx, cy = corner.x, corner.y
     for i in range(LANES):
         left, right, low, high = s[LEFT_X + i] - cx, cx - s[RIGHT_X + i], s[LOW_Y + i] - cy, cy - s[HIGH_Y + i]
         off_x, off_y = left if left > right else right, low if low > high else high
         off_x, off_y = off_x if off_x > 0.0 else 0.0, off_y if off_y > 0.0 else 0.0
-        ax, ay, bx, by, ex, ey = (
-            s[X + i] - cx, s[Y + i] - cy, s[QX + i] - cx, s[QY + i] - cy, s[RX + i] - cx, s[RY + i] - cy,
-        )  # fmt: skip
-        least = least_of(ax, ay, bx, by, ex, ey)
-        may = (off_x * off_x + off_y * off_y <= s[MOST + i]) & (least <= s[MOST + i])
+        most = s[MOST + i]
+        may = off_x * off_x + off_y * off_y <= most
+        may = may & (not strays(s[X + i], s[Y + i], s[QX + i], s[QY + i], s[RX + i], s[RY + i], cx, cy, most))
         s[ASK + i] = s[ASK + i] + (MANY + row) if may else s[ASK + i]
 
 
@@ -224,9 +222,7 @@ def _answer_disc(model, gravity, radius, s, i):
     for k in range(first, stop):
         corner = model.corners[model.ids[k]]
         cx, cy = corner.x, corner.y
-        one = least_of(px - cx, py - cy, ax - cx, ay - cy, mx - cx, my - cy)
-        other = least_of(mx - cx, my - cy, bx - cx, by - cy, rx - cx, ry - cy)
-        if one > most and other > most:
+        if _keeps_off(px, py, ax, ay, mx, my, cx, cy, most) and _keeps_off(mx, my, bx, by, rx, ry, cx, cy, most):
             continue
         last, feature = feature_of(model, s[LAST + i]), feature_of(model, s[ROW + i])
         s[BEST + i], feature = fall_corners(
@@ -236,6 +232,14 @@ def _answer_disc(model, gravity, radius, s, i):
         )  # fmt: skip
         if feature == -2 - int(model.ids[k]):
             s[ROW + i] = float(k)
+
+
+@kernel
+def _keeps_off(px, py, qx, qy, rx, ry, cx, cy, most):
+    """Tell whether a part of a flight with this hull keeps farther than the root of ``most`` from a corner."""
+    if strays(px, py, qx, qy, rx, ry, cx, cy, most):
+        return True
+    return least_of(px - cx, py - cy, qx - cx, qy - cy, rx - cx, ry - cy) > most
 
 
 @kernel

@@ -150,8 +150,9 @@ def _time_to_arc(
     """
     ex, ey = wx + arc.sx, wy + arc.sy
     power = wx * (wx + 2.0 * arc.sx) + wy * (wy + 2.0 * arc.sy)
-    c4, c3 = 0.25 * (gx * gx + gy * gy), vx * gx + vy * gy
-    c2 = vx * vx + vy * vy + ex * pulled(drag, vx, gx) + ey * pulled(drag, vy, gy)
+    ax, ay = pulled(drag, vx, gx), pulled(drag, vy, gy)
+    c4, c3 = 0.25 * (ax * ax + ay * ay), vx * ax + vy * ay
+    c2, bent = vx * vx + vy * vy + ex * ax + ey * ay, abs(ex * ax) + abs(ey * ay)
     c1 = 2.0 * (ex * vx + ey * vy)
     outer, inner = levels_of(arc.radius, radius)
     mould = FALLING_MOULD * arc.radius
@@ -176,7 +177,7 @@ def _time_to_arc(
             continue
         if from_behind and ((most < level) if from_outside else (least > level)):
             continue
-        if again and not from_behind and _only_rises(drag, side * c4, side * c3, b2, b1, c0, best):
+        if again and not from_behind and _only_rises(drag, side * c4, side * c3, b2, b1, c0, bent, best):
             other = is_mould
             continue
         t = circle_fall(
@@ -238,18 +239,22 @@ def _time_onto(arc, radius, wx, wy, vx, vy, gx, gy, drag, far, slack, best, foun
 
 
 @rare_kernel
-def _only_rises(drag, c4, c3, c2, c1, c0, span):
+def _only_rises(drag, c4, c3, c2, c1, c0, bent, span):
     """Tell whether a gap that begins at 0, to rounding, surely comes to no fall through 0 in a span of time.
 
     It is c0 + q t, q a cubic that lies between the four coefficients of its Bezier curve. Where these are a quarter of
-    q(0) = c1 and more, the gap is at most 0 up to t = 4 |c0| / c1, and until then its slope keeps most of c1.
+    q(0) = c1 and more, the gap is at most 0 up to t = 4 |c0| / c1, and until then its slope keeps most of c1. With drag
+    ``bent`` is what the acceleration has in c2.
     """
-    if drag is not None:
-        return False
+    t = 4.0 * abs(c0) / (c1 if c1 > 0.0 else 1.0)
     # q = c1 + c2 t + c3 t^2 + c4 t^3 on [0, span] has the Bezier coefficients c1, c1 + a/3, c1 + (2 a + b)/3 and
     # c1 + a + b + c.
     a, b, c = c2 * span, c3 * span * span, c4 * span * span * span
     least = 0.25 * c1 + HULL_ROUNDING * (abs(a) + abs(b) + abs(c))
-    t = 4.0 * abs(c0) / (c1 if c1 > 0.0 else 1.0)
-    keeps = c1 > 4.0 * t * (abs(c2) + t * (abs(c3) + t * abs(c4)))
+    bend = abs(c2)
+    if drag is not None:
+        # s is less than t^2 / 2 by k t / 3 of that at most, and so are the terms in which it stands once; s^2 twice.
+        least += drag * span * (bent * span + abs(b) + abs(c))
+        bend += drag * bent * t
+    keeps = c1 > 4.0 * t * (bend + t * (abs(c3) + t * abs(c4)))
     return keeps and c1 + a / 3.0 > least and c1 + (2.0 * a + b) / 3.0 > least and c1 + a + b + c > least

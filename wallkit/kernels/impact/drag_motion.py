@@ -20,6 +20,8 @@ SHORT = 0.5
 """Below this k t the second time is summed as a series: by the closed form t - f would cancel."""
 TERMS = 18
 """Of that series: the next one, x^18 / 20!, is below 2^-53 of the first."""
+CLOSE = 2.0**-30
+"""Of a time, Newton's step that is so small is the last: the next one would be of its square."""
 GENERAL = 2.0
 """The k t from which on the second time s is taken for at least t / 2 k: see ``beyond``."""
 
@@ -39,7 +41,9 @@ def eased(drag: float, t: float) -> tuple[float, float, float]:
     term = total = 0.5
     for n in range(1, TERMS):
         term *= -x / (n + 2)
-        total += term
+        before, total = total, total + term
+        if total == before:  # the terms that follow are smaller still
+            break
     return left, free, t * t * total
 
 
@@ -138,6 +142,49 @@ def time_of_way(drag: float, v: float, a: float, way: float) -> float:
                 break
         if abs(following - t) <= 2.0**-53 * t:
             break
+        t = following
+    return t
+
+
+@rare_kernel
+def time_to_border(drag: float, v: float, a: float, way: float) -> float:
+    """``time_of_way`` for the walk from cell to cell, to within some roundings and from a better start.
+
+    A parabola bounds the way from one side, so Newton's steps begin there: two or three do.
+    """
+    if not (v > 0.0 or a > 0.0):
+        return NEVER
+    if a == 0.0:  # v (1 - E) / k = way: it comes to v / k at most
+        part = way * drag / v
+        return -math.log1p(-part) / drag if part < 1.0 else NEVER
+    # The way is v t + a0 s with a0 = a - k v, and s <= t^2 / 2: up to the parabola if it speeds up, else beyond it.
+    bend, low = a - drag * v, 0.0
+    square = v * v + 2.0 * bend * way
+    if square > 0.0:
+        t = 2.0 * way / (v + math.sqrt(square))
+        high = NEVER if bend > 0.0 else t
+    elif a > 0.0:  # it slows down, but to a speed that lasts
+        t, high = way / v, NEVER
+    else:  # it turns where its speed is 0
+        t = high = math.log1p(-drag * v / a) / drag
+        if along(drag, 0.0, v, a, high) < way:
+            return NEVER
+    for _ in range(1200):
+        left, free, second = eased(drag, t)
+        late, slope = (v * free + a * second) - way, v * left + a * free
+        if late == 0.0:
+            break
+        if late > 0.0:
+            high = t
+        else:
+            low = t
+        following = t - late / slope if slope > 0.0 else low
+        if not low < following < high:
+            following = 0.5 * (low + high) if high < NEVER else 2.0 * low
+            if following in (low, high):
+                break
+        elif abs(following - t) <= CLOSE * t:
+            return following
         t = following
     return t
 

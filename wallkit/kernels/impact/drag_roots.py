@@ -44,6 +44,20 @@ class Gap(NamedTuple):
 def derivative_at(gap: Gap, order: int, t: float) -> float:
     """Give F, F', F'' at a time, or for the order 3 h, whose sign is that of F''', and for 4 its slope h'."""
     left, free, second = eased(gap.drag, t)
+    return _derivative(gap, order, t, left, free, second)
+
+
+@rare_kernel
+def with_slope(gap: Gap, order: int, t: float) -> tuple[float, float]:
+    """Give what ``derivative_at`` gives, and its slope."""
+    left, free, second = eased(gap.drag, t)
+    slope = _derivative(gap, order + 1, t, left, free, second)
+    # h has lost the factor 2 E of F'''.
+    return _derivative(gap, order, t, left, free, second), slope * (2.0 * left) if order == 2 else slope
+
+
+@kernel
+def _derivative(gap: Gap, order: int, t: float, left: float, free: float, second: float) -> float:
     ax, ay = gap.gx - gap.drag * gap.vx, gap.gy - gap.drag * gap.vy
     if order == 4:
         return gap.q * (4.0 * left * (ax * ax + ay * ay) - (ax * gap.gx + ay * gap.gy))
@@ -69,7 +83,7 @@ def first_fall(gap: Gap, far: float, t_max: float, behind: bool) -> float:
     does not depend on ``t_max`` but only on ``far``.
     """
     first, second, third = _bends(gap, far)
-    start, f, slope = 0.0, derivative_at(gap, 0, 0.0), derivative_at(gap, 1, 0.0)
+    start, (f, slope) = 0.0, with_slope(gap, 0, 0.0)
     falls = _falls_at_first(gap, slope)
     rose = not behind or (f >= 0.0 and not falls)
     for piece in range(4):
@@ -80,7 +94,7 @@ def first_fall(gap: Gap, far: float, t_max: float, behind: bool) -> float:
             return NEVER
         if rose and falls and f <= 0.0:
             return start
-        f_end, slope_end = derivative_at(gap, 0, end), derivative_at(gap, 1, end)
+        f_end, slope_end = with_slope(gap, 0, end)
         t = NEVER
         if _bends_up(gap, start, end):
             if rose and falls:
@@ -131,12 +145,17 @@ def _bends_up(gap: Gap, start: float, end: float) -> bool:
 def _bends(gap: Gap, far: float) -> tuple[float, float, float]:
     """Times before ``far`` at which F'' changes its sign, in order; ``far`` in place of those that are missing."""
     turn = _turn_of_third(gap, far)
+    if gap.q == 0.0:  # F'' = 2 E s.a0 keeps its sign
+        return turn, far, far
     # h is monotone up to its turn, and after it; F'' is so between the roots of h.
-    one, two = _sign_change(gap, 3, 0.0, turn), _sign_change(gap, 3, turn, far)
+    a, b, c = derivative_at(gap, 3, 0.0), derivative_at(gap, 3, turn), derivative_at(gap, 3, far)
+    one, two = _sign_change(gap, 3, 0.0, turn, a, b), _sign_change(gap, 3, turn, far, b, c)
+    a, b = derivative_at(gap, 2, 0.0), derivative_at(gap, 2, one)
+    c, d = derivative_at(gap, 2, two), derivative_at(gap, 2, far)
     first, second, third = (
-        _sign_change(gap, 2, 0.0, one),
-        _sign_change(gap, 2, one, two),
-        _sign_change(gap, 2, two, far),
+        _sign_change(gap, 2, 0.0, one, a, b),
+        _sign_change(gap, 2, one, two, b, c),
+        _sign_change(gap, 2, two, far, c, d),
     )
     return first, second, third
 
@@ -152,23 +171,20 @@ def _turn_of_third(gap: Gap, far: float) -> float:
 
 
 @rare_kernel
-def _sign_change(gap: Gap, order: int, low: float, high: float) -> float:
-    """Give where a derivative that is monotone from low to high changes its sign; ``high`` if it does not.
+def _sign_change(gap: Gap, order: int, low: float, high: float, begins: float, ends: float) -> float:
+    """Give where a derivative that goes from ``begins`` at low to ``ends`` at high is 0; ``high`` if nowhere between.
 
     Newton's step, or half the bracket where it leaves it or does not halve the step before the last.
     """
     if not low < high:
         return high
-    begins, ends = derivative_at(gap, order, low), derivative_at(gap, order, high)
     if not (begins > 0.0 > ends or begins < 0.0 < ends):
         return high
     falls = begins > 0.0
     t = 0.5 * (low + high)
     before = last = high - low
     for _ in range(STEPS):
-        value, slope = derivative_at(gap, order, t), derivative_at(gap, order + 1, t)
-        if order == 2:  # h has lost the factor 2 E of F'''
-            slope *= 2.0 * eased(gap.drag, t)[0]
+        value, slope = with_slope(gap, order, t)
         if (value > 0.0) == falls:
             low = t
         else:
@@ -188,7 +204,7 @@ def _from_left(gap: Gap, start: float, end: float) -> float:
     """Give where F, above 0 and falling at ``start``, first falls through 0 before ``end``; it bends up all the way."""
     t = start
     for _ in range(STEPS):
-        f, slope = derivative_at(gap, 0, t), derivative_at(gap, 1, t)
+        f, slope = with_slope(gap, 0, t)
         if f <= 0.0:
             return t
         # F lies above its tangent, so its root is not passed.
@@ -206,7 +222,7 @@ def _from_right(gap: Gap, start: float, end: float) -> float:
     """Give where F falls through 0 for the last time before ``end``, where it is below; it bends down all the way."""
     t = end
     for _ in range(STEPS):
-        f, slope = derivative_at(gap, 0, t), derivative_at(gap, 1, t)
+        f, slope = with_slope(gap, 0, t)
         # F lies below its tangent: from the right of the root steps stay there.
         following = t - f / slope if slope < 0.0 else t
         if not following < t:
@@ -230,4 +246,5 @@ def _over_the_top(gap: Gap, start: float, end: float, rose: bool) -> float:
 @kernel
 def _top_between(gap: Gap, start: float, end: float) -> float:
     """Where F, which bends down and falls at the end, is highest."""
-    return start if derivative_at(gap, 1, start) <= 0.0 else _sign_change(gap, 1, start, end)
+    rises = derivative_at(gap, 1, start)
+    return start if rises <= 0.0 else _sign_change(gap, 1, start, end, rises, derivative_at(gap, 1, end))

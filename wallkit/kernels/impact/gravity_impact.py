@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 
-from wallkit.kernels.impact.drag_motion import along, pulled
+from wallkit.kernels.impact.drag_motion import along, eased, pulled
 from wallkit.kernels.impact.drag_roots import Gap, first_fall, first_fall_after
 from wallkit.kernels.impact.leaving import LEVEL_SPEED, left_along
 from wallkit.kernels.impact.line_impact import from_across, precedes, slack_of, stands_across
@@ -34,11 +34,11 @@ LATER = 1.0 + 2.0**-18
 def hull_of(drag, x, y, vx, vy, gx, gy, start, stop, tolerance):
     """Give the hull of a flight between two times: (px, py, qx, qy, rx, ry, margin, size).
 
-    It begins at p and ends at r, and its tangents there meet in q. What is within ``margin`` may be met: with drag,
-    where the way is no parabola, everything.
+    It begins at p and ends at r, and its tangents there meet in q. What is within ``margin`` may be met. With drag it
+    is the hull of a parabola that begins and ends as the flight does, and the margin holds what is between the two.
     """
     if drag is not None:
-        return x, y, x, y, x, y, NEVER, 0.0
+        return _slowed_hull(drag, x, y, vx, vy, gx, gy, start, stop, tolerance)
     ux, uy = vx + start * gx, vy + start * gy
     half = 0.5 * (stop - start)
     # A part of a parabola is a quadratic Bezier curve. Its middle point is where the tangents at both ends meet:
@@ -51,21 +51,71 @@ def hull_of(drag, x, y, vx, vy, gx, gy, start, stop, tolerance):
 
 
 @rare_kernel
+def _slowed_hull(drag, x, y, vx, vy, gx, gy, start, stop, tolerance):
+    """``hull_of`` of a flight with drag k."""
+    if not stop < NEVER:
+        return x, y, x, y, x, y, NEVER, 0.0
+    left, free, second = eased(drag, start)
+    px, py = x + (vx * free + gx * second), y + (vy * free + gy * second)
+    span, pulls = stop - start, left * (abs(gx - drag * vx) + abs(gy - drag * vy))
+    half = 0.5 * span
+    qx, qy = px + half * (vx * left + gx * free), py + half * (vy * left + gy * free)
+    _left, free, second = eased(drag, stop)
+    rx, ry = x + (vx * free + gx * second), y + (vy * free + gy * second)
+    size = abs(px) + abs(py) + abs(qx) + abs(qy) + abs(rx) + abs(ry)
+    way = (abs(vx) + abs(vy)) * free + (abs(gx) + abs(gy)) * second
+    # Flight less parabola has a double root where it starts and one where it stops, and a third derivative of -k a,
+    # which only falls off: it is at most k a max(t^2 (T - t)) / 6 = 2 k a T^3 / 81.
+    margin = tolerance + HULL_ROUNDING * (size + way) + 0.025 * drag * pulls * span * span * span
+    return px, py, qx, qy, rx, ry, margin, size
+
+
+@kernel
+def strays(px, py, qx, qy, rx, ry, cx, cy, most):
+    """Tell whether a flight with this hull keeps farther than the root of ``most`` from c: by the strip it lies in.
+
+    Across the way from p to r a parabola goes to half of where q is, and back: (1 - t)^2 p + 2 t (1 - t) q + t^2 r.
+    """
+    ux, uy = rx - px, ry - py
+    bow = 0.5 * (ux * (qy - py) - uy * (qx - px))
+    at = ux * (cy - py) - uy * (cx - px)
+    below, above = -at if bow > 0.0 else bow - at, at - bow if bow > 0.0 else at
+    off = below if below > above else above
+    return (off > 0.0) & (off * off > most * (ux * ux + uy * uy))
+
+
+@kernel
+def _misses(line, radius, slack, px, py, qx, qy, rx, ry, margin):
+    """Tell whether a flight with this hull keeps off a line: beyond it, before it, or past one of its ends."""
+    nx, ny, ax, ay, bx, by = line.nx, line.ny, px - line.ax, py - line.ay, qx - line.ax, qy - line.ay
+    cx, cy = rx - line.ax, ry - line.ay
+    a, b, c = ax * nx + ay * ny, bx * nx + by * ny, cx * nx + cy * ny
+    reach = radius + margin
+    if min(min(a, b), c) > reach or max(max(a, b), c) < -reach:
+        return True
+    a, b, c = ay * nx - ax * ny, by * nx - bx * ny, cy * nx - cx * ny
+    return min(min(a, b), c) > line.length + slack + margin or max(max(a, b), c) < -slack - margin
+
+
+@rare_kernel
 def fall_line(
     lines, ids, start, stop, one_sided, edge_wall, radius, x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance,
-    best, feature,
+    now, until, best, feature,
 ):  # fmt: skip
     """Earliest contact with the lines of entries start to stop: +-(d + vn t + gn t^2 / 2) - r falls through 0.
 
     ``skipped`` is the line that the ball has just left along it. A disc that overlaps a one-sided wall by more
     than rounding has come through it, and meets it once it has left it. The far side can be met only by a ball that
-    comes through the gap to the near one, beside the edge: it is asked only if that is before ``best``.
+    comes through the gap to the near one, beside the edge: it is asked only if that is before ``best``. With drag,
+    where that takes long, only hulls of the flight from ``now`` to ``until`` that come near are asked.
 
     Returns:
         (time, feature, number of other lines that a point touches where it starts).
     """
     touched = 0
     slack = slack_of(tolerance, radius)
+    if drag is not None:
+        px, py, qx, qy, rx, ry, margin, _size = hull_of(drag, x, y, vx, vy, gx, gy, now, min(best, until), tolerance)
     noise = LEVEL_SPEED * (abs(vx) + abs(vy))
     for k in range(start, stop):
         if ids[k] == skipped:
@@ -80,6 +130,9 @@ def fall_line(
         if radius == 0.0 and abs(d) <= tolerance and -tolerance <= u <= line.length + tolerance:
             touched += 1 if ids[k] != last else 0
             above = vn > 0.0 if abs(vn) > noise else gn < 0.0  # pressed on it, it lies on it
+        if drag is not None:
+            if _misses(line, radius, slack, px, py, qx, qy, rx, ry, margin):
+                continue
         side = 1.0 if above else -1.0
         if one_sided is None or side > 0.0 or one_sided[edge_wall[ids[k]]] == 0:
             t = line_fall(drag, far, side * gn, side * vn, side * d - radius)
@@ -163,7 +216,7 @@ def fall_corners(
         cx, cy = corner.x, corner.y
         # First the box of the hull, which most corners are far from, then the quartic's own bounds, then its roots.
         off_x, off_y = max(max(left - cx, cx - right), 0.0), max(max(low - cy, cy - high), 0.0)
-        if off_x * off_x + off_y * off_y > most:
+        if off_x * off_x + off_y * off_y > most or strays(px, py, qx, qy, rx, ry, cx, cy, most):
             continue
         least, _largest = range_of(px - cx, py - cy, qx - cx, qy - cy, rx - cx, ry - cy, 0.0, 0.0)
         if least > most:
@@ -174,14 +227,21 @@ def fall_corners(
         from_behind = stands_across(one_sided, corner_wall, ids[k], c0, 2.0 * radius * slack)
         if -2 - ids[k] == last:
             c2, c1, c0, from_behind = left_along(c2, c1, c0, radius, slack, vx, vy, gx, gy, from_behind)
+        near = 0.0
+        grazes = c4 > 0.0 and c0 > 0.0 and not from_behind and -2 - ids[k] != last
+        if drag is None:
+            if grazes:  # widened by rounding it falls sooner: without a root of that one the exact one has none
+                near = _near(ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, LATER * min(best, until))
+                if not near < NEVER:
+                    continue
         t = circle_fall(
             drag, far, 1.0, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy, c4, c3, c2, c1, c0, 0.0,
             LATER * min(best, until), from_behind,
         )  # fmt: skip
         if drag is None:
             hides = t == NEVER or radius < HIDING * way_of(ex, ey, vx, vy, gx, gy, t)
-            if hides and c0 > 0.0 and not from_behind and -2 - ids[k] != last:
-                t = _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, LATER * min(best, until))
+            if grazes and hides:
+                t = _grazing(radius, ex, ey, vx, vy, gx, gy, near, LATER * min(best, until))
         if one_sided is not None:
             if t <= best and t < NEVER:
                 there_x, there_y = along(drag, ex, vx, gx, t), along(drag, ey, vy, gy, t)
@@ -196,22 +256,23 @@ def fall_corners(
 
 
 @rare_kernel
-def _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, t_max):
+def _near(ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, t_max):
+    """First fall of a disc on to a corner, or to within the rounding of the quartic's coefficients of it, or NEVER."""
+    # At the corner e + v t + g t^2 / 2 = 0: g t^2 / 2 <= |e| + |v| t, so t <= (|v| + sqrt(v^2 + 2 g |e|)) / g.
+    pull, speed, off = math.sqrt(gx * gx + gy * gy), abs(vx) + abs(vy), abs(ex) + abs(ey)
+    latest = (speed + math.sqrt(speed * speed + 2.0 * pull * off)) / pull
+    size = 2.0 * (off + speed * latest)
+    return first_fall_quartic(c4, c3, c2, c1, c0 - GRAZING_ROUNDING * size * size, t_max, False)
+
+
+@rare_kernel
+def _grazing(radius, ex, ey, vx, vy, gx, gy, near, t_max):
     """First fall of a disc on to a corner that the rounding of the quartic's coefficients hides, or NEVER.
 
     They are off by the rounding of the squared way, which is 1 / r of that in the distance: where a disc comes over a
-    corner on to its edge, along that, neither the edge nor the corner would stop it. So it is asked again from near by,
-    as is where a disc that is smaller than the rounding seems to meet it.
+    corner on to its edge, along that, neither the edge nor the corner would stop it. So it is asked again from the
+    time ``near``, when it is near by, as is where a disc that is smaller than the rounding seems to meet it.
     """
-    # At the corner e + v t + g t^2 / 2 = 0: g t^2 / 2 <= |e| + |v| t, so t <= (|v| + sqrt(v^2 + 2 g |e|)) / g.
-    pull, speed, off = math.sqrt(gx * gx + gy * gy), abs(vx) + abs(vy), abs(ex) + abs(ey)
-    if pull == 0.0:
-        return NEVER
-    latest = (speed + math.sqrt(speed * speed + 2.0 * pull * off)) / pull
-    size = 2.0 * (off + speed * latest)
-    near = first_fall_quartic(c4, c3, c2, c1, c0 - GRAZING_ROUNDING * size * size, t_max, False)
-    if not near < NEVER:
-        return NEVER
     px, py = ex + near * (vx + 0.5 * near * gx), ey + near * (vy + 0.5 * near * gy)
     ux, uy = vx + near * gx, vy + near * gy
     # The quartic of the flight from there: its c0 is of the size of r^2, not of the way to the corner.
@@ -219,7 +280,7 @@ def _grazing(radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, t_max):
     # Within the rounding of places it touches the corner: else it might be just past that, and just below the line.
     reach = radius + 2.0**-50 * way_of(ex, ey, vx, vy, gx, gy, near)
     f1, f0 = 2.0 * (px * ux + py * uy), px * px + py * py - reach * reach
-    return near + first_fall_quartic(c4, f3, f2, f1, f0, t_max - near, False)
+    return near + first_fall_quartic(0.25 * (gx * gx + gy * gy), f3, f2, f1, f0, t_max - near, False)
 
 
 @kernel

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from wallkit.kernels.impact.arc_fall import fall_arcs
-from wallkit.kernels.impact.drag_motion import along, beyond, speed_after, standstill, time_of_way
+from wallkit.kernels.impact.drag_motion import beyond, carried, speed_after, standstill, time_to_border
 from wallkit.kernels.impact.gravity_impact import fall_corners, fall_line
 from wallkit.kernels.impact.polynomial_roots import NEVER
 from wallkit.kernels.index.grid import clearing, leaf, moves_to_next, place
@@ -35,6 +35,7 @@ def fall_search(model, grid, drag, radius, x, y, vx, vy, gx, gy, last, skipped, 
     columns, rows = grid.columns << grid.shift, grid.rows << grid.shift
     touched, octant = 0, 0
     now = turn = 0.0
+    at_x, at_y, ux, uy = x, y, vx, vy
     # Four turns at most make five pieces, and on each columns and rows only rise, or only fall.
     for step in range(5 * (columns + rows) + 16):
         if step == 0 or now == turn:
@@ -48,8 +49,8 @@ def fall_search(model, grid, drag, radius, x, y, vx, vy, gx, gy, last, skipped, 
             wide = high = moves_to_next(model.cells[c])
         left, right = _span(column, shift, wide, octant & 1)
         low, top = _span(row, shift, high, octant & 2)
-        after_x = _until_left(drag, grid.x0, grid.unit, left, right, columns, x, vx, gx, now, octant & 1)
-        after_y = _until_left(drag, grid.y0, grid.unit, low, top, rows, y, vy, gy, now, octant & 2)
+        after_x = _until_left(drag, grid.x0, grid.unit, left, right, columns, at_x, ux, gx, octant & 1)
+        after_y = _until_left(drag, grid.y0, grid.unit, low, top, rows, at_y, uy, gy, octant & 2)
         # The walk goes on to the border, or to where the octant changes, and looks for contacts until then.
         then = min(now + min(after_x, after_y), turn)
         if listed:
@@ -61,7 +62,8 @@ def fall_search(model, grid, drag, radius, x, y, vx, vy, gx, gy, last, skipped, 
         if best <= then or then == NEVER:
             break
         now = then
-        there_x, there_y = place(grid, along(drag, x, vx, gx, now), along(drag, y, vy, gy, now))
+        at_x, at_y, ux, uy = carried(drag, x, y, vx, vy, gx, gy, now)
+        there_x, there_y = place(grid, at_x, at_y)
         there_x = min(max(there_x, left), right - 1)
         there_y = min(max(there_y, low), top - 1)
         # Beyond the border that is passed the number is a whole one; at a turn the ball stays in its cell.
@@ -84,7 +86,7 @@ def _fall_scan(
     if cell.first < cell.arcs:
         best, feature, touched = fall_line(
             model.lines, model.ids, cell.first, cell.arcs, model.one_sided, model.edge_wall, radius,
-            x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance, best, feature,
+            x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance, now, until, best, feature,
         )  # fmt: skip
     if cell.arcs < cell.corners:
         best, feature, more = fall_arcs(
@@ -140,25 +142,23 @@ def _span(number, shift, count, back):
 
 
 @kernel
-def _until_left(drag, origin, unit, first, end, count, p, v, g, now, back):
-    """How long after now a coordinate leaves what lies from first to end, at the end to which the flight goes.
+def _until_left(drag, origin, unit, first, end, count, p, u, a, back):
+    """How long a coordinate takes to leave what lies from first to end, at the end to which the flight goes.
 
     Ahead lies d = u t + a t^2 / 2 with speed u >= 0: t = 2 d / (u + sqrt(u^2 + 2 a d)), or never if it turns before.
     """
-    u, a = speed_after(drag, v, g, now), g
-    p_now = along(drag, p, v, g, now)
     if back == 0:
         if end >= count:
             return NEVER
-        d = (origin + end * unit) - p_now
+        d = (origin + end * unit) - p
     else:
         if first <= 0:
             return NEVER
-        d, u, a = p_now - (origin + first * unit), -u, -a
+        d, u, a = p - (origin + first * unit), -u, -a
     if d <= 0.0:
         return 0.0
     if drag is not None:
-        return time_of_way(drag, max(u, 0.0), a, d)
+        return time_to_border(drag, max(u, 0.0), a, d)
     if a == 0.0:
         return d / u if u > 0.0 else NEVER
     u = max(u, 0.0)
