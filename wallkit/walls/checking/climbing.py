@@ -100,7 +100,7 @@ def _step(d: FloatArray, n: FloatArray, reach: FloatArray) -> tuple[FloatArray, 
     length = np.hypot(steps[..., 0], steps[..., 1])
     steps *= (reach[:, None] / np.maximum(length, reach[:, None]))[..., None]
     every_wall = d[:, None, :] + steps @ n.transpose(0, 2, 1)
-    after = reduce(np.minimum, (every_wall[..., k] for k in range(_KEPT)))  # a short axis takes NumPy long
+    after: FloatArray = reduce(np.minimum, (every_wall[..., k] for k in range(_KEPT)))  # a short axis takes NumPy long
     best, every = after.argmax(axis=1), np.arange(len(d))
     return steps[every, best], after[every, best] - d.min(axis=1)
 

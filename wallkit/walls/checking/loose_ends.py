@@ -133,8 +133,12 @@ def _near(scene: Surroundings, ends: OpenEnds, reach: float) -> _Near:
 
     end, edge = _bounded(scene.tree, len(x), boxes)
     parts = [_near_among(scene, ends, end[at], edge[at], reach) for at in portions(len(end))]
-    columns = zip(*((part.end, part.edge, part.distance, part.foot) for part in parts), strict=True)
-    return _Near(*(np.concatenate(column) for column in columns))  # type: ignore[arg-type]
+    return _Near(
+        np.concatenate([part.end for part in parts]),
+        np.concatenate([part.edge for part in parts]),
+        np.concatenate([part.distance for part in parts]),
+        np.concatenate([part.foot for part in parts]),
+    )
 
 
 def _near_among(scene: Surroundings, ends: OpenEnds, end: IntArray, edge: IntArray, reach: float) -> _Near:
