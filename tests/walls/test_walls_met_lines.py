@@ -109,3 +109,13 @@ def test_ends_are_mended_the_same_however_many_are_looked_at_together(monkeypatc
     assert {end.kind for end in found} == {"corner", "bridge", "extend", "foot", "trim"}
     monkeypatch.setattr(open_ends, "_AT_ONCE", 7)
     assert loose_ends.loose_ends(walls, 6.0) == found
+
+
+def test_a_face_is_searched_once_for_its_roomiest_spot(monkeypatch):
+    """Lines from one point: whether the space around them is nearly closed, and whether it has room, ask the same."""
+    turn = np.arange(12) * 2 * np.pi / 12
+    rays = [path(line((0, 0), (100 * np.cos(t), 100 * np.sin(t)))) for t in turn.tolist()]
+    searches = counted(monkeypatch, starting_places, "_searched")
+    opened = open_scene(drawing(*rays), Wishes(put_ball=False))
+    assert opened.scene.walls.solid is not None
+    assert len(searches) == 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -55,9 +55,11 @@ class Lines:
 
     Attributes:
         met: these lines with where they meet.
+        spots: faces that were searched, by their id, and the roomiest spot of each.
     """
 
     met: MetLines
+    spots: dict[int, tuple[Any, Spot | None]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, walls: Walls, met: MetLines | None = None) -> Lines:
@@ -249,7 +251,13 @@ def _in_material(walls: Walls, spot: Spot) -> bool:
 
 
 def _spot(face: Any, lines: Lines) -> Spot | None:
-    """The roomiest spot of a face, in which some of all lines may lie."""
+    """The roomiest spot of a face, in which some of all lines may lie; each face is searched once."""
+    if id(face) not in lines.spots:
+        lines.spots[id(face)] = face, _searched(face, lines)  # the face is kept, and so its id
+    return lines.spots[id(face)][1]
+
+
+def _searched(face: Any, lines: Lines) -> Spot | None:
     import shapely
 
     within = _within(face)
