@@ -45,6 +45,10 @@ SHAPES = {
         (35, 70, 140),
         "[np.array(SQUARE) + (600 * i, 600 * j) for i in range(n) for j in range(n)], True",
     ),
+    "dashes, n by n": (
+        (70, 140, 280),
+        "[[(30 * i, 30 * j), (30 * i + 20, 30 * j)] for i in range(n) for j in range(n)], False",
+    ),
     "nested squares": ((2500, 5000, 10000), "[np.array(SQUARE) * k / n for k in range(1, n + 1)], True"),
     "identical squares": ((500, 1000, 2000), "[SQUARE] * n, True"),
 }
@@ -60,12 +64,12 @@ except ImportError:  # builds from before these had folders of their own
     from wallkit.walls.build import import_walls
     from wallkit.walls.free_space import free_space
 try:
-    from wallkit.scene.starting_places import has_room as look
-except ImportError:  # where a ball was put before it was left out
-    try:
-        from wallkit.scene.starting_places import roomiest as look
-    except ImportError:
-        from wallkit.starts import roomiest as look
+    from wallkit.scene.look_over import given_of, look_over
+    from wallkit.scene.opening import open_scene
+    from wallkit.scene.wishes import Wishes
+except ImportError:  # builds from before these had modules of their own
+    look_over = None
+    from wallkit.starts import roomiest
 resource.setrlimit(resource.RLIMIT_CPU, (60, 60))
 n, looks, code = int(sys.argv[1]), sys.argv[2] == "True", sys.argv[3]
 rng = np.random.default_rng(1)
@@ -79,10 +83,14 @@ for line in lines:
     paths.append(d.DrawnPath([d.Subpath(points, closed)], stroke="#000000"))
 drawing = d.Drawing("pt", "up", paths=paths)
 start = time.process_time()
-walls = import_walls(drawing)
 known = True
-if looks:  # as check does: whether there is room for a ball, and free space
-    look(walls)
+if not looks:
+    import_walls(drawing)
+elif look_over is not None:  # as check does: whether there is room for a ball, and free space
+    known = look_over(given_of(open_scene(drawing, Wishes(put_ball=False))), None).space.complete
+else:
+    walls = import_walls(drawing)
+    roomiest(walls)
     known = free_space(walls).complete
 took = time.process_time() - start
 print(json.dumps([took, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, known]))

@@ -7,6 +7,7 @@ import shapely
 from wallkit.geometry.components import components
 from wallkit.geometry.same_points import SAME, merged
 from wallkit.geometry.triangulation import triangulate
+from wallkit.walls.checking import climbing
 from wallkit.walls.checking.climbing import Segments, climb
 from wallkit.walls.checking.narrow_places import with_feet
 from wallkit.walls.checking.wall_distance import wall_distance
@@ -48,6 +49,16 @@ def test_every_climb_ends_on_a_summit_and_the_highest_is_shapelys():
     beside = places[:, None] + 1e-3 * around(64, 1.0) * radii[:, None, None]
     higher = shapely.distance(shapely.points(beside), lines).max(axis=1)
     assert (higher <= radii * (1 + 1e-6)).all()
+
+
+def test_climbs_are_the_same_however_many_climb_together(monkeypatch):
+    walls = segments(around(40, 10.0), around(10, 1.0, 3, 2), around(9, 1.5, -3, 2))
+    starts = np.random.default_rng(1).uniform(-6, 6, (20, 2))
+    together = climb(walls, starts)
+    monkeypatch.setattr(climbing, "_AT_ONCE", 3)
+    for one, other in zip(climb(walls, starts), together, strict=True):
+        assert np.array_equal(one, other)
+    assert [len(part) for part in climb(walls, np.empty((0, 2)))] == [0, 0]
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -89,10 +89,10 @@ def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, B
     from wallkit.scene.starting_places import Lines, scattered
 
     opened.found_place = True
-    lines = Lines.of(opened.scene.walls)
+    lines = Lines.of(opened.scene.walls, opened.met)
+    if not opened.scene.walls.has_arcs:
+        opened.met = lines.met
     walls, spot = _with_room(opened.scene.walls, lines, wishes.put_ball)
-    if walls is opened.scene.walls:
-        opened.lines = lines
     if not wishes.put_ball or (spot is None and wishes.may_be_empty):
         return walls, Balls(np.empty((0, 2)), np.empty((0, 2)))
     if spot is None:

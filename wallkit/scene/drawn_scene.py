@@ -14,8 +14,9 @@ from wallkit.scene.scene import Balls
 from wallkit.walls import Walls
 from wallkit.walls.import_options import ImportOptions
 from wallkit.walls.importing.drawn_balls import drawn_balls
-from wallkit.walls.importing.pipeline import build_walls
+from wallkit.walls.importing.pipeline import walls_and_lines
 from wallkit.walls.importing.placing import placed
+from wallkit.walls.met_lines import MetLines
 from wallkit.walls.walls import ARRAYS
 
 SPEED, ANGLE = 50.0, 30.0
@@ -33,6 +34,7 @@ class Drawn:
         used: the balls of the scene are these.
         problems: of the balls' drawing.
         sensors: that are drawn, or None.
+        met: where the walls meet, if that was looked for.
     """
 
     walls: Walls
@@ -41,6 +43,7 @@ class Drawn:
     problems: list[Problem]
     used: bool = True
     sensors: Walls | None = None
+    met: MetLines | None = None
 
 
 def drawn_scene(drawing: Drawing, options: ImportOptions, balls: NDArray[np.float64] | None = None) -> Drawn:
@@ -49,10 +52,11 @@ def drawn_scene(drawing: Drawing, options: ImportOptions, balls: NDArray[np.floa
     Args:
         drawing: as read.
         options: how it becomes walls; scale and flip act on the balls, too.
-        balls: (n, 2) places of balls that are not drawn, see :func:`wallkit.walls.importing.pipeline.build_walls`.
+        balls: (n, 2) places of balls that are not drawn, see :func:`wallkit.walls.importing.pipeline.walls_and_lines`.
     """
     drawing = placed(drawing, options)
-    walls, sensors = apart(build_walls(drawing, options, balls))
+    built, met = walls_and_lines(drawing, options, balls)
+    walls, sensors = apart(built)
     found, problems = drawn_balls(drawing, options.scale, options.flip_y)
     usual = SPEED * math.cos(math.radians(ANGLE)), SPEED * math.sin(math.radians(ANGLE))
     velocity = [usual if ball.velocity is None else ball.velocity for ball in found]
@@ -66,6 +70,7 @@ def drawn_scene(drawing: Drawing, options: ImportOptions, balls: NDArray[np.floa
         any(ball.velocity is None for ball in found),
         problems,
         sensors=sensors,
+        met=met,
     )
 
 

@@ -14,17 +14,17 @@ from wallkit.walls import Walls
 if TYPE_CHECKING:
     from importers.drawing import Drawing
     from wallkit.scene.opening import OpenedScene
-    from wallkit.scene.starting_places import Lines
     from wallkit.walls.checking.free_space import FreeSpace
     from wallkit.walls.checking.leaks import Reach
     from wallkit.walls.import_options import ImportOptions
+    from wallkit.walls.met_lines import MetLines
 
 
 @dataclass(slots=True)
 class Given:
     """What FILE holds: walls, places and radii of its balls, all that was found in it, and what was assumed.
 
-    ``lines``, of the walls, say how they touch, where somebody has looked for that.
+    ``met`` says where the walls meet, or did before they changed, where somebody has looked for that.
     """
 
     walls: Walls
@@ -35,7 +35,7 @@ class Given:
     sensors: Walls | None = None
     drawing: Drawing | None = None
     importing: ImportOptions | None = None
-    lines: Lines | None = None
+    met: MetLines | None = None
 
 
 def given_of(found: OpenedScene) -> Given:
@@ -46,7 +46,7 @@ def given_of(found: OpenedScene) -> Given:
     if found.found_place:
         places, radii = np.empty((0, 2)), np.empty(0)
     sensors, drawing = found.scene.sensors, found.drawing
-    return Given(walls, places, radii, list(found.problems), assumed, sensors, drawing, found.importing, found.lines)
+    return Given(walls, places, radii, list(found.problems), assumed, sensors, drawing, found.importing, found.met)
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,15 +67,18 @@ class Look:
 def look_over(given: Given, radius: float | None) -> Look:
     """Look for leaks of a ball of a radius (None: the smallest given, else any), and whatever else is doubtful."""
     from wallkit.walls.checking.ball_places import ball_problems, goal_problems
-    from wallkit.walls.checking.free_space import free_space, free_space_among
+    from wallkit.walls.checking.free_space import free_space_among
     from wallkit.walls.checking.leaks import leak_problems, reach_of
+    from wallkit.walls.checking.self_check import straight_edges
+    from wallkit.walls.met_lines import MetLines
 
     walls = given.walls
     if radius is None and len(given.radii):
         radius = float(given.radii.min())
         given.assumed.append(f"a ball of radius {radius:.6g}, the smallest that is given (--radius)")
-    known = None if walls.has_arcs else given.lines  # arcs are other lines there
-    space = free_space(walls) if known is None else free_space_among(walls, known.edges, known.touches)
+    edges, met = straight_edges(walls), given.met
+    known = MetLines.of(walls, edges) if met is None or not met.same_as(walls) else met
+    space = free_space_among(walls, edges, known)
     reach = reach_of(space, walls, radius, given.places)
     found = ball_problems(space, walls, given.places, given.radii)
     found += [] if given.sensors is None else goal_problems(space, given.sensors, given.places)

@@ -26,7 +26,7 @@ from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
 
 if TYPE_CHECKING:
     from wallkit.scene.scene_files import SceneFile
-    from wallkit.scene.starting_places import Lines
+    from wallkit.walls.met_lines import MetLines
 
 BOUNCES = 100
 
@@ -59,7 +59,7 @@ class OpenedScene:
     found_place: bool = False
     importing: ImportOptions | None = None
     lesson: Lesson | None = None
-    lines: Lines | None = None
+    met: MetLines | None = None
 
 
 def open_scene(
@@ -132,7 +132,7 @@ def _of_drawing(drawing: Drawing, wishes: Wishes) -> OpenedScene:
     drawn = drawn_scene(drawing, wishes.importing, _given(wishes))
     scene = Scene(drawn.walls, drawn.balls, sensors=drawn.sensors)
     opened = OpenedScene(scene, None, None, drawing.kind or "drawing", drawn.problems)
-    opened.drawing, opened.importing = drawing, wishes.importing
+    opened.drawing, opened.importing, opened.met = drawing, wishes.importing, drawn.met
     return _completed(opened, drawn, wishes)
 
 

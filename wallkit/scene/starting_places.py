@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,13 +15,9 @@ from wallkit.walls import Walls
 from wallkit.walls.checking.material import Solids
 from wallkit.walls.checking.self_check import straight_edges
 from wallkit.walls.edge_tree import Edges
+from wallkit.walls.met_lines import MetLines
 from wallkit.walls.sample import flattened
 from wallkit.walls.solid import walls_around
-
-if TYPE_CHECKING:
-    from wallkit.geometry.triangulation import Triangulation
-    from wallkit.walls.crossings import Touches
-    from wallkit.walls.noding import Pieces
 
 MOST_DRAWS = 200
 """So many times places are drawn, more of them than balls each time, before there is said to be no room."""
@@ -55,46 +51,37 @@ class Spot:
 
 @dataclass(eq=False)
 class Lines:
-    """The walls' lines, arcs as short chords, with how they touch: found once for all searches among the same walls.
+    """The walls' lines, arcs as short chords: what is found of them is found once for all searches among them.
 
     Attributes:
-        edges: of all walls.
-        touches: of these edges.
+        met: these lines with where they meet.
+        spots: faces that were searched, by their id, and the roomiest spot of each.
     """
 
-    edges: Edges
-    touches: Touches
+    met: MetLines
+    spots: dict[int, tuple[Any, Spot | None]] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, walls: Walls) -> Lines:
-        """Find how the walls' lines touch."""
-        from wallkit.walls.crossings import find_touches
-
+    def of(cls, walls: Walls, met: MetLines | None = None) -> Lines:
+        """Take the lines of walls: ``met``, if they are these to the bit; there arcs have longer chords."""
+        if met is not None and not walls.has_arcs and met.same_as(walls, turned_too=False):
+            return cls(met)
         rings = [flattened(walls, index, _FINE_STEP) for index in range(len(walls))]
         offsets = np.concatenate([[0], np.cumsum([len(ring) for ring in rings])]).astype(np.int64)
         edges = Edges(np.concatenate([np.empty((0, 2)), *rings]), offsets, walls.closed)
-        return cls(edges, find_touches(edges))
+        return cls(MetLines.of(walls, edges))
 
     @property
     def too_many(self) -> bool:
         """Walls cross at more places than are cut: then no place is looked for among them."""
-        from wallkit.walls.noding import MOST_CROSSINGS
-
-        return len(self.edges) > 0 and (not self.touches.complete or len(self.touches.crossing_at) > MOST_CROSSINGS)
-
-    @cached_property
-    def pieces(self) -> Pieces:
-        """The lines cut where they meet; for walls that do not cross too often."""
-        from wallkit.walls.noding import noded
-
-        return noded(self.edges, self.touches)
+        return self.met.too_many
 
     @cached_property
     def tree(self) -> Any:
         """A tree of the pieces as lines of shapely."""
         import shapely
 
-        return shapely.STRtree(shapely.linestrings(np.stack([self.pieces.a, self.pieces.b], axis=1)))
+        return shapely.STRtree(shapely.linestrings(np.stack([self.met.pieces.a, self.met.pieces.b], axis=1)))
 
     @cached_property
     def bounded(self) -> Any:
@@ -107,7 +94,7 @@ class Lines:
 
         from wallkit.walls.nesting import depths
 
-        edges, touches = self.edges, self.touches
+        edges, touches = self.met.edges, self.met.touches
         met = (touches.crossing_at, touches.overlap_edges, touches.touch_at, touches.cut_edge)
         count = np.diff(edges.offsets)
         if len(count) < _MANY_RINGS or any(map(len, met)) or not edges.closed.all() or count.min() < 3:
@@ -128,13 +115,6 @@ class Lines:
         parts = shapely.get_parts(shapely.difference(whole, shapely.union_all(self.bounded)))
         parts = [part for part in parts if part.geom_type == "Polygon" and not part.is_empty]
         return parts, [part for part in sorted(parts, key=shapely.area)[-4:] if _is_nearly_closed(part, self)]
-
-    @cached_property
-    def mesh(self) -> Triangulation | None:
-        """Triangles between the pieces; None for a tangle."""
-        from wallkit.geometry.triangulation import triangulate
-
-        return triangulate(self.pieces.a, self.pieces.b)
 
 
 def roomiest(walls: Walls, anywhere: bool = False, lines: Lines | None = None) -> Spot | None:
@@ -198,7 +178,7 @@ def _faces(walls: Walls, lines: Lines, anywhere: bool) -> list[Any]:
     """Give the faces that may be meant as rooms, the largest first; none where walls cross too often."""
     import shapely
 
-    if not len(lines.edges) or lines.too_many:
+    if not len(lines.met.edges) or lines.too_many:
         return []
     bounded = lines.bounded
     faces = [*bounded] if anywhere else _largest_free(walls, bounded)
@@ -271,7 +251,13 @@ def _in_material(walls: Walls, spot: Spot) -> bool:
 
 
 def _spot(face: Any, lines: Lines) -> Spot | None:
-    """The roomiest spot of a face, in which some of all lines may lie."""
+    """The roomiest spot of a face, in which some of all lines may lie; each face is searched once."""
+    if id(face) not in lines.spots:
+        lines.spots[id(face)] = face, _searched(face, lines)  # the face is kept, and so its id
+    return lines.spots[id(face)][1]
+
+
+def _searched(face: Any, lines: Lines) -> Spot | None:
     import shapely
 
     within = _within(face)
@@ -309,7 +295,7 @@ def _standing(within: Any, lines: Lines) -> IntArray:
 def _spot_in_a_crowd(face: Any, lines: Lines) -> Spot | None:
     from wallkit.scene.crowded_rooms import roomiest_circle
 
-    circle = None if lines.mesh is None else roomiest_circle(lines.mesh, face)
+    circle = None if lines.met.mesh is None else roomiest_circle(lines.met.mesh, face)
     return None if circle is None else Spot(*circle, face, crowded=True)
 
 

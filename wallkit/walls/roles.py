@@ -49,6 +49,8 @@ class Said:
 
 def said_of(path: DrawnPath) -> Said:
     """Tell what is said about a path."""
+    if is_silent(path):
+        return Said("wall", plain_name(path.name), plain_name(path.layer), _groups_of(path), {})
     tags = tags_of(path)
     role = next((role for role in ROLES if role in tags), "wall")
     if role == "wall":
@@ -62,14 +64,24 @@ def role_of(path: DrawnPath) -> Role:
     return "wall" if is_silent(path) else said_of(path).role
 
 
+def is_one_way(path: DrawnPath) -> bool:
+    """Tell whether words make a wall of it that is solid from one side alone."""
+    return sides_of(tags_of(path)) == "outward"
+
+
 def is_silent(path: DrawnPath) -> bool:
-    """Tell whether none of its levels has a word, as of nearly all paths; False where a reader gives no levels."""
-    return bool(path.levels) and all(map(_is_silent, path.levels))
+    """Tell whether none of its levels has a word, as of nearly all paths; without levels its tags may be words."""
+    if path.levels:
+        return all(map(_is_silent, path.levels))
+    return not path.tags and all(map(_is_plain, (path.layer, *path.groups, path.name)))
 
 
 def _is_silent(level: Level) -> bool:
-    name = level.name
-    return not level.tags and not level.note and name != BALLS_LAYER and "#" not in name and "[" not in name
+    return not level.tags and not level.note and _is_plain(level.name)
+
+
+def _is_plain(name: str) -> bool:
+    return name != BALLS_LAYER and "#" not in name and "[" not in name
 
 
 def plain_name(label: str) -> str:

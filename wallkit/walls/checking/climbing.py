@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import reduce
 from itertools import combinations
 from typing import Any
 
@@ -12,6 +13,7 @@ import shapely
 from wallkit.geometry.arrays import FloatArray, IntArray
 
 _KEPT = 6  # walls that are looked at together
+_AT_ONCE = 1024  # climbs: bounds the memory, and keeps it in the cache
 _ROUNDS = 100  # a dozen are enough for three walls; where many are as near, as in a ring of short ones, more
 _FINE = 1e-8  # of the distance: gains below are none
 _FLAT = 1e-12  # determinant of differences of unit vectors: below, rounding is most of it
@@ -42,7 +44,9 @@ class Segments:
     def away(self, number: IntArray, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Distances (n, k) of (n, 2) points from segments (n, k), and (n, k, 2) the unit vectors that lead away."""
         p, d = self.p[number], self.q[number] - self.p[number]
-        part = ((points[:, None] - p) * d).sum(axis=2) / np.maximum((d * d).sum(axis=2), 1e-300)
+        dx, dy = d[..., 0], d[..., 1]
+        along = (points[:, None, 0] - p[..., 0]) * dx + (points[:, None, 1] - p[..., 1]) * dy
+        part = along / np.maximum(dx * dx + dy * dy, 1e-300)
         off = points[:, None] - (p + d * np.clip(part, 0.0, 1.0)[..., None])
         distance = np.hypot(off[..., 0], off[..., 1])
         return distance, off / np.maximum(distance, 1e-300)[..., None]
@@ -56,6 +60,11 @@ def climb(walls: Segments, places: FloatArray) -> tuple[FloatArray, FloatArray]:
     were met so far, is largest: where three are equal, as in Newton's method. No step is longer than half the
     distance to the nearest wall, so that none leads through a wall. A climb ends where that is as far as walls reach.
     """
+    parts = [_climb(walls, places[begin : begin + _AT_ONCE]) for begin in range(0, max(len(places), 1), _AT_ONCE)]
+    return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
+
+
+def _climb(walls: Segments, places: FloatArray) -> tuple[FloatArray, FloatArray]:
     x, (d, first) = places.copy(), walls.nearest(places)
     known = np.repeat(first[:, None], _KEPT, axis=1)
     reach = d / 2
@@ -90,7 +99,8 @@ def _step(d: FloatArray, n: FloatArray, reach: FloatArray) -> tuple[FloatArray, 
     steps = np.concatenate([_to_three(d, n), _along_two(d, n, reach), n * reach[:, None, None]], axis=1)
     length = np.hypot(steps[..., 0], steps[..., 1])
     steps *= (reach[:, None] / np.maximum(length, reach[:, None]))[..., None]
-    after = (d[:, None, :] + steps @ n.transpose(0, 2, 1)).min(axis=2)
+    every_wall = d[:, None, :] + steps @ n.transpose(0, 2, 1)
+    after: FloatArray = reduce(np.minimum, (every_wall[..., k] for k in range(_KEPT)))  # a short axis takes NumPy long
     best, every = after.argmax(axis=1), np.arange(len(d))
     return steps[every, best], after[every, best] - d.min(axis=1)
 

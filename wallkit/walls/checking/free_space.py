@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from wallkit.arguments import ABOVE_0, number, of_type
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.triangulation import Triangulation, triangulate
+from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.as_shapely import straightened
 from wallkit.walls.checking.climbing import Segments, climb
 from wallkit.walls.checking.exact_widths import exact_edges, nearest_pair
@@ -33,9 +33,8 @@ from wallkit.walls.checking.room_circles import largest_circles, triangles_at
 from wallkit.walls.checking.self_check import diagonal, straight_edges
 from wallkit.walls.checking.triangle_circles import TOO_SMALL, triangle_circles
 from wallkit.walls.checking.widest_ways import Room, Ways, WaysOut, unite, ways_out
-from wallkit.walls.crossings import Touches, find_touches
 from wallkit.walls.edge_tree import Edges
-from wallkit.walls.noding import MOST_CROSSINGS, noded
+from wallkit.walls.met_lines import MetLines
 from wallkit.walls.walls import Walls, WallsError
 
 MOST_EDGES = 200_000
@@ -117,31 +116,27 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     of_type(walls, "walls", Walls, "Walls", error=WallsError, code="bad-walls")
     may_be = "a number above 0"
     number(narrow, "narrow", may_be, error=WallsError, code="bad-argument", least=ABOVE_0)
-    return free_space_among(walls, straight_edges(walls), None, narrow)
+    edges = straight_edges(walls)
+    return free_space_among(walls, edges, MetLines.of(walls, edges), narrow)
 
 
-def free_space_among(walls: Walls, edges: Edges, touches: Touches | None, narrow: float = _NARROW) -> FreeSpace:
-    """Do what :func:`free_space` does, with the straight edges of the walls, and how these touch if that is known."""
+def free_space_among(walls: Walls, edges: Edges, met: MetLines, narrow: float = _NARROW) -> FreeSpace:
+    """Do what :func:`free_space` does, with the walls' straight edges, and the same lines with where they meet."""
     vertices = edges.vertices
-    nothing = not len(edges) or diagonal(vertices) == 0
-    if nothing or len(edges) > MOST_EDGES:
-        touches = None
-    elif touches is None:
-        touches = find_touches(edges)
-    if touches is None or not touches.complete or len(touches.crossing_at) > MOST_CROSSINGS:  # a tangle
-        return FreeSpace([], np.empty((0, 3)), nothing)
-    pieces = noded(edges, touches)
-    coarse = triangulate(pieces.a, pieces.b)
+    if not len(edges) or diagonal(vertices) == 0:
+        return FreeSpace([], np.empty((0, 3)))
+    coarse = None if len(edges) > MOST_EDGES or met.too_many else met.mesh
     if coarse is None:
         return FreeSpace([], np.empty((0, 3)), False)
     mesh = with_feet(coarse)
     least = walls.tolerance or 1e-6 * diagonal(vertices)
     solids, seam = Solids.of(walls, edges), _SEAM * diagonal(vertices)
     faces = Parts.of(mesh, 0.0)
-    material = in_material(solids, coarse, pieces, touches.copy_of, faces.place)[faces.part]
-    found, circles = _rooms(mesh, ~material, narrow, least)
+    material = in_material(solids, coarse, met.pieces, met.touches.copy_of, faces.place)[faces.part]
+    walls_around = Segments.of(*(mesh.points[mesh.ends[mesh.wall, k]] for k in (0, 1)))
+    found, circles = _rooms(mesh, walls_around, ~material, narrow, least)
     if not len(found.gaps) and not len(found.closed_rooms):
-        found, circles = _rooms(mesh, material, narrow, least)
+        found, circles = _rooms(mesh, walls_around, material, narrow, least)
         found = replace(found, inside=True)
     sealed = [(*gap.room, gap.room_radius) for gap in found.gaps if gap.width <= seam]  # closed, but for rounding
     found = replace(
@@ -231,13 +226,14 @@ class _Circles:
         return higher
 
 
-def _rooms(mesh: Triangulation, where: NDArray[np.bool_], narrow: float, least: float) -> tuple[FreeSpace, _Circles]:
+def _rooms(
+    mesh: Triangulation, walls: Segments, where: NDArray[np.bool_], narrow: float, least: float
+) -> tuple[FreeSpace, _Circles]:
     """Find rooms among some triangles, which walls part from the others, and the narrowest place on the way out.
 
     What may be a room is found first, by circles that may be too small by a third; then by those at the summits.
     """
     count = len(mesh.corners)
-    walls = Segments.of(*(mesh.points[mesh.ends[mesh.wall, k]] for k in (0, 1)))
     circles = _Circles(walls, *triangle_circles(mesh, least, where))
     if not (circles.radius > least).any():  # nothing is a room, however it hangs together
         return FreeSpace([], np.empty((0, 3))), circles

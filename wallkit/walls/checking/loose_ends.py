@@ -7,6 +7,7 @@ end to the nearest wall. What would cross a wall on its way is left alone.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -18,7 +19,7 @@ from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
 from wallkit.walls.checking.meetings import meetings, on_edge
-from wallkit.walls.checking.open_ends import OWN, BoolArray, OpenEnds, Surroundings, in_the_way, put_on
+from wallkit.walls.checking.open_ends import OWN, BoolArray, OpenEnds, Surroundings, in_the_way, portions, put_on
 from wallkit.walls.checking.overshoots import Overshoots, overshoots
 from wallkit.walls.walls import Walls
 
@@ -71,19 +72,20 @@ class _Near:
     foot: ComplexArray
 
 
-def loose_ends(walls: Walls, reach: float) -> list[LooseEnd]:
+def loose_ends(walls: Walls, reach: float, scene: Surroundings | None = None) -> list[LooseEnd]:
     """Find loose ends and what mends each; each end at most once, those that need least first.
 
     Args:
         walls: any walls; arcs are taken as they are.
         reach: how far ends may move, and how long an added edge may be.
+        scene: the surroundings of the walls, if they are at hand.
 
     Raises:
         LimitError: more than MOST_NEAR pairs of an end and an edge, or of two ends, are that near.
     """
     if not len(walls.edge_starts) or walls.closed.all() or reach <= 0:
         return []
-    scene = Surroundings.of(walls)
+    scene = Surroundings.of(walls) if scene is None else scene
     ends = scene.ends()
     near = _near(scene, ends, reach)
     settled = np.bincount(near.end[near.distance <= scene.there], minlength=len(ends.at)) > 0
@@ -125,7 +127,22 @@ def _chosen(found: list[tuple[int, LooseEnd]]) -> list[LooseEnd]:
 
 def _near(scene: Surroundings, ends: OpenEnds, reach: float) -> _Near:
     x, y = ends.at.real, ends.at.imag
-    end, edge = _bounded(scene.tree, shapely.box(x - reach, y - reach, x + reach, y + reach))
+
+    def boxes(at: slice) -> Any:
+        return shapely.box(x[at] - reach, y[at] - reach, x[at] + reach, y[at] + reach)
+
+    end, edge = _bounded(scene.tree, len(x), boxes)
+    parts = [_near_among(scene, ends, end[at], edge[at], reach) for at in portions(len(end))]
+    return _Near(
+        np.concatenate([part.end for part in parts]),
+        np.concatenate([part.edge for part in parts]),
+        np.concatenate([part.distance for part in parts]),
+        np.concatenate([part.foot for part in parts]),
+    )
+
+
+def _near_among(scene: Surroundings, ends: OpenEnds, end: IntArray, edge: IntArray, reach: float) -> _Near:
+    """Of pairs of an end and an edge those that are within reach of each other."""
     maybe = _by_the_line(scene, ends.at[end], edge, reach)
     end, edge = end[maybe], edge[maybe]
     e = scene.edges.take(edge)
@@ -135,11 +152,11 @@ def _near(scene: Surroundings, ends: OpenEnds, reach: float) -> _Near:
     return _Near(end[keep], edge[keep], distance[keep], foot[keep])
 
 
-def _bounded(tree: shapely.STRtree, asked: Any, **how: Any) -> IntArray:
-    """Ask a tree, some geometries at a time, until there are more answers than MOST_NEAR: (2, n)."""
+def _bounded(tree: shapely.STRtree, asked: int, made: Callable[[slice], Any], **how: Any) -> IntArray:
+    """Ask a tree, some geometries at a time, made then, until there are more answers than MOST_NEAR: (2, n)."""
     found, count = [np.empty((2, 0), dtype=np.int64)], 0
-    for start in range(0, len(asked), _AT_ONCE):
-        answer = tree.query(asked[start : start + _AT_ONCE], **how)
+    for start in range(0, asked, _AT_ONCE):
+        answer = tree.query(made(slice(start, start + _AT_ONCE)), **how)
         count += answer.shape[1]
         if count > MOST_NEAR:
             fix = "give a smaller reach (--snap), or take fewer layers"
@@ -162,13 +179,27 @@ def _pairs(
 ) -> list[tuple[int, LooseEnd]]:
     """What mends two ends: a corner where both lines cross near by, the middle on one line, an edge else."""
     points = shapely.points(ends.at.real[loose], ends.at.imag[loose])
-    pair = _bounded(shapely.STRtree(points), points, predicate="dwithin", distance=2 * reach)
+    pair = _bounded(shapely.STRtree(points), len(points), points.__getitem__, predicate="dwithin", distance=2 * reach)
     i, j = loose[pair[:, pair[0] < pair[1]]]
+    beside = _two_nearest(near, len(ends.at))
+    parts = (_pairs_among(scene, ends, i[at], j[at], beside, reach) for at in portions(len(i)))
+    return [mended for part in parts for mended in part]
+
+
+def _pairs_among(
+    scene: Surroundings,
+    ends: OpenEnds,
+    i: IntArray,
+    j: IntArray,
+    nearest_edges: tuple[IntArray, FloatArray],
+    reach: float,
+) -> list[tuple[int, LooseEnd]]:
+    """What mends the ends ``i`` with the ends ``j``."""
     one, two = ends.take(i), ends.take(j)
     distance = np.abs(one.at - two.at)
     way = np.abs(scene.along[one.vertex] - scene.along[two.vertex])
     apart = (one.wall != two.wall) | (way > OWN * distance)
-    beside = _beside(near, ends, i, j)
+    beside = _beside(nearest_edges, ends, i, j)
     corner = _crossing(one.line, two.line)
     with np.errstate(invalid="ignore"):
         moves = [((corner - e.at) * e.towards.conj()).real for e in (one, two)]
@@ -209,15 +240,21 @@ def _back(one: OpenEnds, two: OpenEnds, row: int) -> complex | None:
     return complex(one.at[row] - past * one.towards[row])
 
 
-def _beside(near: _Near, ends: OpenEnds, i: IntArray, j: IntArray) -> FloatArray:
-    """The distance of the nearest edge to two ends, but for the edges that the two are the ends of."""
+def _two_nearest(near: _Near, count: int) -> tuple[IntArray, FloatArray]:
+    """The two nearest edges of each end, (count, 2), -1 where there are fewer, and how far they are."""
     order = np.lexsort((near.distance, near.end))
-    edge = np.full((len(ends.at), 2), -1)
-    distance = np.full((len(ends.at), 2), np.inf)
+    edge = np.full((count, 2), -1)
+    distance = np.full((count, 2), np.inf)
     rank = np.arange(len(order)) - np.searchsorted(near.end[order], near.end[order])
     for place in (0, 1):
         row = order[rank == place]
         edge[near.end[row], place], distance[near.end[row], place] = near.edge[row], near.distance[row]
+    return edge, distance
+
+
+def _beside(nearest_edges: tuple[IntArray, FloatArray], ends: OpenEnds, i: IntArray, j: IntArray) -> FloatArray:
+    """The distance of the nearest edge to two ends, but for the edges that the two are the ends of."""
+    edge, distance = nearest_edges
     one = np.where(edge[i, 0] == ends.edge[j], distance[i, 1], distance[i, 0])
     two = np.where(edge[j, 0] == ends.edge[i], distance[j, 1], distance[j, 0])
     beside: FloatArray = np.minimum(one, two)
@@ -246,8 +283,7 @@ def _to_walls(
     """What mends an end at a wall: back to the wall that it sticks out of, on to the first wall, an edge else."""
     keep = loose[near.end]
     end, edge, distance, foot = near.end[keep], near.edge[keep], near.distance[keep], near.foot[keep]
-    mine = ends.take(end)
-    ahead = _ahead(scene, mine, edge)
+    ahead = np.concatenate([_ahead(scene, ends.take(end[at]), edge[at]) for at in portions(len(end))])
     out = overshoots(scene, ends, np.flatnonzero(loose), (near.end, near.edge), reach)
     order = np.lexsort((distance, end))
     first = order[np.unique(end[order], return_index=True)[1]] if len(order) else order
@@ -259,12 +295,13 @@ def _to_walls(
     trims = (out.length > 0) & (out.length <= forward)
     found = [(2, _trim(scene, ends, out, row)) for row in np.flatnonzero(trims).tolist()]
     first = first[~trims[end[first]]]
-    blocked = in_the_way(scene, mine.at[first], foot[first])
-    for row, no in zip(first.tolist(), blocked.tolist(), strict=True):
-        vertex, far, short = int(mine.vertex[row]), float(forward[end[row]]), float(distance[row])
-        tip = complex(mine.at[row])
+    mine = ends.take(end[first])
+    blocked = in_the_way(scene, mine.at, foot[first])
+    for k, (row, no) in enumerate(zip(first.tolist(), blocked.tolist(), strict=True)):
+        vertex, far, short = int(mine.vertex[k]), float(forward[end[row]]), float(distance[row])
+        tip = complex(mine.at[k])
         if far <= min(reach, _ASKEW * short):
-            at, before = tip + far * complex(mine.towards[row]), complex(mine.line.a[row])
+            at, before = tip + far * complex(mine.towards[k]), complex(mine.line.a[k])
             found.append((2, LooseEnd("extend", (vertex,), short, far, at, int(on[end[row]]), before, tip)))
         else:
             need = np.inf if no else short

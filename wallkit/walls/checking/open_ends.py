@@ -16,9 +16,15 @@ from wallkit.walls.checking.meetings import meetings, on_edge
 from wallkit.walls.walls import Walls
 
 BoolArray = NDArray[np.bool_]
+_AT_ONCE = 1 << 16  # pairs that are looked at together: bounds the memory
 
 ROUNDING = 1e-14  # of the largest coordinate: an end so near a wall was put onto it
 OWN = 4.0  # a wall comes back to itself where the way along it is so many times the distance; else it only bends
+
+
+def portions(count: int) -> list[slice]:
+    """Cut so many pairs into portions that are looked at together; one at least."""
+    return [slice(begin, begin + _AT_ONCE) for begin in range(0, max(count, 1), _AT_ONCE)]
 
 
 @dataclass(slots=True)
@@ -55,6 +61,8 @@ class Surroundings:
     edge_wall: IntArray
     starts: IntArray
     stops: IntArray
+    low: FloatArray  # (E, 2) lowest corner of the box around each edge
+    high: FloatArray
     tree: shapely.STRtree
     along: FloatArray  # (V,) way along its wall to each vertex
     total: FloatArray  # (W,) length of each wall
@@ -78,7 +86,7 @@ class Surroundings:
         there = ROUNDING * float(np.abs(walls.vertices).max(initial=0.0))
         total = np.bincount(edge_wall, length, len(walls)).astype(np.float64)
         starts, stops = walls.edge_starts, walls.edge_ends
-        return cls(walls, edges, edge_wall, starts, stops, shapely.STRtree(boxes), along, total, there)
+        return cls(walls, edges, edge_wall, starts, stops, low, high, shapely.STRtree(boxes), along, total, there)
 
     def ends(self) -> OpenEnds:
         """All open ends."""
@@ -94,6 +102,15 @@ class Surroundings:
         zero = np.zeros(len(vertex))
         line = ExactEdges(z[vertex + step], z[vertex], zero.astype(np.complex128), zero, zero)
         return OpenEnds(vertex, np.tile(open_, 2), edge, step, z[vertex], line, self.edges.radius[edge] == 0)
+
+    def boxes_meet(self, one: IntArray, two: IntArray) -> BoolArray:
+        """Tell of pairs of edges whether their boxes meet, or nearly: within what rounding adds to common points."""
+        margin = 1e3 * self.there  # 1e-11: the parts of edges at which points lie are off by some 1e-12
+        met = np.empty(len(one), dtype=np.bool_)
+        for at in portions(len(one)):
+            apart = np.maximum(self.low[one[at]] - self.high[two[at]], self.low[two[at]] - self.high[one[at]])
+            met[at] = (apart[:, 0] <= margin) & (apart[:, 1] <= margin)
+        return met
 
     def own_bend(self, ends: OpenEnds, edge: IntArray, distance: FloatArray) -> BoolArray:
         """Where an edge is the end's own, or the wall does no more than bend on its way to it."""

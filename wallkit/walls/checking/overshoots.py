@@ -87,6 +87,8 @@ def _cross(
     place[rows] = np.arange(len(rows))
     source = place[near[0]]
     source, other = source[source >= 0], near[1][source >= 0]
+    met = scene.boxes_meet(edge[source], other)
+    source, other = source[met], other[met]
     e, f = scene.edges.take(edge[source]), scene.edges.take(other)
     open_end = np.zeros(len(scene.walls.vertices), dtype=np.bool_)
     open_end[ends.vertex] = True

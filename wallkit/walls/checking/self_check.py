@@ -15,6 +15,7 @@ from importers.problems import Problem, Severity
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.as_shapely import straightened
 from wallkit.walls.checking.loose_ends import LooseEnd, loose_ends, settled_places
+from wallkit.walls.checking.open_ends import Surroundings
 from wallkit.walls.checking.widths import is_thin
 from wallkit.walls.copies import copies
 from wallkit.walls.crossings import Touches, find_touches
@@ -110,10 +111,13 @@ def diagonal(vertices: FloatArray) -> float:
 
 def _loose_ends(findings: Findings, reach: float) -> list[LooseEnd]:
     """Find loose ends, within a shorter reach where very many ends are close together, which is told."""
-    within = reach
+    walls, within = findings.walls, reach
+    if not len(walls.edge_starts) or walls.closed.all():
+        return []
+    scene = Surroundings.of(walls)
     for _ in range(_SHORTER):
         try:
-            found = loose_ends(findings.walls, within)
+            found = loose_ends(walls, within, scene)
         except LimitError:
             within /= 4
             continue

@@ -50,7 +50,8 @@ def _beside_larger(mesh: Triangulation, bound: FloatArray, known: FloatArray) ->
 
 def _to_corners(mesh: Triangulation, centre: FloatArray) -> FloatArray:
     """How far places in triangles are from the nearest corner, which is on a wall: (T,)."""
-    nearest: FloatArray = np.min([np.hypot(*(centre - mesh.points[mesh.corners[:, k]]).T) for k in range(3)], axis=0)
+    far = (np.hypot(*(centre - mesh.points[mesh.corners[:, k]]).T) for k in range(3))
+    nearest: FloatArray = np.minimum(np.minimum(next(far), next(far)), next(far))
     return nearest
 
 

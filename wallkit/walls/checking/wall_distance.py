@@ -24,21 +24,26 @@ def wall_distance(mesh: Triangulation, triangle: IntArray, place: FloatArray) ->
 
 
 def _of_some(mesh: Triangulation, triangle: IntArray, place: FloatArray) -> FloatArray:
-    best: FloatArray = np.min([np.hypot(*(mesh.points[mesh.corners[triangle, k]] - place).T) for k in range(3)], axis=0)
+    across, up = mesh.points.T.copy()  # columns: sums and gathers of pairs take NumPy several times as long
+    x, y = place.T.copy()
+    best = np.full(len(place), np.inf)
+    for corner in mesh.corners[triangle].T:
+        np.minimum(best, np.hypot(across[corner] - x, up[corner] - y), out=best)
     row, at, side = np.repeat(np.arange(len(place)), 3), np.repeat(triangle, 3), np.tile(np.arange(3), len(place))
     while len(row):
-        edge, x = mesh.edge[at, side], place[row]
-        p, q = (mesh.points[mesh.corners[at, (side + ahead) % 3]] for ahead in (1, 2))
-        d, off = q - p, x - p
-        part = np.clip((off * d).sum(axis=1) / np.maximum((d * d).sum(axis=1), 1e-300), 0.0, 1.0)
-        distance = np.hypot(*(off - d * part[:, None]).T)
+        edge = mesh.edge[at, side]
+        p, q = (mesh.corners[at, (side + ahead) % 3] for ahead in (1, 2))
+        dx, dy, off_x, off_y = across[q] - across[p], up[q] - up[p], x[row] - across[p], y[row] - up[p]
+        part = np.clip((off_x * dx + off_y * dy) / np.maximum(dx * dx + dy * dy, 1e-300), 0.0, 1.0)
+        distance = np.hypot(off_x - dx * part, off_y - dy * part)
         wall = mesh.wall[edge]
         np.minimum.at(best, row[wall], distance[wall])
         own = at == triangle[row]  # on whose edge a place may be
-        from_inside = own | (d[:, 0] * off[:, 1] - d[:, 1] * off[:, 0] > 0)
+        from_inside = own | (dx * off_y - dy * off_x > 0)
         seen = ~wall & (distance < best[row]) & from_inside
         row, edge, at = row[seen], edge[seen], mesh.neighbours[at[seen], side[seen]]
         entry = (mesh.edge[at] == edge[:, None]).argmax(axis=1)
-        np.minimum.at(best, row, np.hypot(*(mesh.points[mesh.corners[at, entry]] - place[row]).T))
+        tip = mesh.corners[at, entry]
+        np.minimum.at(best, row, np.hypot(across[tip] - x[row], up[tip] - y[row]))
         row, at, side = np.tile(row, 2), np.tile(at, 2), np.concatenate([(entry + 1) % 3, (entry + 2) % 3])
     return best

@@ -103,7 +103,10 @@ def unite(mesh: Triangulation, ways: Ways, circle: FloatArray, narrow: float, le
     order = np.argsort(-ways.width, kind="stable")
     columns = (order, ways.one[order], ways.two[order], ways.width[order])
     for way, one, two, width in zip(*(column.tolist() for column in columns), strict=True):
-        one, two = _find(parent, one), _find(parent, two)
+        while parent[one] != one:  # to its root, with the path halved on the way
+            parent[one] = one = parent[parent[one]]
+        while parent[two] != two:
+            parent[two] = two = parent[parent[two]]
         if one == two:
             continue
         used.append(way)
@@ -123,14 +126,6 @@ def _outer(mesh: Triangulation) -> list[int]:
     """The triangles at the frame."""
     triangles: list[int] = np.flatnonzero(mesh.outer[mesh.edge].sum(axis=1)).tolist()
     return triangles
-
-
-def _find(parent: list[int], node: int) -> int:
-    """The representative of a node, with the path halved on the way."""
-    while parent[node] != node:
-        parent[node] = parent[parent[node]]
-        node = parent[node]
-    return node
 
 
 class WaysOut(NamedTuple):

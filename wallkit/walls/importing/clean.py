@@ -7,12 +7,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from importers.problems import Problem
-from wallkit.geometry.arrays import IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.geometry.rings import signed_areas
 from wallkit.walls.checking.self_check import at_least
 from wallkit.walls.importing.outlines import Outlines, without_vertices
-from wallkit.walls.roles import said_of, sides_of
+from wallkit.walls.roles import is_one_way
 
 
 def clean(outlines: Outlines) -> Outlines:
@@ -104,13 +103,14 @@ def _close_filled(outlines: Outlines) -> Outlines:
     """Close filled open outlines that enclose an area, as every viewer paints them."""
     filled = np.array([path.fill is not None for path in outlines.paths], dtype=np.bool_)
     close = ~outlines.closed & filled[outlines.owner] if len(outlines) else outlines.closed
+    gaps = _gaps(outlines)
     close = _with_area(outlines, close)
     problems = [
         outlines.problem(
             index,
             "closed-as-filled",
             "info",
-            f"an open path is filled: closed by an edge of {_gap(outlines, index):.6g} as it is painted",
+            f"an open path is filled: closed by an edge of {gaps[index]:.6g} as it is painted",
             "close the path in the drawing, or remove its fill if it is a line",
         )
         for index in np.flatnonzero(close).tolist()
@@ -131,31 +131,45 @@ NEARLY_CLOSED = 0.1
 
 
 def _report_open(outlines: Outlines) -> Outlines:
-    problems: list[Problem] = []
-    for index in np.flatnonzero(~outlines.closed).tolist():
-        gap = _gap(outlines, index)
-        steps = np.diff(outlines.vertices[outlines.offsets[index] : outlines.offsets[index + 1]], axis=0)
-        nearly = gap < NEARLY_CLOSED * float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-        problems.append(
-            outlines.problem(
-                index,
-                "open-path",
-                "warning" if nearly else "info",
-                f"an open path: its ends are {gap:.6g} apart; taken as an open, {_sided(outlines, index)} wall",
-                f"close it in the drawing, or with --snap {at_least(gap)}"
-                if nearly
-                else "nothing to do if it is meant as a line",
-                outlines.vertices[outlines.offsets[index + 1] - 1],
-            )
+    rows = np.flatnonzero(~outlines.closed)
+    ends, gaps = outlines.vertices[outlines.offsets[rows + 1] - 1], _gaps(outlines)[rows]
+    nearly = gaps < NEARLY_CLOSED * _lengths(outlines)[rows]
+    one_way = {owner: is_one_way(outlines.paths[owner]) for owner in distinct(outlines.owner[rows]).tolist()}
+    problems = [
+        outlines.problem(
+            index,
+            "open-path",
+            "warning" if meant else "info",
+            f"an open path: its ends are {gap:.6g} apart; taken as an open, {_sided(one_way[owner])} wall",
+            f"close it in the drawing, or with --snap {at_least(gap)}"
+            if meant
+            else "nothing to do if it is meant as a line",
+            end,
         )
+        for index, owner, gap, meant, end in zip(
+            rows.tolist(), outlines.owner[rows].tolist(), gaps.tolist(), nearly.tolist(), ends, strict=True
+        )
+    ]
     return replace(outlines, problems=outlines.problems + problems)
 
 
-def _sided(outlines: Outlines, index: int) -> str:
-    one_way = sides_of(said_of(outlines.paths[outlines.owner[index]]).tags) == "outward"
+def _gaps(outlines: Outlines) -> FloatArray:
+    """How far the last vertex of each outline is from its first: (n,)."""
+    first, last = outlines.vertices[outlines.offsets[:-1]], outlines.vertices[outlines.offsets[1:] - 1]
+    gaps: FloatArray = np.hypot(*(last - first).T)
+    return gaps
+
+
+def _lengths(outlines: Outlines) -> FloatArray:
+    """The way along the vertices of each outline, from the first to the last: (n,)."""
+    if not len(outlines):
+        return np.empty(0)
+    steps = np.zeros(len(outlines.vertices))
+    steps[:-1] = np.hypot(*np.diff(outlines.vertices, axis=0).T)
+    steps[outlines.offsets[1:] - 1] = 0.0
+    lengths: FloatArray = np.add.reduceat(steps, outlines.offsets[:-1])
+    return lengths
+
+
+def _sided(one_way: bool) -> str:
     return "one-sided" if one_way else "two-sided"
-
-
-def _gap(outlines: Outlines, index: int) -> float:
-    a, b = outlines.vertices[outlines.offsets[index]], outlines.vertices[outlines.offsets[index + 1] - 1]
-    return float(np.hypot(*(b - a)))

@@ -14,7 +14,7 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.importing.curves_to_lines import Pieces
 from wallkit.walls.importing.segments import Segments
 from wallkit.walls.origins import Origin
-from wallkit.walls.roles import material_of, said_of, sides_of
+from wallkit.walls.roles import is_one_way, material_of, said_of, sides_of
 from wallkit.walls.walls import Material, Sides, Walls
 
 
@@ -125,7 +125,7 @@ def _told(path: DrawnPath, sides: Sides) -> _Told:
 def keep_sides(outlines: Outlines) -> Outlines:
     """Turn open outlines that are solid from one side, for the mirror has put the free side on the other."""
     vertices, bulges = outlines.vertices.copy(), outlines.bulges.copy()
-    one_way = [sides_of(said_of(path).tags) == "outward" for path in outlines.paths]
+    one_way = [is_one_way(path) for path in outlines.paths]
     for index in np.flatnonzero(~outlines.closed).tolist():
         if one_way[outlines.owner[index]]:
             begin, end = int(outlines.offsets[index]), int(outlines.offsets[index + 1])

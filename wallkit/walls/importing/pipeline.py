@@ -13,7 +13,6 @@ from importers.drawing import Drawing, DrawnPath
 from importers.problems import Problem
 from wallkit.geometry.arrays import FloatArray
 from wallkit.walls.checking.self_check import straight_edges, validate
-from wallkit.walls.crossings import find_touches
 from wallkit.walls.import_options import ImportOptions, ImportWishes
 from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_arcs
 from wallkit.walls.importing.choose_paths import choose
@@ -25,6 +24,7 @@ from wallkit.walls.importing.fill_rule import material_rings
 from wallkit.walls.importing.outlines import Outlines, assemble, keep_sides, on_grid
 from wallkit.walls.importing.placing import placed
 from wallkit.walls.importing.segments import Segments, default_tolerance, gather
+from wallkit.walls.met_lines import MetLines
 from wallkit.walls.nesting import depths
 from wallkit.walls.orient import turned_to
 from wallkit.walls.repairing.passes import repair
@@ -61,7 +61,14 @@ def import_walls(source: Source, options: ImportOptions | None = None, /, **wish
 
 
 def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | None = None) -> Walls:
-    """Turn a drawing into walls, with balls that are not drawn.
+    """Turn a drawing into walls, with balls that are not drawn, see :func:`walls_and_lines`."""
+    return walls_and_lines(drawing, options, balls)[0]
+
+
+def walls_and_lines(
+    drawing: Drawing, options: ImportOptions, balls: FloatArray | None = None
+) -> tuple[Walls, MetLines | None]:
+    """Turn a drawing into walls, and say where they meet: that was looked for, but where walls were repaired.
 
     Args:
         drawing: in its place, see :func:`wallkit.walls.importing.placing.placed`.
@@ -85,7 +92,7 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
         balls = np.array([(marker.x, marker.y) for marker in markers if marker.kind == "spawn"]).reshape(-1, 2)
     outlines, moved = _outlines(segments, pieces, chosen, options)
     cut = scale * max((path.error for path in chosen), default=0.0)
-    walls = nested(keep_sides(outlines) if flip_y else outlines, options, within, balls)
+    walls, met = nested(keep_sides(outlines) if flip_y else outlines, options, within, balls)
     sensors, doubtful = _sensors(choice.sensors, options, within)
     found = [_moved(problem, scale, flip_y) for problem in (*drawing.problems, *choice.problems, *pointless)]
     walls = replace(
@@ -100,7 +107,7 @@ def build_walls(drawing: Drawing, options: ImportOptions, balls: FloatArray | No
         problems=found + walls.problems + doubtful,
         markers=markers,
     )
-    return walls if sensors is None else replace(walls, sensors=sensors_like(walls, sensors))
+    return (walls if sensors is None else replace(walls, sensors=sensors_like(walls, sensors))), met
 
 
 def _pieces(segments: Segments, within: float, options: ImportOptions) -> Pieces:
@@ -178,31 +185,31 @@ def _one_point(path: DrawnPath, x: float, y: float) -> Problem:
     )
 
 
-def nested(outlines: Outlines, options: ImportOptions, tolerance: float, balls: FloatArray) -> Walls:
+def nested(
+    outlines: Outlines, options: ImportOptions, tolerance: float, balls: FloatArray
+) -> tuple[Walls, MetLines | None]:
     """Find out which rings are edges of paint, nest them, decide what is solid, repair if asked to, turn, and check."""
     plain = replace(outlines.to_walls(options.sides), tolerance=tolerance)
-    edges = straight_edges(plain)
-    touches = find_touches(edges)
-    keep, dropped = material_rings(outlines, edges, touches.crossing_walls)
+    met = MetLines.of(plain, straight_edges(plain))
+    keep, dropped = material_rings(outlines, met.edges, met.touches.crossing_walls)
     problems = outlines.problems + dropped
     if not keep.all():
         outlines = outlines.keep(keep)
         plain = replace(outlines.to_walls(options.sides), tolerance=tolerance)
-        edges = straight_edges(plain)
-        touches = find_touches(edges)
+        met = MetLines.of(plain, straight_edges(plain))
     owners = [outlines.paths[owner] for owner in outlines.owner.tolist()]
     lines = [path.line for path in owners]
-    depth, parent = depths(edges, touches.crossing_walls)
-    solid = decide(Nested(edges, depth, parent, owners), options, balls)
+    depth, parent = depths(met.edges, met.touches.crossing_walls)
+    solid = decide(Nested(met.edges, depth, parent, owners), options, balls)
     repairs = options.repairs
     if repairs is not None:
         even_odd = [path.fill is not None and path.fill_rule == "evenodd" for path in owners]
         done = repair(plain, repairs, arena=solid.room, even_odd=even_odd, file_lines=lines)
         problems = problems + [change.to_problem() for change in done.changes] + done.violations
-        return replace(done.walls, solid=solid, problems=_still_true(problems, done.walls))
+        return replace(done.walls, solid=solid, problems=_still_true(problems, done.walls)), None
     walls = turned_to(plain, depth, solid.room)
-    found = validate(plain, lines=lines, edges=edges, touches=touches)
-    return replace(walls, solid=solid, problems=problems + found)
+    found = validate(plain, lines=lines, edges=met.edges, touches=met.touches)
+    return replace(walls, solid=solid, problems=problems + found), met
 
 
 def _still_true(problems: list[Problem], walls: Walls) -> list[Problem]:
