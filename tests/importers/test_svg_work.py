@@ -6,6 +6,7 @@ import pytest
 
 from importers.errors import LimitError
 from importers.limits import MAX_STEPS, STEPS_OF_AN_ELEMENT, Work
+from importers.svg import variables
 from importers.svg.reader import Reader
 from importers.svg.source import STEPS_OF_A_FUNCTION, parse
 
@@ -174,3 +175,23 @@ def test_a_value_is_paid_for_when_it_is_first_met():
     same = work(svg('<g fill="rgb(1%,2%,3%)"/>' * 2000))
     other = work(svg("".join(f'<g fill="rgb({i}%,2%,3%)"/>' for i in range(2000))))
     assert other - same >= 1999 * STEPS_OF_A_FUNCTION
+
+
+class Counted:
+    """A pattern that counts how often it searches."""
+
+    def __init__(self, pattern):
+        self.pattern, self.searches = pattern, 0
+
+    def search(self, *arguments):
+        self.searches += 1
+        return self.pattern.search(*arguments)
+
+
+def test_fallbacks_in_fallbacks_are_looked_through_once_each(monkeypatch):
+    searches = []
+    for size in (200, 400):
+        monkeypatch.setattr(variables, "_SIGN", Counted(variables._SIGN))
+        work(svg(f"<g style='--a:{'var(--b,' * size}1{')' * size}'/>"))
+        searches.append(variables._SIGN.searches)
+    assert 0 < searches[1] < 2.3 * searches[0]
