@@ -3,9 +3,12 @@
 import json
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from importers.numbers import NumberError, finite
 from importers.svg import read_svg
+from importers.svg.colour import parse_colour
 
 NS = 'xmlns="http://www.w3.org/2000/svg"'
 INFINITE = {
@@ -226,3 +229,12 @@ def test_the_gate_lets_nothing_through_that_is_not_finite(value):
     with pytest.raises(NumberError) as caught:
         finite(value, "x", 3)
     assert (caught.value.attribute, caught.value.offset) == ("x", 3)
+
+
+@given(st.lists(st.integers(0, 999), min_size=3, max_size=3))
+def test_plain_colours_are_what_the_parser_of_css_makes_of_them(parts):
+    """Written with a decimal point, or with an alpha, the same colour goes to tinycss2."""
+    red, green, blue = parts
+    assert parse_colour(f"rgb({red}, {green},{blue} )") == parse_colour(f"rgb({red}.0,{green},{blue})")
+    word = "#" + "".join(f"{part % 256:02X}" for part in parts)
+    assert parse_colour(word) == parse_colour(word.lower()) == parse_colour(f"{word}ff")
