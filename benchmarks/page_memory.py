@@ -1,7 +1,9 @@
-"""Memory of the page's server over many requests: ``python benchmarks/page_memory.py [REQUESTS]`` (10,000).
+"""Memory of the page's server over many requests: ``python benchmarks/page_memory.py [REQUESTS] [walls]`` (10,000).
 
 The server runs in a process of its own and is asked on this machine alone, by four askers: pages, samples, files that
-are opened, and runs. Its memory, and that of its workers, is read after each tenth; the first tenth is warming.
+are opened, and runs; with ``walls``, each of them opens one drawing and has it imported again and again, each time
+with another tolerance and flown. Its memory, and that of its workers, is read after each tenth; the first tenth is
+warming.
 """
 
 from __future__ import annotations
@@ -62,6 +64,14 @@ class Asker:
             question = {"document": opened["id"], "balls": [ball], "until": 10.0}
             self.ask("POST", "/api/simulate", json.dumps(question).encode())
 
+    def again(self, chance: random.Random, document: str) -> None:
+        """Have a document imported with a tolerance that nobody asked for yet, and flown."""
+        curves = chance.choice(("lines", "arcs"))
+        wish = {"document": document, "curves": curves, "tolerance": 10 ** chance.uniform(-3, 0)}
+        opened = json.loads(self.ask("POST", "/api/walls", json.dumps(wish).encode()))
+        question = {"document": opened["id"], "balls": opened["balls"], "until": 5.0}
+        self.ask("POST", "/api/simulate", json.dumps(question).encode())
+
 
 def megabytes(pid: int) -> tuple[float, float]:
     """Resident memory of a process, and of all its children."""
@@ -70,7 +80,7 @@ def megabytes(pid: int) -> tuple[float, float]:
     return own, sum(others)
 
 
-def main(requests: int) -> None:
+def main(requests: int, walls: bool) -> None:
     """Print the memory after each tenth."""
     started = subprocess.Popen([sys.executable, "-c", SERVER], stdin=-1, stdout=-1, text=True, cwd=ROOT)
     try:
@@ -78,7 +88,9 @@ def main(requests: int) -> None:
         asker = Asker(int(port), token)
         warm = 0.0
         for tenth in range(10):
-            shares = [threading.Thread(target=ask, args=(asker, 4 * tenth + k, requests // 40)) for k in range(4)]
+            shares = [
+                threading.Thread(target=ask, args=(asker, 4 * tenth + k, requests // 40, walls)) for k in range(4)
+            ]
             for share in shares:
                 share.start()
             for share in shares:
@@ -92,12 +104,18 @@ def main(requests: int) -> None:
         started.wait(60)
 
 
-def ask(asker: Asker, seed: int, count: int) -> None:
-    """Ask about so many requests; an opened file with its run counts two."""
+def ask(asker: Asker, seed: int, count: int, walls: bool) -> None:
+    """Ask about so many requests; an opened file, or another import, counts two with its run."""
     chance = random.Random(seed)
+    if walls:
+        drawing = (ROOT / "samples" / "pinball.svg").read_bytes()
+        document = json.loads(asker.ask("POST", "/api/open?name=again.svg", drawing))["id"]
+        for _ in range(count // 2):
+            asker.again(chance, document)
+        return
     for _ in range(round(count / 1.5)):
         asker.any(chance)
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 10_000)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 10_000, "walls" in sys.argv[2:])

@@ -11,12 +11,14 @@ class NumberError(ArithmeticError):
     Attributes:
         attribute: where it stands, ``""`` where that is not known.
         offset: index into the attribute's value.
+        value: what it came to.
     """
 
-    def __init__(self, attribute: str = "", offset: int = 0) -> None:
+    def __init__(self, attribute: str = "", offset: int = 0, value: float = math.inf) -> None:
         super().__init__("a number is too large")
         self.attribute = attribute
         self.offset = offset
+        self.value = value
 
 
 def finite(value: float, attribute: str = "", offset: int = 0) -> float:
@@ -26,5 +28,5 @@ def finite(value: float, attribute: str = "", offset: int = 0) -> float:
         NumberError: it is infinite or not a number.
     """
     if not math.isfinite(value):
-        raise NumberError(attribute, offset)
+        raise NumberError(attribute, offset, value)
     return value

@@ -7,7 +7,7 @@ from typing import Any
 
 from importers.limits import LETTERS_OF_A_STEP, Work, limit_error
 from importers.problems import Severity
-from importers.svg.declarations import Winners, winners
+from importers.svg.declarations import Winners, fault_of, place_of, used, winners
 from importers.svg.inheritance import Style, inherit
 from importers.svg.media import matches_media
 from importers.svg.notes import Notes
@@ -19,8 +19,6 @@ from importers.svg.style import (
     VARIABLES,
     Declared,
     Pending,
-    TooLarge,
-    Unread,
     parse_any_inline,
     parse_declaration,
     parse_inline,
@@ -33,10 +31,6 @@ MAX_CSS = 1_000_000
 STEPS_OF_A_LETTER = 6  # of CSS that only the slow parser can read
 # Fonts put into a drawing are larger than all else in it, and say nothing of its outlines.
 _FONT_FACE = re.compile(r"@font-face\s*+\{[^{}]*+\}", re.IGNORECASE)
-_TOO_LARGE = "has a number that is too large, and is not used"
-_UNREAD = "is wrong, so none of it is used"
-
-
 _NONE = Winners({}, {})
 
 
@@ -52,14 +46,14 @@ class Cascade:
             media = " ".join((element.get("media") or "").lower().split())
             self._charge(len(media))
             if kind in ("text/css", "") and matches_media(media):
-                texts.append((element, _FONT_FACE.sub("", "".join(element.itertext()))))
+                texts.append((_FONT_FACE.sub(_only_lines, "".join(element.itertext())), element))
             else:
                 notes.count("css-skipped", "info", f"a style sheet for {(media or kind)[:60]} is left out", element)
         self._inlines: dict[str, Winners] = {}
         self._kept: list[Style] = []
         self._styles: dict[tuple[int, tuple[tuple[str, Any], ...]], Style] = {}
-        self._charge(sum(len(text) for _, text in texts))
-        self._sheet = Sheet([text for _, text in texts], root, _reporter(notes, texts[0][0] if texts else root), work)
+        self._charge(sum(len(text) for text, _ in texts))
+        self._sheet = Sheet([(text, _reporter(notes, element)) for text, element in texts], root, work)
 
     def _charge(self, letters: int) -> None:
         """Count letters of CSS against their limit, and the steps that the slow parser takes."""
@@ -95,10 +89,9 @@ class Cascade:
         if not self._sheet.empty or style is not None:
             matched = [] if self._sheet.empty else self._sheet.matches(element, chain[-1] if chain else None)
             inline = _NONE if style is None else self._inline(style)
-            for name in inline.too_large:
-                self._notes.add("bad-number", "error", f"{name} {_TOO_LARGE}", element, attribute="style")
-            for name in inline.unread:
-                self._notes.add("bad-transform", "warning", f"{name} {_UNREAD}", element, attribute="style")
+            for name, (code, severity, message) in inline.faults:
+                offset = place_of(name, style or "")
+                self._notes.add(code, severity, f"{name} {message}", element, attribute="style", offset=offset)
             for rule in (*(one.normal for one in matched), inline.normal):
                 found.update(rule)
             for rule in (*(one.important for one in matched), inline.important):
@@ -117,14 +110,14 @@ class Cascade:
             if len(text) >= SHORT:
                 self._work.charge("long values", len(text))
             value = parse_declaration(name, text, "attribute")
-            if isinstance(value, TooLarge):
-                message = f"{name}={text[:40]!r} {_TOO_LARGE}"
-                self._notes.add("bad-number", "error", message, element, attribute=name, offset=value.offset)
-            elif value is not None:
+            fault = fault_of(name, value)
+            if fault is not None:
+                message = f"{name}={text[:40]!r} {fault.message}"
+                offset = getattr(value, "offset", 0)
+                self._notes.add(fault.code, fault.severity, message, element, attribute=name, offset=offset)
+            value = used(value)
+            if value is not None:
                 found[name] = value
-            elif name == "transform":
-                message = f"transform={text[:40]!r} {_UNREAD}"
-                self._notes.add("bad-transform", "warning", message, element, attribute="transform")
         return found
 
     def _resolved(self, element: Any, found: Declared, around: Style) -> Declared:
@@ -141,12 +134,10 @@ class Cascade:
                     value = parse_declaration(name, text, value.origin)
                 except UnresolvedError:
                     value = None
-                if isinstance(value, TooLarge):
-                    self._notes.add("bad-number", "error", f"{name} {_TOO_LARGE}", element)
-                    value = None
-                elif isinstance(value, Unread):
-                    self._notes.add("bad-transform", "warning", f"{name} {_UNREAD}", element)
-                    value = None
+                fault = fault_of(name, value)
+                if fault is not None:
+                    self._notes.add(fault.code, fault.severity, f"{name} {fault.message}", element)
+                value = used(value)
                 value = unset(name) if value is None or isinstance(value, Pending) else value
             result[name] = value
         if own:
@@ -172,10 +163,18 @@ class Cascade:
         return style
 
 
+def _only_lines(match: re.Match[str]) -> str:
+    """Leave of a text its ends of lines, so that all behind it stays on its line."""
+    return "\n" * match[0].count("\n")
+
+
 def _reporter(notes: Notes, element: Any) -> Report:
     """Give what a sheet says things to; it holds no cascade, so that nothing waits for the cycle collector."""
 
-    def report(code: str, severity: Severity, message: str) -> None:
+    def report(code: str, severity: Severity, message: str, at: Any = None) -> None:
+        if at is not None:
+            notes.add_within(code, severity, message, element, at.source_line, at.source_column, at.name)
+            return
         fix = "write the style on the elements" if severity == "warning" else ""
         notes.count(code, severity, message, element, fix=fix)
 

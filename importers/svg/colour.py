@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+import re
+
 import tinycss2
 import tinycss2.color4
 
 NOTHING = "none"  # what paints nothing: the word itself, and every colour without any opacity
 _BLANKS = " \t\r\n\f"
+# The two ways in which programs write most colours; read so, they take a tenth of the time or less
+_HEX = re.compile(r"#[0-9a-fA-F]{6}")
+_RGB = re.compile(r"rgb\( *+([0-9]{1,3}) *+, *+([0-9]{1,3}) *+, *+([0-9]{1,3}) *+\)")
 
 
 def parse_colour(text: str) -> str | None:
     """Read a CSS colour to ``"#rrggbb"``, ``"none"`` where it is fully transparent; None for what is none."""
+    if _HEX.fullmatch(text):
+        return text.lower()
+    if match := _RGB.fullmatch(text):
+        return "#" + "".join(f"{min(255, int(part)):02x}" for part in match.groups())
     try:
         colour = tinycss2.color4.parse_color(text.strip())
     except (ValueError, TypeError, ZeroDivisionError, OverflowError):

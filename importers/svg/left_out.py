@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import Any
 
 from importers.drawing import DrawnPath
+from importers.numbers import NumberError
 from importers.regions import EVERYWHERE, Region, reach_of
 from importers.svg.matrix import Matrix, transform
 from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS
 from importers.svg.notes import Notes
 from importers.svg.references import References
 from importers.svg.shapes import Lengths, Shape
+from importers.svg.units import parse_length
+from importers.svg.viewbox import parse_view_box
 
 _NEVER = frozenset(("defs", "clipPath", "mask", "pattern", "marker", "symbol"))
 _SILENT = frozenset(
@@ -68,14 +72,36 @@ def note_foreign(element: Any, notes: Notes) -> None:
         notes.count("foreign-element", "info", message, element)
 
 
+def note_lengths(element: Any, lengths: Lengths, layer: str, name: str, notes: Notes) -> None:
+    """Say which attributes that were asked for are no lengths."""
+    for attribute in lengths.invalid:
+        note_length(element, attribute, "is no length and is not used", notes, layer, name)
+
+
+def note_length(element: Any, attribute: str, words: str, notes: Notes, layer: str = "", name: str = "") -> None:
+    """Say that an attribute is not what it has to be."""
+    message = f"{attribute}={str(element.get(attribute))[:40]!r} {words}"
+    notes.add("bad-length", "warning", message, element, attribute=attribute, layer=layer, name=name)
+
+
+def note_viewport(element: Any, lengths: tuple[str, ...], notes: Notes) -> None:
+    """Say which of a viewBox and some lengths of an element that makes a viewport cannot be read."""
+    for name in ("viewBox", *lengths):
+        text = (element.get(name) or "").strip()
+        if text in ("", "auto"):
+            continue
+        with contextlib.suppress(NumberError):  # whoever uses it says that a number is too large
+            if name == "viewBox" and parse_view_box(text) is None:
+                note_length(element, name, "is no x, y, width and height, and is not used", notes)
+            elif name != "viewBox" and parse_length(text) is None:
+                note_length(element, name, "is no length and is not used", notes)
+
+
 def note_shape(
     tag: str, element: Any, shape: Shape, lengths: Lengths, layer: str, name: str, matrix: Matrix, notes: Notes
 ) -> None:
     """Say what is wrong with a shape: its lengths, its data, or that it draws nothing."""
-    for attribute in lengths.invalid:
-        value = str(element.get(attribute))[:40]
-        message = f"{attribute}={value!r} is no length and is not used"
-        notes.add("bad-length", "warning", message, element, attribute=attribute, layer=layer, name=name)
+    note_lengths(element, lengths, layer, name, notes)
     if lengths.assumed:
         message = f"<{tag}> is measured in a window or a font, which a file does not have"
         fix = "write its lengths in px or mm"

@@ -58,6 +58,17 @@ class Notes:
         x, y = at if at is not None and all(map(good_coordinate, at)) else (None, None)
         self._problems.append(Problem(code, severity, message, fix, layer, name, line, column, x, y, text))
 
+    def add_within(
+        self, code: str, severity: Severity, message: str, element: Any, line: int, column: int, words: str
+    ) -> None:
+        """Add one problem at words within the text of an element, as :meth:`add` does."""
+        self._seen[code] += 1
+        if self._seen[code] > MOST:
+            self.count(code, severity, "more of the same", element)
+            return
+        place = self._source.place_within(element, line, column, words)
+        self._problems.append(Problem(code, severity, message, "", "", "", place[0], place[1], None, None, place[2]))
+
     def count(
         self, code: str, severity: Severity, message: str, element: Any, *, fix: str = "", number: int = 1
     ) -> None:

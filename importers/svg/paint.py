@@ -10,18 +10,23 @@ from importers.numbers import NumberError
 from importers.svg.cascade import Cascade
 from importers.svg.colour import NOTHING, parse_colour, split_url
 from importers.svg.inheritance import Style
+from importers.svg.notes import Notes
 from importers.svg.references import References
 from importers.svg.source import Source
-from importers.svg.units import Viewport, to_px
+from importers.svg.units import LONGEST, Viewport, check_numbers, to_px
 
 _INITIAL = Style()
+_NUMBERS_OF_SERVERS = (
+    *("gradientTransform", "patternTransform", "x1", "y1", "x2", "y2", "cx", "cy", "r", "fx", "fy", "fr"),
+    *("x", "y", "width", "height", "viewBox"),
+)
 
 
 class Paints:
     """Gives the word for each paint of a document; each text and each paint server is looked at once."""
 
-    def __init__(self, references: References, cascade: Cascade, source: Source) -> None:
-        self._references, self._cascade, self._source = references, cascade, source
+    def __init__(self, references: References, cascade: Cascade, source: Source, notes: Notes) -> None:
+        self._references, self._cascade, self._source, self._notes = references, cascade, source, notes
         self._words: dict[str, str | None] = {}
         self._seen: dict[Any, bool] = {}  # paint servers: does it paint anything
 
@@ -37,17 +42,29 @@ class Paints:
             self._words[paint] = self._server(paint)
         return self._words[paint]
 
-    def stroke(self, style: Style, viewport: Viewport, scale: float) -> tuple[str | None, float | None]:
-        """Give the paint and the width of a stroke that is seen; a stroke without width paints nothing."""
+    def stroke(self, style: Style, viewport: Viewport, scale: float, element: Any) -> tuple[str | None, float | None]:
+        """Give the paint and the width of a stroke that is seen; a stroke without width paints nothing.
+
+        Args:
+            style: of the shape.
+            viewport: the nearest, for percentages.
+            scale: of the shape's coordinates.
+            element: the shape.
+        """
         stroke = self.word(style.stroke) if style.stroke_seen else None
         if stroke is None:
             return None, None
-        width = to_px(style.stroke_width, viewport.diagonal, style.font) * scale
-        if width <= 0:
+        try:
+            width = to_px(style.stroke_width, viewport.diagonal, style.font)
+        except NumberError as error:
+            width = error.value
+        if not width > 0:
             return None, None
-        if width > MAX_COORDINATE:
-            raise NumberError("stroke-width")
-        return stroke, width
+        if width * scale > MAX_COORDINATE:
+            message = f"the stroke is {width:g} wide, and counts as the widest that browsers draw"
+            self._notes.count("bad-number", "error", message, element, fix="write a smaller stroke-width")
+            width = min(width, LONGEST)
+        return stroke, min(width * scale, MAX_COORDINATE)
 
     def _server(self, paint: str) -> str | None:
         parts = split_url(paint)
@@ -76,6 +93,7 @@ class Paints:
             if answer is None:
                 chain.append(server)
                 passed.add(server)
+                self._look_at_numbers(server)
                 answer = tell(server)
             if answer is not None:
                 break
@@ -83,6 +101,16 @@ class Paints:
         for server in chain:
             self._seen[server] = bool(answer)
         return bool(answer)
+
+    def _look_at_numbers(self, server: Any) -> None:
+        """Say which numbers of a paint server are too large: they change the paint, and no outline."""
+        attributes = self._source.attributes(server)
+        for name in _NUMBERS_OF_SERVERS:
+            try:
+                check_numbers(attributes.get(name, ""))
+            except NumberError as error:
+                message = f"{name} has a number that is too large; it changes no outline"
+                self._notes.add("bad-number", "info", message, server, attribute=name, offset=error.offset)
 
     def _has_colour(self, gradient: Any) -> bool | None:
         """Tell whether any stop has opacity; None without stops: then those that its href names count."""

@@ -13,12 +13,12 @@ from importers.drawing import Drawing, DrawnPath, FillRule, Layer, Level
 from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.numbers import NumberError
 from importers.regions import ALL, Region
+from importers.svg import left_out
 from importers.svg.around import Around, BoxFirst, Reading
 from importers.svg.cascade import Cascade
 from importers.svg.clipping import Clips
 from importers.svg.conditions import chosen, holds
 from importers.svg.inheritance import Style
-from importers.svg.left_out import NO_GEOMETRY, note_foreign, note_shape, note_skipped, note_unseen
 from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transformed, translation
 from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS, label_of, level_of, merged, name_of, title_of
 from importers.svg.notes import Notes
@@ -59,7 +59,7 @@ class Reader:
         self.illustrator = "Adobe Illustrator" in head or "ns.adobe.com/AdobeIllustrator" in head
         named = "groupmode" in source.text  # in names of attributes nothing stands for anything else
         self.inkscape_layers = named and bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
-        self.paints = Paints(self.references, self.cascade, source)
+        self.paints = Paints(self.references, self.cascade, source, self.notes)
         self.clips = Clips(self.references, self.cascade, source, self.prefix)
         self.layers: dict[str, Layer] = {}
         self.stack: list[tuple[Any, Around]] = []
@@ -140,6 +140,7 @@ class Reader:
             place = error.attribute if error.attribute and error.attribute in root.attrib else ""
             self.notes.add("bad-number", "error", message, root, fix=fix, attribute=place, offset=error.offset)
             style, matrix, viewport, page = self.initial, IDENTITY, Viewport(*DEFAULT_SIZE), None
+        left_out.note_viewport(root, ("width", "height"), self.notes)
         if page is None:
             fix = "give the svg element a width, a height and a viewBox above 0"
             message = "the drawing has no size, so browsers show nothing of it; its outlines are in user units"
@@ -160,11 +161,11 @@ class Reader:
     def _visit(self, element: Any, around: Around) -> None:
         tag = element.tag
         if not tag.startswith(self.prefix) or (not self.prefix and tag[0] == "{"):
-            note_foreign(element, self.notes)
+            left_out.note_foreign(element, self.notes)
             return
         tag = tag[len(self.prefix) :]
         if tag not in SHAPES and tag not in _GROUPS:
-            note_skipped(tag, element, self.notes, self.references)
+            left_out.note_skipped(tag, element, self.notes, self.references)
             return
         attributes = self.source.attributes(element)
         if not holds(attributes):
@@ -334,20 +335,22 @@ class Reader:
             return
         lengths = Lengths(attributes, declared, inside.viewport, inside.style.font)
         x, y = lengths.get("x") or 0.0, lengths.get("y") or 0.0
+        tag = target.tag[len(self.prefix) :]
+        size = use_size(tag, lengths) if tag in ("symbol", "svg") else (None, None)
+        left_out.note_lengths(element, lengths, inside.layer, inside.outline, self.notes)
         matrix = multiply(inside.matrix, translation(x, y))
         name = name_of(element, attributes, self.illustrator)
         label = inside.label or label_of(attributes)
         chain = (*inside.chain, target)
         inside = inside._replace(matrix=matrix, chain=chain, outline=name or inside.outline, label=label)
-        tag = target.tag[len(self.prefix) :]
         if inside.depth > MAX_DEPTH:
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file)
         if tag in ("symbol", "svg"):
             own = self.source.attributes(target)
             said = self.cascade.declared(target, own, inside.style, inside.chain)
             within = self._inside(tag, target, own, said, inside)
-            self._nested(target, own, said, within, use_size(tag, lengths))
-        elif tag in SHAPES or tag in _GROUPS or tag in NO_GEOMETRY:
+            self._nested(target, own, said, within, size)
+        elif tag in SHAPES or tag in _GROUPS or tag in left_out.NO_GEOMETRY:
             self.stack.append((target, inside))
         else:
             self.notes.count("bad-use", "info", f"<use> of a <{tag}> draws nothing", element)
@@ -363,6 +366,8 @@ class Reader:
         # browsers take the place and size of an inner svg from its attributes alone
         lengths = Lengths(attributes, {}, inside.viewport, inside.style.font)
         placed = nested_viewport(element, lengths, size)
+        left_out.note_lengths(element, lengths, inside.layer, inside.outline, self.notes)
+        left_out.note_viewport(element, (), self.notes)
         if placed is None:
             self.notes.count("nothing-drawn", "info", "<svg> or <symbol> without a size draws nothing", element)
             self._push_children(element, inside._replace(hidden=True))
@@ -388,7 +393,7 @@ class Reader:
         own_name = name_of(element, attributes, self.illustrator)
         name = around.label or own_name or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
-            note_shape(tag, element, shape, lengths, around.layer, name, matrix, self.notes)
+            left_out.note_shape(tag, element, shape, lengths, around.layer, name, matrix, self.notes)
         subpaths = [transformed(sub, matrix) for sub in shape.subpaths]
         if not subpaths:
             return
@@ -408,7 +413,7 @@ class Reader:
         fill, stroke, width = None, None, None
         if not (around.unseen or _without_opacity(declared)):
             fill = self.paints.word(style.fill) if style.fill_seen and tag != "line" else None
-            stroke, width = self.paints.stroke(style, around.viewport, mean_scale(matrix))
+            stroke, width = self.paints.stroke(style, around.viewport, mean_scale(matrix), element)
         drawn = DrawnPath(
             subpaths=subpaths,
             name=name,
@@ -430,7 +435,7 @@ class Reader:
             clip = around.clip
             if "clip-path" in declared or "mask" in declared:
                 clip = self._clip(declared, around, matrix, shape.box)
-            note_unseen(tag, element, drawn, around.page, clip, self.notes)
+            left_out.note_unseen(tag, element, drawn, around.page, clip, self.notes)
 
     def _merged(self, levels: tuple[Level, ...]) -> dict[str, str]:
         self.work.charge("tags", sum(1 + 4 * len(level.tags) for level in levels))

@@ -18,7 +18,7 @@ import tinycss2
 
 from importers.limits import Work
 
-STEPS = 40  # of work for a part that is compiled
+STEPS = 60  # of work for a part that is compiled
 STEPS_OF_A_LETTER = 12  # of a long one, which is read and written several times
 STEPS_OF_A_TEST = 2  # of an element by a chain of parts, besides those of the way
 MOST_NESTED = (

@@ -69,13 +69,17 @@ class Lengths:
         """Give a width or height in user units; None where it is missing, ``auto`` or no length, 0 below 0."""
         text = self.attributes.get(name)
         terms = parse_length(text) if text is not None else None
-        return None if terms is None else max(0.0, self._px(name, terms))
+        if terms is None:
+            if text is not None and text.strip() != "auto":
+                self.invalid.append(name)
+            return None
+        return max(0.0, self._px(name, terms))
 
     def _px(self, name: str, terms: Terms) -> float:
         try:
             return to_px(terms, getattr(self.viewport, _AXES[name]), self.font)
         except NumberError:
-            raise NumberError(name) from None
+            raise NumberError("" if name in self.declared else name) from None
 
     def _terms(self, name: str) -> Terms | None:
         if name in self.declared:

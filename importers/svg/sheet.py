@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from collections.abc import Iterable, Iterator
+from typing import Any, Protocol
 
 import cssselect2
 import tinycss2
 
 from importers.limits import Work
 from importers.problems import Severity
-from importers.svg.declarations import Winners, winners
+from importers.svg.declarations import Winners, fault_of, winners
 from importers.svg.media import matches_media
 from importers.svg.selectors import NotUnderstoodError, compile_selectors, split_at_commas
 from importers.svg.style import Declaration, known_declarations
 from importers.svg.units import unreadable
 
-# code, severity, what is left out; called once for each thing in a sheet that is not followed
-Report = Callable[[str, Severity, str], None]
+
+class Report(Protocol):
+    """Is told of each thing in a sheet that is not followed, with the declaration of tinycss2 where it is one."""
+
+    def __call__(self, code: str, severity: Severity, message: str, at: Any = None) -> None:
+        """Say that something is left out."""
+
 
 _MOST_LETTERS = 10_000  # of the selectors of a nested rule, with those around it put in
 
@@ -104,13 +109,13 @@ class Sheet:
     what is in the instance, not by what is around the original or around the ``use``.
     """
 
-    def __init__(self, texts: Iterable[str], root: Any, report: Report, work: Work) -> None:
+    def __init__(self, texts: Iterable[tuple[str, Report]], root: Any, work: Work) -> None:
         self._matcher = cssselect2.Matcher()
         self._wrappers: dict[Any, dict[Any, _Element]] = {}  # of each tree, by its root
-        self._root, self._report, self._work = root, report, work
+        self._root, self._work = root, work
         self.empty = True
         self._namespaces: dict[str | None, str] = {}
-        for text in texts:
+        for text, self._report in texts:
             self._add(text)
 
     def _add(self, text: str) -> None:
@@ -188,15 +193,15 @@ class Sheet:
         inner = []
         for node in tinycss2.parse_blocks_contents(content, skip_comments=True, skip_whitespace=True):
             if node.type == "declaration":
-                declarations += known_declarations(node, "sheet")
+                known = known_declarations(node, "sheet")
+                for name, value, _ in known:
+                    fault = fault_of(name, value)
+                    if fault is not None:
+                        self._report(fault.code, fault.severity, f"{name} {fault.message}", node)
+                declarations += known
             elif node.type in ("qualified-rule", "at-rule"):
                 inner.append(node)
         found = winners(declarations)
-        for name in found.too_large:
-            message = f"{name} in a style sheet has a number that is too large, and is not used"
-            self._report("bad-number", "error", message)
-        for name in found.unread:
-            self._report("bad-transform", "warning", f"{name} in a style sheet is wrong, so none of it is used")
         if found.normal or found.important:
             for selector in self._compile(prelude):
                 self._matcher.add_selector(selector, found)

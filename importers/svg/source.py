@@ -29,12 +29,14 @@ _DECLARED = re.compile(rb"""<\?xml[^>]{0,200}?encoding\s*+=\s*+["']([A-Za-z0-9._
 _TAGS = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<(?=[^\s!?/])", re.DOTALL)
 # An attribute of a start tag, or what ends the tag
 _ATTRIBUTE = re.compile(r"""[^\s=<>/"']++|"[^"]*+"|'[^']*+'|>""")
+_START_TAG = re.compile(r"""<(?:[^>"']++|"[^"]*+"|'[^']*+')*+>""")
 _LONGER = re.compile(REFERENCE.pattern + r"|\r\n")  # what is one character once it is read
 # Python's codecs that no file is written in; some cost the square of the size, some fail whatever is asked
 _NOT_OF_FILES = frozenset(
     ("idna", "punycode", "undefined", "unicode-escape", "raw-unicode-escape", "utf-7", "mbcs", "oem")
 )
 _FEW = 64  # attributes of an element, as people and programs write them
+STEPS_OF_A_FUNCTION = 30  # such as rgb() or calc(), in the value of an attribute
 _HUGE = 9_000_000  # libxml2 takes a text of 10 MB only when told that the document is huge
 
 
@@ -96,13 +98,23 @@ class Source:
     problems: list[Problem] = field(default_factory=list)
     _starts: dict[Any, int] | None = field(default=None)
     _lines: list[int] = field(default_factory=list)
+    _weighed: set[str] = field(default_factory=set)
 
     def attributes(self, element: Any) -> dict[str, str]:
         """Give an element's attributes as a dict, in a time that is linear in their number (lxml's own is not)."""
         many = len(element.attrib) > _FEW
         found = {str(value.attrname): str(value) for value in element.xpath("@*")} if many else dict(element.items())
         self.work.charge("attributes", len(found) * (2 if many else 1) + sum(map(len, found.values())) // 256)
+        for name, value in found.items():
+            if ("(" in value and name != "transform") or name == "transform-origin":
+                self._weigh(value)
         return found
+
+    def _weigh(self, value: str) -> None:
+        """Charge for a value that only a parser of CSS reads, when it is first met: those are kept."""
+        if value not in self._weighed:
+            self._weighed.add(value)
+            self.work.charge("values of CSS", STEPS_OF_A_FUNCTION * (1 + value.count("(")))
 
     def line(self, element: Any) -> int | None:
         """Give the line on which the element's start tag begins, from 1."""
@@ -123,6 +135,26 @@ class Source:
         if attribute:
             start = self._value_place(start, attribute, offset)
         return self.spot(start)
+
+    def place_within(self, element: Any, line: int, column: int, words: str) -> tuple[int | None, int | None, str]:
+        """Give the place of words that are said to stand in the text of an element; its own where they do not.
+
+        Args:
+            element: whose text begins behind its start tag.
+            line: in that text, from 1.
+            column: in that line, from 1.
+            words: as written.
+        """
+        start = self._start(element)
+        tag = _START_TAG.match(self.text, start) if start is not None else None
+        number = self._line_at(tag.end()) + line - 1 if tag else 0
+        if tag is None or number > len(self._lines):
+            return self.place(element)
+        position = (tag.end() if line == 1 else self._lines[number - 1]) + column - 1
+        for unread in ("", "<![CDATA["):  # is no part of the text
+            if self.text.startswith(words, position + len(unread)):
+                return self.spot(position + len(unread))
+        return self.place(element)
 
     def spot(self, position: int) -> tuple[int, int, str]:
         """Give line, column and excerpt of a position in the text."""

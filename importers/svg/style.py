@@ -10,14 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import tinycss2
 
 from importers.numbers import NumberError
+from importers.problems import Severity
 from importers.svg.colour import parse_colour
 from importers.svg.transforms import parse_transform_attribute, parse_transform_property
-from importers.svg.units import ROOT_FONT, Terms, parse_length, to_px, units_of, unreadable
+from importers.svg.units import LONGEST, ROOT_FONT, Terms, check_numbers, parse_length, to_px, units_of, unreadable
 
 # Where a declaration stands: browsers read an attribute, a ``style`` attribute and a style sheet each a little
 # differently (numbers without units).
@@ -38,14 +39,16 @@ class TooLarge:
 
     Attributes:
         offset: of the number, in the value.
+        instead: what browsers then take, None where the declaration is as if it were not there.
     """
 
     offset: int = 0
+    instead: Any = None
 
 
 @dataclass(frozen=True, slots=True)
 class Unread:
-    """The value of a declaration that is as if it were not there, but is missed: a transform."""
+    """The value of a declaration that is as if it were not there, but is missed: of a property in MISSED."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +62,20 @@ class Pending:
 
     text: str
     origin: Origin
+
+
+class Fault(NamedTuple):
+    """What is wrong with a declaration.
+
+    Attributes:
+        code: of the problem.
+        severity: of the problem.
+        message: what is the case, without the property's name.
+    """
+
+    code: str
+    severity: Severity
+    message: str
 
 
 _WIDE = {"inherit": INHERIT, "initial": INITIAL, "unset": "unset", "revert": "unset", "revert-layer": "unset"}
@@ -96,6 +113,10 @@ _FONT_SIZES = {
 }
 
 
+# Sizes that browsers work out from a content or a container, which no shape has
+_AUTO = frozenset(("auto", "max-content", "min-content", "fit-content", "stretch", "-webkit-fill-available"))
+
+
 def _keyword(name: str) -> Callable[[str, Origin], Any]:
     allowed = _KEYWORDS[name]
 
@@ -123,7 +144,7 @@ def _radius(text: str, origin: Origin) -> Terms | str | None:
 
 def _size(text: str, origin: Origin) -> Terms | str | None:
     """Read width, height or font-size: numbers need a unit in a style sheet, but not in a ``style`` attribute."""
-    if text.strip().lower() == "auto":
+    if text.strip().lower() in _AUTO:
         return "auto"
     terms = parse_length(text, origin != "sheet")
     return None if terms is None or (len(terms) == 1 and terms[0][0] < 0) else terms
@@ -169,6 +190,11 @@ def _line_height(text: str, origin: Origin) -> Any:
         return "normal"
     terms = parse_length(word, True)
     return None if terms is None or terms[0][0] < 0 else terms
+
+
+def _marks(text: str, origin: Origin) -> None:
+    """Look at numbers that change no outline, as those of dashes, for one that is too large."""
+    check_numbers(text)
 
 
 def _words(text: str, origin: Origin) -> str | None:
@@ -239,6 +265,7 @@ def _path(text: str, origin: Origin) -> str | None:
     return str(arguments[0].value) if len(arguments) == 1 and arguments[0].type == "string" else None
 
 
+_OPACITIES = ("opacity", "fill-opacity", "stroke-opacity", "stop-opacity")
 _PARSERS: dict[str, Callable[[str, Origin], Any]] = {
     **{name: _keyword(name) for name in _KEYWORDS},
     **dict.fromkeys(("x", "y", "cx", "cy"), _length),
@@ -249,7 +276,7 @@ _PARSERS: dict[str, Callable[[str, Origin], Any]] = {
     "fill": _paint,
     "stroke": _paint,
     "color": lambda text, origin: parse_colour(text),
-    **dict.fromkeys(("opacity", "fill-opacity", "stroke-opacity", "stop-opacity"), _opacity),
+    **dict.fromkeys(_OPACITIES, _opacity),
     "stop-color": lambda text, origin: parse_colour(text),
     "stroke-width": _positive,
     "font-size": _font_size,
@@ -260,9 +287,19 @@ _PARSERS: dict[str, Callable[[str, Origin], Any]] = {
     "d": _path,
     "clip-path": _words,
     "mask": _words,
+    **dict.fromkeys(("stroke-dasharray", "stroke-dashoffset", "stroke-miterlimit"), _marks),
 }
 PROPERTIES = frozenset(_PARSERS)
-_TRANSFORMS = frozenset(("transform", "translate", "rotate", "scale"))
+_TRANSFORMS = ("transform", "translate", "rotate", "scale", "transform-origin", "transform-box")
+# Properties that are missed where they cannot be read
+MISSED = {
+    **dict.fromkeys(_TRANSFORMS, Fault("bad-transform", "warning", "is wrong, so none of it is used")),
+    **dict.fromkeys(_OPACITIES, Fault("bad-length", "warning", "is no number and is not used")),
+    **dict.fromkeys(
+        ("x", "y", "cx", "cy", "r", "rx", "ry", "width", "height", "stroke-width"),
+        Fault("bad-length", "warning", "is no length that it can have, and is not used"),
+    ),
+}
 # Attributes that are not declarations by themselves: geometry is looked up on the element that has it
 _LAZY = frozenset(("x", "y", "cx", "cy", "r", "rx", "ry", "width", "height", "d"))
 PRESENTATION = PROPERTIES - _LAZY - {"line-height", "translate", "rotate", "scale"}
@@ -271,7 +308,8 @@ PRESENTATION = PROPERTIES - _LAZY - {"line-height", "translate", "rotate", "scal
 def parse_declaration(name: str, text: str, origin: Origin) -> Any:
     """Give the parsed value of a declaration, None when it is invalid (and so is as if it were not there).
 
-    A TooLarge, an Unread or a Pending stand for what they say.
+    A TooLarge, an Unread or a Pending stand for what they say. An attribute of geometry is no declaration by
+    itself, so it is None where it cannot be read.
     """
     return _parse_short(name, text, origin) if len(text) < SHORT else _parse(name, text, origin)
 
@@ -295,9 +333,17 @@ def _parse(name: str, text: str, origin: Origin) -> Any:
         return unset(name) if wide == "unset" else wide
     try:
         value = _PARSERS[name](text, origin)
-        return Unread() if value is None and name in _TRANSFORMS and origin != "attribute" else value
     except NumberError as error:
-        return TooLarge(error.offset)
+        return TooLarge(error.offset, _instead(name, error.value))
+    missed = value is None and name in MISSED and not (origin == "attribute" and name in _LAZY)
+    return Unread() if missed and text.strip() else value
+
+
+def _instead(name: str, value: float) -> Any:
+    """Give what browsers take for a value that is infinite, or none (which counts as 0)."""
+    if name in _OPACITIES:
+        return 1.0 if value > 0 else 0.0
+    return ((LONGEST, "px"),) if name == "stroke-width" and value > 0 else None
 
 
 def unset(name: str) -> str:

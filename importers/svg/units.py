@@ -49,6 +49,8 @@ _FONT_UNITS = {"em", "ex", "ch", "cap", "ic", "lh", "rem", "rex", "rch", "rcap",
 UNITS = frozenset(_PX) | frozenset(_WINDOW_UNITS) | _FONT_UNITS | {"%"}
 DEGREES = {"deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0}
 NUMBERS = {"": 1.0}
+# The longest length of browsers, either way: what is longer, or infinite, is this long there
+LONGEST = float(2**25)
 
 # Proportions of DejaVu Sans, the font of a browser on a bare machine, whatever a file asks for
 _FONT = {"em": 1.0, "ic": 1.0, "ex": 0.547, "ch": 0.63623, "cap": 0.7322}
@@ -62,6 +64,8 @@ _MOST_DIGITS = 4000  # of a number in CSS; Python turns no more than 4300 into a
 _SIMPLE = re.compile(
     r"\s*+([-+]?+(?:[0-9]++(?:\.[0-9]++)?+|\.[0-9]++)(?:[eE][-+]?+[0-9]++)?+)([a-zA-Z]++|%)?+\s*+", re.ASCII
 )
+_ANY_NUMBER = re.compile(r"([-+]?+(?:[0-9]++(?:\.[0-9]*+)?+|\.[0-9]++)(?:[eE][-+]?+[0-9]++)?+)([a-zA-Z]*+)", re.ASCII)
+_LONG_NUMBER = 300  # letters; the largest double has 309 digits
 # A length is worked out again on every element that has it or inherits it.
 MAX_LENGTH_LETTERS = 256
 
@@ -143,6 +147,24 @@ def unreadable(text: str) -> bool:
     return False
 
 
+def check_numbers(text: str) -> None:
+    """Look at the numbers of a text that is not read further.
+
+    Raises:
+        NumberError: one of them is too large, by itself or with its unit.
+    """
+    if "e" not in text and "E" not in text and len(text) < _LONG_NUMBER:
+        return  # no number of so few digits overflows
+    for match in _ANY_NUMBER.finditer(text):
+        unit = (match[2] or "").lower()
+        value = float(match[1]) * (_PX.get(unit) or DEGREES.get(unit, 1.0))
+        finite(value, "", match.start())
+    if "(" in text and len(text) <= MAX_LENGTH_LETTERS and not unreadable(text):
+        for token in tinycss2.parse_component_value_list(text, skip_comments=True):
+            if token.type == "function":
+                to_px(parse_length(tinycss2.serialize([token])) or (), 0.0, ROOT_FONT)
+
+
 def to_px(terms: Terms, percent_of: float, font: Font) -> float:
     """Give a length in px.
 
@@ -221,6 +243,7 @@ def _normal_line_height(font: Font) -> float:  # ascent and descent are each rou
 
 
 _Sum = dict[Any, float]  # unit to factor
+_CONSTANTS = {"pi": math.pi, "e": math.e, "infinity": math.inf, "-infinity": -math.inf, "nan": math.nan}
 
 
 def _parse_calc(text: str, unitless: bool) -> Terms | None:
@@ -258,7 +281,7 @@ def _terms(token: Any) -> Terms | None:
     """Add up what a function says, unit by unit; None where it makes no sense."""
     try:
         return tuple((value, unit) for unit, value in _value(token).items())
-    except (ValueError, IndexError, ZeroDivisionError, RecursionError, OverflowError):
+    except (ValueError, LookupError, ZeroDivisionError, RecursionError, OverflowError):
         return None
 
 
@@ -298,6 +321,8 @@ def _value(token: Any) -> _Sum:
         return {"%": token.value}
     if token.type == "dimension":
         return {token.lower_unit: token.value}
+    if token.type == "ident":
+        return {"": _CONSTANTS[token.lower_value]}
     if token.type == "() block":
         return _sum(_solid(token.content))
     if token.type != "function":

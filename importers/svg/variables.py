@@ -10,6 +10,7 @@ from importers.limits import Work
 MAX_LETTERS = 10_000  # of a value once its variables are put in; two that name each other twice would double it
 _MAX_DEPTH = 32  # fallbacks in fallbacks, variables in variables
 _VAR = re.compile(r"(?<![\w-])var\(", re.IGNORECASE)
+_NAMED = re.compile(_VAR.pattern + r"([^,()]*+)", re.IGNORECASE)
 _SIGN = re.compile(r"[()\"',]")
 
 
@@ -51,7 +52,8 @@ def _resolve_one(
 
 
 def _names(text: str) -> list[str]:
-    return [_parts(text, match.end())[0] for match in _VAR.finditer(text)]
+    """Give the names in a value, those in fallbacks too; where each ``var()`` ends is not looked for."""
+    return [match[1].strip() for match in _NAMED.finditer(text)]
 
 
 def put_in(text: str, variables: Mapping[str, str | None], work: Work, depth: int = 0) -> str:

@@ -46,7 +46,7 @@ def test_a_selector_matches_the_elements_that_cssselect2_finds(tree, text):
         matcher.add_selector(compiled, True)
     whole = cssselect2.ElementWrapper.from_xml_root(root)
     judged = [wrapper.etree_element for wrapper in whole.iter_subtree() if matcher.match(wrapper)]
-    sheet = Sheet([text + "{display:none}"], root, lambda *_: None, Work())
+    sheet = Sheet([(text + "{display:none}", lambda *_: None)], root, Work())
     assert [one for one in root.iter() if sheet.matches(one, None)] == judged
 
 

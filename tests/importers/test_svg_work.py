@@ -6,8 +6,9 @@ import pytest
 
 from importers.errors import LimitError
 from importers.limits import MAX_STEPS, STEPS_OF_AN_ELEMENT, Work
+from importers.svg import variables
 from importers.svg.reader import Reader
-from importers.svg.source import parse
+from importers.svg.source import STEPS_OF_A_FUNCTION, parse
 
 NS = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
 RECT = '<rect width="1" height="1"/>'
@@ -63,6 +64,13 @@ GROWING = {
     "a chain of variables": lambda n: svg(
         "<style>g{" + "".join(f"--a{i}:var(--a{i + 1});" for i in range(n)) + f"--a{n}:red}}</style><g/>"
     ),
+    "colours that only a parser of CSS reads": lambda n: svg("".join(f'<g fill="rgb({i}%,1%,2%)"/>' for i in range(n))),
+    "lengths of calc(), all others": lambda n: svg("".join(f'<rect width="calc(1px*{i})"/>' for i in range(n))),
+    "declarations that are wrong": lambda n: svg("<g style='" + "".join(f"x:a{i};" for i in range(n)) + "'/>"),
+    "declarations of a sheet that are wrong": lambda n: svg(
+        "<style>" + "".join(f"rect{{x:a{i}}}\n" for i in range(n)) + "</style>" + RECT
+    ),
+    "dashes without end": lambda n: svg(f'<rect stroke-dasharray="{"1e1 " * n}"/>'),
     "fallbacks side by side": lambda n: svg(f"<g style='fill:{'var(--a,b)' * n}'/>"),
 }
 
@@ -160,3 +168,30 @@ def test_a_large_drawing_is_paid_for_by_its_own_size():
     source = parse(text, "")
     assert len(Reader(source).read().paths) == 2000
     assert source.work.done < source.work.most - MAX_STEPS
+
+
+def test_a_value_is_paid_for_when_it_is_first_met():
+    """So a drawing of one colour is not refused for its size, and one where each value is another is."""
+    same = work(svg('<g fill="rgb(1%,2%,3%)"/>' * 2000))
+    other = work(svg("".join(f'<g fill="rgb({i}%,2%,3%)"/>' for i in range(2000))))
+    assert other - same >= 1999 * STEPS_OF_A_FUNCTION
+
+
+class Counted:
+    """A pattern that counts how often it searches."""
+
+    def __init__(self, pattern):
+        self.pattern, self.searches = pattern, 0
+
+    def search(self, *arguments):
+        self.searches += 1
+        return self.pattern.search(*arguments)
+
+
+def test_fallbacks_in_fallbacks_are_looked_through_once_each(monkeypatch):
+    searches = []
+    for size in (200, 400):
+        monkeypatch.setattr(variables, "_SIGN", Counted(variables._SIGN))
+        work(svg(f"<g style='--a:{'var(--b,' * size}1{')' * size}'/>"))
+        searches.append(variables._SIGN.searches)
+    assert 0 < searches[1] < 2.3 * searches[0]
