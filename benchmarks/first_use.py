@@ -77,20 +77,18 @@ import numpy as np
 import wallkit
 from wallkit.view.raster import png
 from wallkit.view.run_picture import run_canvas
-seconds = []
-for file, start, balls, bounces in json.loads(sys.argv[1]):
-    angle = np.random.default_rng(1).uniform(0, 2 * np.pi, balls)
-    velocity = 50 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    scene = wallkit.Scene(
-        wallkit.import_walls(f"samples/{file}", curves="arcs"), wallkit.Balls(np.tile([start], (balls, 1)), velocity, 4)
-    )
-    run, turns = wallkit.simulate(scene, bounces=bounces), []
-    for _ in range(3):
-        began = time.process_time()
-        png(run_canvas(run))
-        turns.append(time.process_time() - began)
-    seconds.append(sorted(turns)[1])
-print(json.dumps(seconds))
+file, start, balls, bounces = json.loads(sys.argv[1])
+angle = np.random.default_rng(1).uniform(0, 2 * np.pi, balls)
+velocity = 50 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+scene = wallkit.Scene(
+    wallkit.import_walls(f"samples/{file}", curves="arcs"), wallkit.Balls(np.tile([start], (balls, 1)), velocity, 4)
+)
+run, turns = wallkit.simulate(scene, bounces=bounces), []
+for _ in range(3):
+    began = time.process_time()
+    png(run_canvas(run))
+    turns.append(time.process_time() - began)
+print(sorted(turns)[1])
 """
 
 DRAWN = (
@@ -103,8 +101,11 @@ DRAWN = (
 
 
 def row(name: str, turns: list[list[float]]) -> None:
-    """Print one line of the table."""
+    """Print one line of the table; that build's seconds are NaN where it lacks what is asked."""
     here, there, ratio = medians(turns)
+    if math.isnan(there):
+        print(f"| {name} | {here:.3g} s | has none | |", flush=True)
+        return
     unit, factor = ("s", 1.0) if there >= 0.1 else ("ms", 1e3)
     print(f"| {name} | {here * factor:.3g} {unit} | {there * factor:.3g} {unit} | {ratio:.2f} |", flush=True)
 
@@ -119,11 +120,15 @@ def surveys(builds: tuple[Build, Build]) -> None:
 
 def aside(builds: tuple[Build, Build]) -> None:
     """What else one may begin with, each with a cache of its own."""
-    for kind in ("aim", "world", "simulate"):
+    for kind, name in (("aim", "aim"), ("world", "World"), ("simulate", "simulate")):
+        has = [build.seconds(["-c", f"import wallkit; print(hasattr(wallkit, {name!r}))"])[1] for build in builds]
         with tempfile.TemporaryDirectory() as folder:
             cache = [str(Path(folder) / str(number)) for number in range(2)]
             turns = [
-                [build.seconds(["-c", ASIDE, kind], WALLKIT_CACHE_DIR=cache[k])[0] for k, build in enumerate(builds)]
+                [
+                    build.seconds(["-c", ASIDE, kind], WALLKIT_CACHE_DIR=cache[k])[0] if "True" in has[k] else math.nan
+                    for k, build in enumerate(builds)
+                ]
                 for _ in range(2)
             ]
             row(f"first {kind}", turns[:1])
@@ -163,10 +168,11 @@ def whole(builds: tuple[Build, Build]) -> None:
 
 def pictures(builds: tuple[Build, Build]) -> None:
     """Pictures as PNG, of few bounces and of many, and the command that makes one."""
-    told = json.dumps(DRAWN)
-    turns = [[json.loads(build.seconds(["-c", PICTURES, told])[1]) for build in builds] for _ in range(3)]
-    for number, (file, _, balls, bounces) in enumerate(DRAWN):
-        row(f"picture of {file}, {balls} x {bounces}", [[one[number] for one in turn] for turn in turns])
+    for drawn in DRAWN:
+        file, _, balls, bounces = drawn
+        words = ["-c", PICTURES, json.dumps(drawn)]
+        turns = [[float(build.seconds(words)[1]) for build in builds] for _ in range(3)]
+        row(f"picture of {file}, {balls} x {bounces}", turns)
     with tempfile.TemporaryDirectory() as folder:
         for bounces in ("50", "1000"):
             words = ["-m", "wallkit", "simulate", "samples/room.svg", "--bounces", bounces, "-o", f"{folder}/run.png"]
