@@ -4,10 +4,11 @@
     python benchmarks/first_use.py COMMIT [--same-environment] --wheel WHEEL [NAME ...]
 
 Processor seconds of whole processes, the median of turns in which both builds run one after the other: a survey with an
-empty kernel cache (once), the same again, ``simulate`` of a small drawing (with its kernels on the disk), ``check`` of
-10,000 edges, and surveys of 10,000 edges with the index made in each call. Others run when they are named, for they
-take minutes: ``aside`` is what else one may begin with, an aim, a ``World(compile=True)`` and ``simulate``, and
-``report`` is ``report --quick``, both with an empty cache; ``pictures`` are PNG files of runs. With ``--wheel`` this
+empty kernel cache (once), the same again, ``simulate`` of a small drawing (with its kernels on the disk; ``small`` has
+that alone) and what Python itself takes, ``check`` of 10,000 edges, and surveys of 10,000 edges with the index made in
+each call. Others run when they are named, for they take minutes: ``aside`` is what else one may begin with, an aim, a
+``World(compile=True)`` and ``simulate``, and ``report`` is ``report --quick``, both with an empty cache; ``pictures``
+are PNG files of runs. What that build lacks is measured here alone. With ``--wheel`` this
 build is that wheel, installed into a new environment.
 """
 
@@ -83,12 +84,11 @@ velocity = 50 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 scene = wallkit.Scene(
     wallkit.import_walls(f"samples/{file}", curves="arcs"), wallkit.Balls(np.tile([start], (balls, 1)), velocity, 4)
 )
-run, turns = wallkit.simulate(scene, bounces=bounces), []
-for _ in range(3):
-    began = time.process_time()
-    png(run_canvas(run))
-    turns.append(time.process_time() - began)
-print(sorted(turns)[1])
+png(run_canvas(wallkit.simulate(scene, bounces=1)))
+run = wallkit.simulate(scene, bounces=bounces)
+began = time.process_time()
+png(run_canvas(run))
+print(time.process_time() - began)
 """
 
 DRAWN = (
@@ -135,16 +135,30 @@ def aside(builds: tuple[Build, Build]) -> None:
             row(f"{kind} again", turns[1:])
 
 
+def small(builds: tuple[Build, Build]) -> None:
+    """Simulate a small drawing, beside what Python takes to start and to import NumPy."""
+    simulate = ["-m", "wallkit", "simulate", "samples/room.svg", "--bounces", "50"]
+    floor = ["-c", "pass"], ["-c", "import numpy"]
+    for name, words in zip(
+        ("Python alone", "import numpy", "simulate, a small drawing"), (*floor, simulate), strict=True
+    ):
+        _again(name, words, builds)
+
+
 def commands(builds: tuple[Build, Build]) -> None:
     """Commands as people give them."""
+    small(builds)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "blobs.svg"
         file.write_text(_ten_thousand_edges())
-        simulate = ["simulate", "samples/room.svg", "--bounces", "50"]
-        for name, words in (("simulate, a small drawing", simulate), ("check, 10,000 edges", ["check", str(file)])):
-            for build in builds:
-                build.seconds(["-m", "wallkit", *words])
-            row(name, [[build.seconds(["-m", "wallkit", *words])[0] for build in builds] for _ in range(TURNS)])
+        _again("check, 10,000 edges", ["-m", "wallkit", "check", str(file)], builds)
+
+
+def _again(name: str, words: list[str], builds: tuple[Build, Build]) -> None:
+    """Run it once for what is kept on the disk, then in turns."""
+    for build in builds:
+        build.seconds(words)
+    row(name, [[build.seconds(words)[0] for build in builds] for _ in range(TURNS)])
 
 
 def _ten_thousand_edges() -> str:
@@ -192,6 +206,7 @@ def report(builds: tuple[Build, Build]) -> None:
 PARTS = {
     "surveys": surveys,
     "aside": aside,
+    "small": small,
     "commands": commands,
     "whole": whole,
     "pictures": pictures,

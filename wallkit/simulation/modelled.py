@@ -207,10 +207,10 @@ def _check_sizes(scene: Scene) -> float:
 
 
 def _check_speeds(balls: Balls, size: float, falls: bool) -> None:
-    speeds = np.hypot(*columns(np.asarray(balls.velocity, dtype=np.float64).reshape(-1, 2)))
-    most = float(speeds.max(initial=0.0))
-    if most > 0.0:
-        least = float(speeds.min(where=speeds > 0.0, initial=most))
+    speeds = np.hypot(*np.asarray(balls.velocity, dtype=np.float64).reshape(-1, 2).T)
+    moving = speeds[speeds > 0.0]
+    if len(moving):
+        least, most = float(moving.min()), float(moving.max())
         fix = "take another unit of time, or 0"
         for speed in (least, most):
             _check_range("a speed", speed, FALLING if falls else SPEEDS, fix)
