@@ -4,10 +4,11 @@
     python benchmarks/first_use.py COMMIT [--same-environment] --wheel WHEEL [NAME ...]
 
 Processor seconds of whole processes, the median of turns in which both builds run one after the other: a survey with an
-empty kernel cache (once), the same again, ``simulate`` of a small drawing (with its kernels on the disk), ``check`` of
-10,000 edges, and surveys of 10,000 edges with the index made in each call. Others run when they are named, for they
-take minutes: ``aside`` is what else one may begin with, an aim, a ``World(compile=True)`` and ``simulate``, and
-``report`` is ``report --quick``, both with an empty cache; ``pictures`` are PNG files of runs. With ``--wheel`` this
+empty kernel cache (once), the same again, ``simulate`` of a small drawing (with its kernels on the disk; ``small`` has
+that alone) and what Python itself takes, ``check`` of 10,000 edges, and surveys of 10,000 edges with the index made in
+each call. Others run when they are named, for they take minutes: ``aside`` is what else one may begin with, an aim, a
+``World(compile=True)`` and ``simulate``, and ``report`` is ``report --quick``, both with an empty cache; ``pictures``
+are PNG files of runs. What that build lacks is measured here alone. With ``--wheel`` this
 build is that wheel, installed into a new environment.
 """
 
@@ -77,20 +78,17 @@ import numpy as np
 import wallkit
 from wallkit.view.raster import png
 from wallkit.view.run_picture import run_canvas
-seconds = []
-for file, start, balls, bounces in json.loads(sys.argv[1]):
-    angle = np.random.default_rng(1).uniform(0, 2 * np.pi, balls)
-    velocity = 50 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    scene = wallkit.Scene(
-        wallkit.import_walls(f"samples/{file}", curves="arcs"), wallkit.Balls(np.tile([start], (balls, 1)), velocity, 4)
-    )
-    run, turns = wallkit.simulate(scene, bounces=bounces), []
-    for _ in range(3):
-        began = time.process_time()
-        png(run_canvas(run))
-        turns.append(time.process_time() - began)
-    seconds.append(sorted(turns)[1])
-print(json.dumps(seconds))
+file, start, balls, bounces = json.loads(sys.argv[1])
+angle = np.random.default_rng(1).uniform(0, 2 * np.pi, balls)
+velocity = 50 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+scene = wallkit.Scene(
+    wallkit.import_walls(f"samples/{file}", curves="arcs"), wallkit.Balls(np.tile([start], (balls, 1)), velocity, 4)
+)
+png(run_canvas(wallkit.simulate(scene, bounces=1)))
+run = wallkit.simulate(scene, bounces=bounces)
+began = time.process_time()
+png(run_canvas(run))
+print(time.process_time() - began)
 """
 
 DRAWN = (
@@ -103,8 +101,11 @@ DRAWN = (
 
 
 def row(name: str, turns: list[list[float]]) -> None:
-    """Print one line of the table."""
+    """Print one line of the table; that build's seconds are NaN where it lacks what is asked."""
     here, there, ratio = medians(turns)
+    if math.isnan(there):
+        print(f"| {name} | {here:.3g} s | has none | |", flush=True)
+        return
     unit, factor = ("s", 1.0) if there >= 0.1 else ("ms", 1e3)
     print(f"| {name} | {here * factor:.3g} {unit} | {there * factor:.3g} {unit} | {ratio:.2f} |", flush=True)
 
@@ -119,27 +120,45 @@ def surveys(builds: tuple[Build, Build]) -> None:
 
 def aside(builds: tuple[Build, Build]) -> None:
     """What else one may begin with, each with a cache of its own."""
-    for kind in ("aim", "world", "simulate"):
+    for kind, name in (("aim", "aim"), ("world", "World"), ("simulate", "simulate")):
+        has = [build.seconds(["-c", f"import wallkit; print(hasattr(wallkit, {name!r}))"])[1] for build in builds]
         with tempfile.TemporaryDirectory() as folder:
             cache = [str(Path(folder) / str(number)) for number in range(2)]
             turns = [
-                [build.seconds(["-c", ASIDE, kind], WALLKIT_CACHE_DIR=cache[k])[0] for k, build in enumerate(builds)]
+                [
+                    build.seconds(["-c", ASIDE, kind], WALLKIT_CACHE_DIR=cache[k])[0] if "True" in has[k] else math.nan
+                    for k, build in enumerate(builds)
+                ]
                 for _ in range(2)
             ]
             row(f"first {kind}", turns[:1])
             row(f"{kind} again", turns[1:])
 
 
+def small(builds: tuple[Build, Build]) -> None:
+    """Simulate a small drawing, beside what Python takes to start and to import NumPy."""
+    simulate = ["-m", "wallkit", "simulate", "samples/room.svg", "--bounces", "50"]
+    floor = ["-c", "pass"], ["-c", "import numpy"]
+    for name, words in zip(
+        ("Python alone", "import numpy", "simulate, a small drawing"), (*floor, simulate), strict=True
+    ):
+        _again(name, words, builds)
+
+
 def commands(builds: tuple[Build, Build]) -> None:
     """Commands as people give them."""
+    small(builds)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "blobs.svg"
         file.write_text(_ten_thousand_edges())
-        simulate = ["simulate", "samples/room.svg", "--bounces", "50"]
-        for name, words in (("simulate, a small drawing", simulate), ("check, 10,000 edges", ["check", str(file)])):
-            for build in builds:
-                build.seconds(["-m", "wallkit", *words])
-            row(name, [[build.seconds(["-m", "wallkit", *words])[0] for build in builds] for _ in range(TURNS)])
+        _again("check, 10,000 edges", ["-m", "wallkit", "check", str(file)], builds)
+
+
+def _again(name: str, words: list[str], builds: tuple[Build, Build]) -> None:
+    """Run it once for what is kept on the disk, then in turns."""
+    for build in builds:
+        build.seconds(words)
+    row(name, [[build.seconds(words)[0] for build in builds] for _ in range(TURNS)])
 
 
 def _ten_thousand_edges() -> str:
@@ -163,10 +182,11 @@ def whole(builds: tuple[Build, Build]) -> None:
 
 def pictures(builds: tuple[Build, Build]) -> None:
     """Pictures as PNG, of few bounces and of many, and the command that makes one."""
-    told = json.dumps(DRAWN)
-    turns = [[json.loads(build.seconds(["-c", PICTURES, told])[1]) for build in builds] for _ in range(3)]
-    for number, (file, _, balls, bounces) in enumerate(DRAWN):
-        row(f"picture of {file}, {balls} x {bounces}", [[one[number] for one in turn] for turn in turns])
+    for drawn in DRAWN:
+        file, _, balls, bounces = drawn
+        words = ["-c", PICTURES, json.dumps(drawn)]
+        turns = [[float(build.seconds(words)[1]) for build in builds] for _ in range(3)]
+        row(f"picture of {file}, {balls} x {bounces}", turns)
     with tempfile.TemporaryDirectory() as folder:
         for bounces in ("50", "1000"):
             words = ["-m", "wallkit", "simulate", "samples/room.svg", "--bounces", bounces, "-o", f"{folder}/run.png"]
@@ -186,6 +206,7 @@ def report(builds: tuple[Build, Build]) -> None:
 PARTS = {
     "surveys": surveys,
     "aside": aside,
+    "small": small,
     "commands": commands,
     "whole": whole,
     "pictures": pictures,

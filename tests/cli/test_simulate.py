@@ -130,16 +130,28 @@ def test_a_missing_file_ends_with_2(wallkit):
     assert "nowhere.ai" in err
 
 
-def test_a_small_run_waits_for_no_compiler_and_no_big_library(scene):
+def imported(file, modules):
+    """Which of these modules a small run imports."""
     script = (
         "import sys; sys.argv = ['wallkit', 'simulate', sys.argv[1]]\n"
         "from wallkit.cli import main\n"
         "try: main()\n"
         "except SystemExit as ended: assert not ended.code\n"
-        "print(sorted({'llvmlite', 'scipy', 'svgpathtools', 'pikepdf', 'PIL'} & set(sys.modules)), file=sys.stderr)"
+        f"print(sorted({modules!r} & set(sys.modules)), file=sys.stderr)"
     )
-    said = subprocess.run([sys.executable, "-c", script, scene], capture_output=True, text=True, check=True)
-    assert said.stderr == "[]\n"
+    return subprocess.run([sys.executable, "-c", script, file], capture_output=True, text=True, check=True).stderr
+
+
+def test_a_small_run_waits_for_no_compiler_and_no_big_library(scene):
+    assert imported(scene, {"llvmlite", "scipy", "svgpathtools", "pikepdf", "PIL"}) == "[]\n"
+
+
+def test_a_run_of_a_drawing_waits_for_no_reader_of_scenes(tmp_path):
+    drawing = tmp_path / "room.svg"
+    drawing.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H90V90H0Z" fill="none" stroke="#000"/></svg>'
+    )
+    assert imported(drawing, {"tomllib", "wallkit.scene.scene_files"}) == "[]\n"
 
 
 def test_the_default_ball_flies_at_50_units_and_30_degrees_from_the_roomiest_spot(wallkit, tmp_path):

@@ -9,7 +9,8 @@ import pytest
 import wallkit
 from importers.errors import LimitError
 from wallkit import Balls, Material, Scene, SceneError, Walls
-from wallkit.scene.scene_files import kind_of, load_scene, read_scene, scene_to_json
+from wallkit.scene.file_kinds import kind_of
+from wallkit.scene.scene_files import load_scene, read_scene, scene_to_json
 from wallkit.walls.walls_json import dumps
 
 ROOM = """

@@ -71,7 +71,7 @@ def export_level(
     from wallkit.cli.messages import show_problems
     from wallkit.cli.scene_input import opened, read_input
     from wallkit.export.formats import find_format
-    from wallkit.scene.scene_files import kind_of
+    from wallkit.scene.file_kinds import kind_of
     from wallkit.scene.wishes import Wishes
     from wallkit.walls.importing.placing import placed
 

@@ -18,6 +18,7 @@ from wallkit import arguments
 from wallkit.scene.asked_balls import walls_and_balls
 from wallkit.scene.ball_findings import ball_findings
 from wallkit.scene.drawn_scene import Drawn, apart, drawn_scene
+from wallkit.scene.file_kinds import kind_of
 from wallkit.scene.lesson import Lesson
 from wallkit.scene.scene import Scene, downwards, falls
 from wallkit.scene.wishes import USUAL, UsageError, Wishes
@@ -90,8 +91,6 @@ def open_scene(
         return _of_drawing(source, wishes)
     if isinstance(source, str | Path):
         return open_scene(read_file(source), wishes, name=str(source), folder=Path(source).parent)
-    from wallkit.scene.scene_files import kind_of, read_scene
-
     kind = kind_of(source)
     if kind == "drawing":
         from importers.read import read_drawing
@@ -103,6 +102,8 @@ def open_scene(
         from wallkit.walls.walls_json import loads
 
         return _of_walls(loads(source, name), wishes)
+    from wallkit.scene.scene_files import read_scene
+
     said = wishes.importing.said(USUAL)
     return _of_scene_file(read_scene(source, file=name, folder=folder, importing=said, balls=_given(wishes)), wishes)
 

@@ -13,7 +13,7 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -39,10 +39,7 @@ if TYPE_CHECKING:
     from wallkit.scene.drawn_scene import Drawn
 
 
-FileKind = Literal["drawing", "walls", "scene"]
-
 BALL_RESTITUTIONS = ("ball_restitution", "ball_tangential_restitution")
-_TOML_START = re.compile(r"(?:\s|#[^\n]*\n)*(?:\[{1,2}\s*[A-Za-z_\"]|[A-Za-z_][A-Za-z0-9_.-]*\s*=)")
 _SHORTER = "write a shorter number, such as 1e30"
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
 
@@ -68,26 +65,6 @@ class SceneFile:
     drawing: Drawing | None = None
     importing: ImportOptions | None = None
     lesson: Lesson | None = None
-
-
-def kind_of(data: bytes) -> FileKind:
-    """Tell by its content whether a file holds walls, a scene or (whatever else it is) a drawing.
-
-    JSON that names its format is believed; TOML is a text whose first line that is no comment sets a key or opens
-    a table, which no drawing's does. A saved run counts as a scene: it holds the one that it was made of.
-    """
-    head = data[:4096].decode("utf-8", "replace").lstrip("\ufeff")
-    if head.lstrip().startswith("{"):
-        named = re.search(r'"format"\s*:\s*"wallkit-(walls|scene|run)"', data.decode("utf-8", "replace"))
-        return "walls" if named and named[1] == "walls" and _format_of(data) == "wallkit-walls" else "scene"
-    return "scene" if _TOML_START.match(head) else "drawing"
-
-
-def _format_of(data: bytes) -> str:
-    try:
-        return str(json.loads(data.decode("utf-8-sig")).get("format", ""))
-    except (ValueError, RecursionError, AttributeError):
-        return ""
 
 
 def load_scene(path: str | Path) -> SceneFile:

@@ -250,8 +250,8 @@ class Walls(Pictured):
     def edge_starts(self) -> IntArray:
         """(E,) index into ``vertices`` of each edge's start, walls in order."""
         keep = np.ones(len(self.vertices), dtype=np.bool_)
-        keep[self.offsets[1:][~self.closed] - 1] = False
-        return np.flatnonzero(keep).astype(np.int64)
+        keep[self.offsets[1:] - 1] = self.closed  # the last vertex of an open wall begins no edge
+        return np.flatnonzero(keep).astype(np.int64, copy=False)
 
     @property
     def edge_ends(self) -> IntArray:
