@@ -25,12 +25,13 @@ from wallkit.walls.importing.arc_fitting.biarcs import (
     flatten,
     half_tangent,
     largest,
+    look,
     measure,
     portions,
 )
 from wallkit.walls.importing.arc_fitting.curves import ROUNDING, BoolArray, cross, dot, length
 from wallkit.walls.importing.arc_fitting.joint_directions import lean
-from wallkit.walls.importing.arc_fitting.machine_code import measured_closely, raise_to
+from wallkit.walls.importing.arc_fitting.machine_code import measured_closely, raise_to, shared_out
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
 from wallkit.walls.importing.curves_to_lines import within_limit
 
@@ -54,7 +55,7 @@ def between_cusps(chains: Chains) -> Spans:
     cusps = curves.cusps()
     which, t = cusps.ids, cusps.t
     n = len(curves)
-    first, last = curves.end_tangents()
+    first, last = chains.headings, chains.leavings
     point = curves.motion(which, t[:, None])[0][:, 0]
     ids = np.concatenate([np.arange(n), which])
     order = np.lexsort((np.concatenate([np.zeros(n), t]), ids))
@@ -110,6 +111,8 @@ def fitted(chains: Chains, spans: Spans) -> Biarcs:
 
 
 def _look(chains: Chains, spans: Spans) -> Fit:
+    if chains.machine_code:
+        return look(chains, spans, _LOOK)
     return measure(chains, spans, fitted(chains, spans), _LOOK)
 
 
@@ -154,6 +157,7 @@ def even_out(chains: Chains, best: Spans, fit: Fit, whole: Spans, tolerance: flo
     count = len(whole)
     cost = np.bincount(best.stretch, minlength=count)
     trial, failed = best, np.zeros(count, dtype=np.int64)
+    trials, best_of = [best], np.zeros(count, dtype=np.int64)
     open_ = cost > 1
     for round_ in range(_ROUNDS):
         share = _share(fit, tolerance)
@@ -170,12 +174,13 @@ def even_out(chains: Chains, best: Spans, fit: Fit, whole: Spans, tolerance: flo
         fit = _look(chains, trial)
         wrong = np.bincount(trial.stretch[_wrong(chains, fit, trial, _SAFE * tolerance)], minlength=count)
         better = open_ & (wanted + wrong < cost)
-        best = _replaced(best, trial, better)
+        best_of[better] = len(trials)
+        trials.append(trial)
         cost = np.where(better, wanted + wrong, cost)
         failed = np.where(wrong > 0, wanted, 0)
         if round_ > 1:
             open_[trial.stretch[fit.distance > _ROUGH * tolerance]] = False
-    return best
+    return _strung_by_parameter([trial.take(best_of[trial.stretch] == number) for number, trial in enumerate(trials)])
 
 
 def _share(fit: Fit, tolerance: float) -> FloatArray:
@@ -192,8 +197,13 @@ def _exact(share: FloatArray) -> FloatArray:
 
 
 def _recut(chains: Chains, old: Spans, share: FloatArray, whole: Spans, wanted: IntArray, open_: BoolArray) -> Spans:
-    """Cut the open stretches into ``wanted`` spans of equal shares; within an old span shares grow evenly."""
+    """Cut the open stretches into ``wanted`` spans of equal shares; within an old span shares grow evenly.
+
+    The directions at the new cuts are to be found by :func:`lean`.
+    """
     rows = np.flatnonzero(open_)
+    if chains.machine_code:
+        return shared_out(chains, old, share, whole.take(rows), wanted[rows])
     keep = open_[old.stretch]
     old, share = old.take(keep), share[keep]
     which = np.searchsorted(rows, old.stretch)
@@ -210,8 +220,12 @@ def _recut(chains: Chains, old: Spans, share: FloatArray, whole: Spans, wanted: 
     return whole.take(rows).cut(chains, count, old.low[at] + part * (old.high[at] - old.low[at]))
 
 
-def _replaced(best: Spans, trial: Spans, passed: BoolArray) -> Spans:
-    joined = Spans.joined([best.take(~passed[best.stretch]), trial.take(passed[trial.stretch])])
+def _strung_by_parameter(parts: list[Spans]) -> Spans:
+    """String spans together, by chain and parameter."""
+    parts = [part for part in parts if len(part)]
+    if len(parts) == 1:
+        return parts[0]  # they are in order
+    joined = Spans.joined(parts)
     return joined.take(np.lexsort((joined.low, joined.ids)))
 
 
@@ -259,8 +273,7 @@ def _cut_anew(chains: Chains, spans: Spans, fit: Fit, wrong: BoolArray, whole: S
     if gentle.any():
         wanted = count + np.maximum(count // 50, 1)
         parts.append(_recut(chains, spans, _share(fit, tolerance), whole, wanted, gentle))
-    result = Spans.joined(parts)
-    return lean(chains, result.take(np.lexsort((result.low, result.ids))))
+    return lean(chains, _strung_by_parameter(parts))
 
 
 def _in_order(parts: list[tuple[Spans, Fit]]) -> tuple[Spans, Fit]:
@@ -275,8 +288,8 @@ def _close_look(chains: Chains, spans: Spans, arcs: Biarcs) -> Fit:
     sections = chains.sections(spans.ids, spans.low, spans.high)
     worst = np.zeros((2, len(sections)))
     for rows in [slice(len(sections))] if chains.machine_code else portions(len(sections), len(_EVEN)):
-        look = _kernels_look if chains.machine_code else _look_closely
-        worst[:, rows] = look(chains, sections, rows, arcs)
+        closely = _kernels_look if chains.machine_code else _look_closely
+        worst[:, rows] = closely(chains, sections, rows, arcs)
     turn = np.where(spans.t0[sections.rows] == 0, 0.0, worst[1])  # a curve that is a point has no direction
     return largest(sections, worst[0], turn, arcs)
 

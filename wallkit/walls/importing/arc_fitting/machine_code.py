@@ -13,6 +13,7 @@ import numpy as np
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.fitting.biarc_formulas import biarcs_of
 from wallkit.kernels.fitting.cubic_chains import PLACES, look, look_again, look_closely, points_at
+from wallkit.kernels.fitting.equal_shares import share_out
 from wallkit.kernels.fitting.leaning import LOOKS, lean_all
 from wallkit.kernels.jit import compiled
 
@@ -44,12 +45,15 @@ def joined_ends(
     return ends, bends, bulges, told
 
 
-def measured(chains: Chains, sections: Sections, arcs: Biarcs, fractions: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Largest distance and turn of each section at fixed fractions of it."""
-    distance, turn = np.empty(len(sections)), np.empty(len(sections))
-    where = sections.rows, sections.curves, sections.low, sections.high
-    compiled(look)(_control(chains), chains.shifts, where, _of(arcs), fractions, distance, turn)
-    return distance, turn
+def looked_at(
+    chains: Chains, spans: Spans, limits: tuple[float, float], straight: float, fractions: FloatArray
+) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Join the ends of spans by arcs: largest distance and turn of each, and whether the arcs are sound."""
+    distance, turn, sound = np.empty(len(spans)), np.empty(len(spans)), np.empty(len(spans), dtype=np.bool_)
+    where = spans.ids, spans.low, spans.high, *_ends(spans)
+    work = np.empty((2, len(fractions)))
+    compiled(look)(_columns(chains), where, limits, straight, fractions, work, distance, turn, sound)
+    return distance, turn, sound
 
 
 def measured_closely(
@@ -69,16 +73,35 @@ def raise_to(chains: Chains, sections: Sections, arcs: Biarcs, places: FloatArra
     compiled(look_again)(_control(chains), chains.shifts, where, _of(arcs), places, worst)
 
 
-def leaning_angles(
-    chains: Chains, spans: Spans, arcs: Biarcs, fractions: FloatArray, sweeps: int, norm: float, stride: float
-) -> FloatArray:
-    """Angles that directions at the ends of spans are turned by, (n,), 0 at those of stretches."""
-    angle = np.zeros(len(spans))
-    off, start, end = (np.empty((len(spans), LOOKS)) for _ in range(3))
-    where = spans.ids, spans.stretch, spans.low, spans.high, spans.p0, spans.p1
-    numbers = fractions, sweeps, norm, stride
-    compiled(lean_all)(_columns(chains), where, _of(arcs), *numbers, off, start, end, np.empty((2, 2 * LOOKS)), angle)
-    return angle
+def lean_in_place(
+    chains: Chains,
+    spans: Spans,
+    arc_limits: tuple[float, float, float],
+    fractions: FloatArray,
+    search: tuple[int, float, float],
+) -> None:
+    """Turn the directions at the cuts inside of stretches, in place."""
+    longest = int(np.bincount(spans.stretch).max())
+    half = max(longest // 2 + 1, _HALF)
+    room = np.empty((2, 2 * LOOKS, half)), np.empty((4, half)), np.empty((5, half))
+    work = np.empty((2, 3, LOOKS, half)), np.empty((2, half)), np.empty(longest), room
+    where = spans.ids, spans.stretch, spans.low, spans.high, *_ends(spans)
+    compiled(lean_all)(_columns(chains), where, arc_limits, fractions, search, work)
+
+
+_HALF = 60  # spans with even numbers that are looked at together, and as many with odd ones: they stay in the cache
+
+
+def shared_out(chains: Chains, old: Spans, share: FloatArray, whole: Spans, counts: IntArray) -> Spans:
+    """Cut stretches ``whole`` into ``counts`` spans each, of equal shares; inner directions are left open."""
+    new = whole.take(np.repeat(np.arange(len(whole)), counts))
+    olds, stretches = (old.stretch, old.low, old.high, share), (whole.ids, whole.stretch)
+    compiled(share_out)(_columns(chains), olds, stretches, counts, (new.low, new.high, new.p0, new.p1))
+    return new
+
+
+def _ends(spans: Spans) -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
+    return spans.p0, spans.p1, spans.t0, spans.t1
 
 
 def _control(chains: Chains) -> ComplexArray:
