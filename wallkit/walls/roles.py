@@ -64,12 +64,17 @@ def role_of(path: DrawnPath) -> Role:
 
 def is_silent(path: DrawnPath) -> bool:
     """Tell whether none of its levels has a word, as of nearly all paths; False where a reader gives no levels."""
-    return bool(path.levels) and all(map(_is_silent, path.levels))
+    for level in path.levels:  # a loop, for every path is asked several times
+        if not _is_silent(level):
+            return False
+    return bool(path.levels)
 
 
 def _is_silent(level: Level) -> bool:
     name = level.name
-    return not level.tags and not level.note and name != BALLS_LAYER and "#" not in name and "[" not in name
+    if level.tags or level.note:
+        return False
+    return not name or (name != BALLS_LAYER and "#" not in name and "[" not in name)
 
 
 def plain_name(label: str) -> str:

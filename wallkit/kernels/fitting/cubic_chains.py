@@ -161,33 +161,60 @@ def peak_of(values):
 
 
 @kernel
-def look_closely(control, shifts, sections, arcs, fractions, work, largest, at, around):
-    """Measure sections at PLACES places: the largest distance and turn, where, and what is around them.
+def count_sections(chains, ids, lows, highs, counts):
+    """Write in how many curves each span has a part."""
+    _, offsets, _, starts, _, _, _ = chains
+    for n in range(len(ids)):
+        first = curve_at(offsets, starts, ids[n], lows[n])
+        counts[n] = last_curve(offsets, starts, ids[n], lows[n], highs[n]) - first + 1
+
+
+@kernel
+def look_closely(chains, spans, limits, straight, fractions, margin, work, arcs, sections, seen):
+    """Join spans by arcs and measure their sections at PLACES places.
 
     Args:
-        control: of the curves.
-        shifts: of the curves.
-        sections: the span of each, its curve, low and high of where to look.
-        arcs: of the spans.
-        fractions: where, PLACES of them.
+        chains: of cubics.
+        spans: as :func:`look` takes them.
+        limits: see there.
+        straight: see there.
+        fractions: where, PLACES of them, from ``margin`` of a section away from the ends of its span.
+        margin: so much.
         work: (2, PLACES) for the work.
-        largest: (2, n) of distances and turns, written.
-        at: (2, n) where these are, one of the fractions but the first and the last, written.
-        around: (2, 3, n) the values before, there and after, written.
+        arcs: joint, direction there and both curvatures of each span, written, and whether they are sound.
+        sections: span, curve, low and high of each section, and low and high of where to look, written.
+        seen: (2, m) of largest distances and turns; (2, m) where these are, one of the fractions but the first and the
+            last; (2, 3, m) the values before, there and after; written.
     """
-    rows, curves, lows, highs = sections
-    joint, along, bend0, bend1 = arcs
-    for n in range(len(rows)):
-        span, curve = rows[n], curves[n]
-        x_column, y_column = moved(control, curve, joint[span] - shifts[curve], along[span])
-        for k in range(PLACES):
-            t = lows[n] + (highs[n] - lows[n]) * fractions[k]
-            off, angle = off_and_turn(x_column, y_column, bend0[span], bend1[span], t)
-            work[0, k], work[1, k] = abs(off), angle
-        for which in range(2):
-            largest[which, n], at[which, n] = peak_of(work[which])
-            for step in range(3):
-                around[which, step, n] = work[which, at[which, n] - 1 + step]
+    control, offsets, shifts, starts, stops, _, _ = chains
+    ids, lows, highs, p0, p1, t0, t1 = spans
+    joints, alongs, bends0, bends1, sounds = arcs
+    rows, curves, begins, ends, first_looks, last_looks = sections
+    largest, at, around = seen
+    section = 0
+    for n in range(len(ids)):
+        chain, low, high = ids[n], lows[n], highs[n]
+        first, last = curve_at(offsets, starts, chain, low), last_curve(offsets, starts, chain, low, high)
+        alone = (offsets[chain + 1] - offsets[chain] == 1) & (low == 0.0) & (high == stops[first])
+        limit = limits[1] if alone else limits[0]
+        joint, along, bend0, bend1, _, _, _, fine = biarc(p0[n], p1[n], t0[n], t1[n], limit, straight)
+        joints[n], alongs[n], bends0[n], bends1[n], sounds[n] = joint, along, bend0, bend1, fine
+        for curve in range(first, last + 1):
+            begin, end = part_of(starts, stops, curve, low, high)
+            away = (end - begin) * margin
+            low_look, high_look = begin + (away if curve == first else 0.0), end - (away if curve == last else 0.0)
+            x_column, y_column = moved(control, curve, joint - shifts[curve], along)
+            for k in range(len(fractions)):
+                t = low_look + (high_look - low_look) * fractions[k]
+                off, work[1, k] = off_and_turn(x_column, y_column, bend0, bend1, t)
+                work[0, k] = abs(off)
+            for which in range(2):
+                largest[which, section], at[which, section] = peak_of(work[which])
+                for step in range(3):
+                    around[which, step, section] = work[which, at[which, section] - 1 + step]
+            rows[section], curves[section], begins[section], ends[section] = n, curve, begin, end
+            first_looks[section], last_looks[section] = low_look, high_look
+            section += 1
 
 
 @kernel

@@ -32,7 +32,7 @@ from wallkit.walls.importing.arc_fitting.curves import (
     turned_back,
     unit,
 )
-from wallkit.walls.importing.arc_fitting.machine_code import joined_ends, looked_at
+from wallkit.walls.importing.arc_fitting.machine_code import CloseLook, joined_ends, looked_at, looked_closely
 from wallkit.walls.importing.arc_fitting.moved_curves import Moved
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
 
@@ -226,6 +226,11 @@ def look(chains: Chains, spans: Spans, fractions: FloatArray) -> Fit:
     return Fit(distance, turn, sound & (turn <= _LARGEST_TURN))
 
 
+def look_closely(chains: Chains, spans: Spans, fractions: FloatArray, margin: float) -> CloseLook:
+    """Join spans by arcs, for cubics by compiled kernels, and measure in all sections, a margin away from the ends."""
+    return looked_closely(chains, spans, (SAME, _NEARLY_SAME), STRAIGHT, fractions, margin)
+
+
 MOST_PLACES = 1 << 14  # of sections measured at once, so that the work stays in the cache
 
 
@@ -238,7 +243,7 @@ def measure(chains: Chains, spans: Spans, arcs: Biarcs, fractions: FloatArray) -
         t = low + (sections.high[rows] - low) * fractions[:, None]
         off, angle = Ruler.of(chains, sections, rows, arcs).offsets(t)
         distance[rows], turn[rows] = np.abs(off).max(axis=0), angle.max(axis=0)
-    return largest(sections, distance, turn, arcs)
+    return largest(sections.rows, distance, turn, arcs.sound)
 
 
 def portions(count: int, places: int) -> Iterator[slice]:
@@ -247,12 +252,12 @@ def portions(count: int, places: int) -> Iterator[slice]:
     return (slice(first, first + step) for first in range(0, count, step))
 
 
-def largest(sections: Sections, distance: FloatArray, turn: FloatArray, arcs: Biarcs) -> Fit:
-    """Give the largest distance and turn of each span from those of its sections."""
-    first = np.flatnonzero(sections.begins)
-    if len(first) < len(sections):
+def largest(rows: IntArray, distance: FloatArray, turn: FloatArray, sound: BoolArray) -> Fit:
+    """Give the largest distance and turn of each span from those of its sections, ``rows`` the span of each."""
+    first = np.flatnonzero(np.diff(rows, prepend=-1))
+    if len(first) < len(rows):
         distance, turn = np.maximum.reduceat(distance, first), np.maximum.reduceat(turn, first)
-    sound: BoolArray = arcs.sound & (turn <= _LARGEST_TURN)
+    sound = sound & (turn <= _LARGEST_TURN)
     return Fit(distance, turn, sound)
 
 

@@ -6,21 +6,23 @@ does the same. :class:`smooth_chains.Chains` knows which of the two is to do it.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.fitting.biarc_formulas import biarcs_of
-from wallkit.kernels.fitting.cubic_chains import PLACES, look, look_again, look_closely, points_at
+from wallkit.kernels.fitting.cubic_chains import PLACES, count_sections, look, look_again, look_closely, points_at
 from wallkit.kernels.fitting.equal_shares import share_out
 from wallkit.kernels.fitting.leaning import LOOKS, lean_all
 from wallkit.kernels.jit import compiled
 
 if TYPE_CHECKING:
-    from wallkit.walls.importing.arc_fitting.biarcs import Biarcs, Spans
+    from wallkit.walls.importing.arc_fitting.biarcs import Spans
     from wallkit.walls.importing.arc_fitting.curves import BoolArray, ComplexArray
-    from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
+    from wallkit.walls.importing.arc_fitting.smooth_chains import Chains
 
 
 def chain_points(chains: Chains, ids: IntArray, u: FloatArray) -> tuple[ComplexArray, ComplexArray]:
@@ -56,21 +58,54 @@ def looked_at(
     return distance, turn, sound
 
 
-def measured_closely(
-    chains: Chains, sections: Sections, inside: tuple[FloatArray, FloatArray], arcs: Biarcs, fractions: FloatArray
-) -> tuple[FloatArray, IntArray, FloatArray]:
-    """Largest distance and turn (2, n) of sections, at which of the fractions (2, n), and around these (2, 3, n)."""
-    count = len(sections)
-    largest, at, around = np.empty((2, count)), np.empty((2, count), dtype=np.int64), np.empty((2, 3, count))
-    where, work = (sections.rows, sections.curves, *inside), np.empty((2, PLACES))
-    compiled(look_closely)(_control(chains), chains.shifts, where, _of(arcs), fractions, work, largest, at, around)
-    return largest, at, around
+@dataclass(slots=True)
+class CloseLook:
+    """What a close look at spans found, by section, see ``fitting.cubic_chains.look_closely``.
+
+    Attributes:
+        sections: those of the spans, as the kernels have them, with low and high of where was looked.
+        arcs: of the spans, as the kernels have them.
+        sound: (n,) whether these are.
+        worst: (2, m) largest distances and turns.
+        at: (2, m) at which of the fractions these are.
+        around: (2, 3, m) the values before, there and after.
+    """
+
+    sections: tuple[NDArray[Any], ...]
+    arcs: tuple[NDArray[Any], ...]
+    sound: BoolArray
+    worst: FloatArray
+    at: IntArray
+    around: FloatArray
 
 
-def raise_to(chains: Chains, sections: Sections, arcs: Biarcs, places: FloatArray, worst: FloatArray) -> None:
-    """Raise distance and turn (2, n) to what they are at one more place each (2, n)."""
-    where = sections.rows, sections.curves, sections.low, sections.high
-    compiled(look_again)(_control(chains), chains.shifts, where, _of(arcs), places, worst)
+def looked_closely(
+    chains: Chains,
+    spans: Spans,
+    limits: tuple[float, float],
+    straight: float,
+    fractions: FloatArray,
+    margin: float,
+) -> CloseLook:
+    """Join the ends of spans by arcs, and measure these at many places of each section."""
+    count = len(spans)
+    counts = np.empty(count, dtype=np.int64)
+    compiled(count_sections)(_columns(chains), spans.ids, spans.low, spans.high, counts)
+    total = int(counts.sum())
+    sections = *np.empty((2, total), dtype=np.int64), *np.empty((4, total))
+    arcs = *np.empty((2, count), dtype=np.complex128), *np.empty((2, count))
+    sound = np.empty(count, dtype=np.bool_)
+    seen = np.empty((2, total)), np.empty((2, total), dtype=np.int64), np.empty((2, 3, total))
+    where, work = (spans.ids, spans.low, spans.high, *_ends(spans)), np.empty((2, PLACES))
+    compiled(look_closely)(
+        _columns(chains), where, limits, straight, fractions, margin, work, (*arcs, sound), sections, seen
+    )
+    return CloseLook(sections, arcs, sound, *seen)
+
+
+def raise_to(chains: Chains, close: CloseLook, places: FloatArray) -> None:
+    """Raise what is worst to what it is at one more place each (2, m)."""
+    compiled(look_again)(_control(chains), chains.shifts, close.sections[:4], close.arcs, places, close.worst)
 
 
 def lean_in_place(
@@ -113,7 +148,3 @@ def _control(chains: Chains) -> ComplexArray:
 def _columns(chains: Chains) -> tuple[Any, ...]:
     ends = chains.headings, chains.leavings
     return _control(chains), chains.offsets, chains.shifts, chains.starts, chains.stops, *ends
-
-
-def _of(arcs: Biarcs) -> tuple[ComplexArray, ComplexArray, FloatArray, FloatArray]:
-    return arcs.joint, arcs.along, arcs.bend0, arcs.bend1
