@@ -106,11 +106,13 @@ class Looks:
         """Give what the look of an element hangs on; None where that is more than its own attributes."""
         if not self._shared:
             return None
-        said = [pair for pair in attributes.items() if pair[0] in _HEARD]
-        for name, text in said:
-            if len(text) >= SHORT and name != "style":  # it is read anew, and charged for that
-                return None
-        return id(around), *said  # styles are kept, so the id of one is its own
+        key: list[Any] = [id(around)]  # styles are kept, so the id of one is its own
+        for pair in attributes.items():
+            if pair[0] in _HEARD:
+                if len(pair[1]) >= SHORT and pair[0] != "style":  # it is read anew, and charged for that
+                    return None
+                key.append(pair)
+        return tuple(key)
 
     def inside(self, around: Around, look: Look, words: Words, make: Callable[[], Around]) -> Around:
         """Give what a group's children have around them, made once for all groups that say the same in one place.

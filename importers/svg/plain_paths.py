@@ -142,11 +142,12 @@ def _values(data: NDArray[np.uint8], starts: _Ints, stops: _Ints) -> tuple[_Floa
     whole, point = np.zeros(len(starts), dtype=np.int64), np.full(len(starts), -1, dtype=np.int64)
     points = np.zeros(len(starts), dtype=np.int64)
     at, last = starts + negative, stops - 1
+    read = data - np.uint8(ord("0"))  # a point is above 9
     for _ in range(min(int(sizes.max(initial=0)), _MOST_DIGITS + 1)):  # and a point
-        digit = data[np.minimum(at, last)].astype(np.int64) - ord("0")
-        inside = at <= last
-        is_point = inside & (digit < 0)
-        whole = np.where(inside & (digit >= 0), 10 * whole + digit, whole)
+        digit = read[np.minimum(at, last)]
+        inside, is_digit = at <= last, digit <= 9
+        is_point = inside & ~is_digit
+        whole = np.where(inside & is_digit, 10 * whole + digit, whole)
         point = np.where(is_point, at, point)
         points += is_point
         at += 1

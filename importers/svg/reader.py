@@ -161,7 +161,7 @@ class Reader:
         if around.depth >= MAX_DEPTH:
             line = self.source.line(element)
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file, line=line)
-        self.stack.extend((child, around) for child in element.iterchildren("*", reversed=True))
+        self.stack.extend([(child, around) for child in element.iterchildren("*", reversed=True)])
 
     def _visit(self, element: Any, around: Around) -> None:
         tag = element.tag
