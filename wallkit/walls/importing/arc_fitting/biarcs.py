@@ -79,7 +79,7 @@ class Spans:
 
     def take(self, index: NDArray[np.generic]) -> Spans:
         """Give those at ``index``, or where it is true."""
-        rows = np.flatnonzero(index) if index.dtype == np.bool_ else index
+        rows: Any = np.flatnonzero(index) if index.dtype == np.bool_ else index
         return Spans(*(column.take(rows) for column in self.columns))
 
     @property
