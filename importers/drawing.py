@@ -2,110 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from importers.pictured import Pictured
 from importers.problems import Problem
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    FloatArray = NDArray[np.float64]
-    Columns = tuple[bytes, FloatArray]
-
-# One segment of a subpath, in the words of SVG path data, always absolute:
-#   ("M", x, y)                                      start; only ever the first of a subpath
-#   ("L", x, y)                                      line
-#   ("Q", x1, y1, x, y)                              quadratic Bezier curve
-#   ("C", x1, y1, x2, y2, x, y)                      cubic Bezier curve
-#   ("A", rx, ry, rotation, large, sweep, x, y)      elliptic arc; rotation in degrees, large and sweep 0 or 1,
-#                                                    rx, ry > 0 and large enough to reach (never scaled up later)
-Segment = tuple[Any, ...]
+from importers.subpaths import Matrix as Matrix
+from importers.subpaths import Segment as Segment
+from importers.subpaths import Subpath as Subpath
 
 YAxis = Literal["up", "down"]
 FillRule = Literal["nonzero", "evenodd"]
-
-
-class Subpath:
-    """One pen stroke: a start point and the segments from it.
-
-    Attributes:
-        segments: ``("M", x, y)`` first, then any of L, Q, C and A. A closing edge is not repeated: a closed
-            triangle is M L L with ``closed`` true. Where the file itself draws back to the start and closes
-            as well, the last segment is kept as written.
-        closed: the file closes it (``Z``, a closing paint operator, a shape that is closed by nature).
-    """
-
-    __slots__ = ("_columns", "_segments", "closed")
-    __hash__ = None  # type: ignore[assignment]  # it may change
-
-    def __init__(self, segments: list[Segment], closed: bool) -> None:
-        self._segments: list[Segment] | None = segments
-        self._columns: Columns | None = None
-        self.closed = closed
-
-    @classmethod
-    def of_columns(cls, letters: bytes, numbers: FloatArray, closed: bool) -> Subpath:
-        """Make one of columns, see :attr:`columns`; its segments are made when somebody asks for them."""
-        subpath = cls([], closed)
-        subpath._segments, subpath._columns = None, (letters, numbers)
-        return subpath
-
-    @property
-    def segments(self) -> list[Segment]:
-        """The segments; from then on they are what the subpath is, for a list may be changed."""
-        if self._segments is None:
-            self._segments, self._columns = list(_unpacked(*self._packed())), None
-        return self._segments
-
-    @segments.setter
-    def segments(self, segments: list[Segment]) -> None:
-        self._segments, self._columns = segments, None
-
-    @property
-    def columns(self) -> Columns | None:
-        """The letters and the numbers of all segments one after the other; None where it is a list."""
-        return self._columns
-
-    def __len__(self) -> int:
-        """How many segments it has, the start counted."""
-        return len(self._packed()[0]) if self._segments is None else len(self._segments)
-
-    @property
-    def start(self) -> tuple[float, float]:
-        """Where it starts."""
-        if self._segments is None:
-            x, y = self._packed()[1][:2].tolist()
-            return x, y
-        _, x, y = self._segments[0]
-        return x, y
-
-    def _packed(self) -> Columns:
-        assert self._columns is not None
-        return self._columns
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Subpath):
-            return NotImplemented
-        return self.closed == other.closed and self.segments == other.segments
-
-    def __repr__(self) -> str:
-        return f"Subpath(segments={self.segments!r}, closed={self.closed!r})"
-
-
-NUMBERS = {"M": 2, "L": 2, "Q": 4, "C": 6, "A": 7}
-"""Numbers of a segment, by its letter."""
-
-
-def _unpacked(letters: bytes, numbers: FloatArray) -> Iterator[Segment]:
-    """Make segments of columns."""
-    flat, at = numbers.tolist(), 0
-    for letter in letters.decode():
-        yield (letter, *flat[at : at + NUMBERS[letter]])
-        at += NUMBERS[letter]
 
 
 LevelKind = Literal["layer", "group", "object"]
@@ -128,8 +36,7 @@ class Level:
     note: str = ""
 
 
-Shape = tuple[list["Subpath"], FillRule]
-Matrix = tuple[float, float, float, float, float, float]
+Shape = tuple[list[Subpath], FillRule]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -35,10 +35,15 @@ _NONE = Winners({}, {})
 
 
 class Cascade:
-    """Gives each element its declarations."""
+    """Gives each element its declarations.
+
+    Attributes:
+        told: how often these were more than its attributes tell: custom properties, or something to be said.
+    """
 
     def __init__(self, root: Any, prefix: str, notes: Notes, work: Work) -> None:
         texts = []
+        self.told = 0
         self._notes, self._work = notes, work
         self._letters = MAX_CSS
         for element in root.iter(prefix + "style"):
@@ -54,6 +59,15 @@ class Cascade:
         self._styles: dict[tuple[int, tuple[tuple[str, Any], ...]], Style] = {}
         self._charge(sum(len(text) for text, _ in texts))
         self._sheet = Sheet([(text, _reporter(notes, element)) for text, element in texts], root, work)
+
+    @property
+    def has_sheet(self) -> bool:
+        """There is a style sheet with a rule that may match."""
+        return not self._sheet.empty
+
+    def _say(self, code: str, severity: Severity, message: str, element: Any, attribute: str = "", at: int = 0) -> None:
+        self.told += 1
+        self._notes.add(code, severity, message, element, attribute=attribute, offset=at)
 
     def _charge(self, letters: int) -> None:
         """Count letters of CSS against their limit, and the steps that the slow parser takes."""
@@ -89,9 +103,16 @@ class Cascade:
         if not self._sheet.empty or style is not None:
             matched = [] if self._sheet.empty else self._sheet.matches(element, chain[-1] if chain else None)
             inline = _NONE if style is None else self._inline(style)
+<<<<<<< HEAD
             for name, (code, severity, message) in inline.faults:
                 offset = place_of(name, style or "")
                 self._notes.add(code, severity, f"{name} {message}", element, attribute="style", offset=offset)
+=======
+            for name in inline.too_large:
+                self._say("bad-number", "error", f"{name} {_TOO_LARGE}", element, "style")
+            for name in inline.unread:
+                self._say("bad-transform", "warning", f"{name} {_UNREAD}", element, "style")
+>>>>>>> import23
             for rule in (*(one.normal for one in matched), inline.normal):
                 found.update(rule)
             for rule in (*(one.important for one in matched), inline.important):
@@ -110,6 +131,7 @@ class Cascade:
             if len(text) >= SHORT:
                 self._work.charge("long values", len(text))
             value = parse_declaration(name, text, "attribute")
+<<<<<<< HEAD
             fault = fault_of(name, value)
             if fault is not None:
                 message = f"{name}={text[:40]!r} {fault.message}"
@@ -118,10 +140,21 @@ class Cascade:
             value = used(value)
             if value is not None:
                 found[name] = value
+=======
+            if isinstance(value, TooLarge):
+                message = f"{name}={text[:40]!r} {_TOO_LARGE}"
+                self._say("bad-number", "error", message, element, name, value.offset)
+            elif value is not None:
+                found[name] = value
+            elif name == "transform":
+                message = f"transform={text[:40]!r} {_UNREAD}"
+                self._say("bad-transform", "warning", message, element, "transform")
+>>>>>>> import23
         return found
 
     def _resolved(self, element: Any, found: Declared, around: Style) -> Declared:
         """Put custom properties in; a declaration that then is invalid is as if it were ``unset``."""
+        self.told += 1
         own = {name: text for name, text in found.items() if name[:2] == "--"}
         variables = resolve_all(own, around.variables, self._work) if own else around.variables
         result: Declared = {}
@@ -134,10 +167,19 @@ class Cascade:
                     value = parse_declaration(name, text, value.origin)
                 except UnresolvedError:
                     value = None
+<<<<<<< HEAD
                 fault = fault_of(name, value)
                 if fault is not None:
                     self._notes.add(fault.code, fault.severity, f"{name} {fault.message}", element)
                 value = used(value)
+=======
+                if isinstance(value, TooLarge):
+                    self._say("bad-number", "error", f"{name} {_TOO_LARGE}", element)
+                    value = None
+                elif isinstance(value, Unread):
+                    self._say("bad-transform", "warning", f"{name} {_UNREAD}", element)
+                    value = None
+>>>>>>> import23
                 value = unset(name) if value is None or isinstance(value, Pending) else value
             result[name] = value
         if own:

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from importers.drawing import Segment, Subpath
 
 Matrix = tuple[float, float, float, float, float, float]
@@ -82,21 +80,9 @@ def transform(segments: list[Segment], matrix: Matrix) -> list[Segment]:
 
 def transformed(subpath: Subpath, matrix: Matrix) -> Subpath:
     """Apply a matrix to a subpath, as :func:`transform` does; one of columns stays one."""
-    if subpath.columns is None:
-        return Subpath(transform(subpath.segments, matrix), subpath.closed)
-    letters, numbers = subpath.columns  # of lines and Bezier curves
-    a, b, c, d, e, f = matrix
-    if matrix == IDENTITY:
-        return Subpath.of_columns(letters, numbers, subpath.closed)
-    moved = numbers.copy()
-    if matrix[:4] == IDENTITY[:4]:
-        moved[0::2] += e + 0.0  # 0 for -0, as there
-        moved[1::2] += f + 0.0
-    else:
-        x, y = numbers[0::2], numbers[1::2]
-        with np.errstate(over="ignore", invalid="ignore"):  # what is too large is told by whoever draws it
-            moved[0::2], moved[1::2] = a * x + c * y + e, b * x + d * y + f
-    return Subpath.of_columns(letters, moved, subpath.closed)
+    if subpath.in_columns:  # of lines and Bezier curves
+        return subpath.moved(matrix)
+    return Subpath(transform(subpath.segments, matrix), subpath.closed)
 
 
 def _moved(segment: Segment, e: float, f: float) -> Segment:

@@ -20,7 +20,7 @@ from importers.limits import MAX_ELEMENTS
 LEAST = 100
 """Letters of path data from which on whole arrays are quicker."""
 _MOST = 1 << 21  # letters of a path, which bound the memory
-_AT_ONCE = 1 << 18  # letters: what is made of them stays in the cache
+_AT_ONCE = 1 << 17  # letters: what is made of them stays in the cache
 _MOST_DIGITS = 15
 """A mantissa of so many is below 2^53 and exact, as is the power of ten below it: their quotient is rounded once."""
 _TENS = 10.0 ** np.arange(_MOST_DIGITS + 1)
@@ -41,6 +41,8 @@ _CASE = 0x20  # what makes a letter a small one
 _Bools = NDArray[np.bool_]
 _Ints = NDArray[np.int64]
 _Floats = NDArray[np.float64]
+_Plain = tuple[bytes, _Floats, bool, float]
+"""Letters of segments, their numbers, whether they close, and what no number is larger than."""
 
 
 class PlainPaths:
@@ -48,13 +50,13 @@ class PlainPaths:
 
     def __init__(self, texts: Iterable[str]) -> None:
         """Read those that are long enough."""
-        self._read: dict[str, tuple[bytes, _Floats, bool]] = {}
+        self._read: dict[str, _Plain] = {}
         segments = 0
         long_enough = (text for text in texts if LEAST <= len(text) <= _MOST and _BETWEEN.decode() not in text)
         for some in _portions(long_enough):
             found = dict(_read(some))
             self._read.update(found)
-            segments += sum(len(letters) for letters, _, _ in found.values())
+            segments += sum(len(letters) for letters, _, _, _ in found.values())
             if segments > MAX_ELEMENTS:  # more than may be drawn: no memory for them
                 break
 
@@ -78,8 +80,8 @@ def _portions(texts: Iterable[str]) -> Iterator[list[str]]:
         yield some
 
 
-def _read(texts: list[str]) -> Iterator[tuple[str, tuple[bytes, _Floats, bool]]]:
-    """Read texts: each plain one with the letters of its segments, its numbers, and whether it closes."""
+def _read(texts: list[str]) -> Iterator[tuple[str, _Plain]]:
+    """Read texts: each plain one with what it draws."""
     joined = "".join(_BETWEEN.decode() + text for text in texts)
     raw = joined.encode("ascii", "replace")  # letter by letter
     data, kinds = (np.frombuffer(part, dtype=np.uint8) for part in (raw, raw.translate(_KINDS)))
@@ -103,13 +105,17 @@ def _read(texts: list[str]) -> Iterator[tuple[str, tuple[bytes, _Floats, bool]]]
     at = np.concatenate([[0], np.cumsum(drawn)])[first].tolist()
     ends = np.append(taken, len(starts))[first].tolist()
     closed = (data[letters[first[1:] - 1]] | _CASE) == ord("z")
-    told = texts, plain.tolist(), (relative > 0).tolist(), closed.tolist()
-    for text, good, moves, closes, (low, high), (begin, end) in zip(
+    reach = np.maximum.reduceat(np.append(np.abs(numbers), 0.0), taken[first[:-1]])
+    told = texts, plain.tolist(), (relative > 0).tolist(), closed.tolist(), reach.tolist()
+    for text, good, moves, closes, most, (low, high), (begin, end) in zip(
         *told, itertools.pairwise(at), itertools.pairwise(ends), strict=True
     ):
         if good and high - low > 1:
-            own = _absolute(words[low:high], numbers[begin:end]) if moves else numbers[begin:end]
-            yield text, (words[low:high], own, closes)
+            own = numbers[begin:end]
+            if moves:
+                own = _absolute(words[low:high], own)
+                most = float(np.abs(own).max())
+            yield text, (words[low:high], own, closes, most)
 
 
 def _absolute(words: bytes, numbers: _Floats) -> _Floats:
@@ -136,11 +142,12 @@ def _values(data: NDArray[np.uint8], starts: _Ints, stops: _Ints) -> tuple[_Floa
     whole, point = np.zeros(len(starts), dtype=np.int64), np.full(len(starts), -1, dtype=np.int64)
     points = np.zeros(len(starts), dtype=np.int64)
     at, last = starts + negative, stops - 1
+    read = data - np.uint8(ord("0"))  # a point is above 9
     for _ in range(min(int(sizes.max(initial=0)), _MOST_DIGITS + 1)):  # and a point
-        digit = data[np.minimum(at, last)].astype(np.int64) - ord("0")
-        inside = at <= last
-        is_point = inside & (digit < 0)
-        whole = np.where(inside & (digit >= 0), 10 * whole + digit, whole)
+        digit = read[np.minimum(at, last)]
+        inside, is_digit = at <= last, digit <= 9
+        is_point = inside & ~is_digit
+        whole = np.where(inside & is_digit, 10 * whole + digit, whole)
         point = np.where(is_point, at, point)
         points += is_point
         at += 1
@@ -154,12 +161,12 @@ def _values(data: NDArray[np.uint8], starts: _Ints, stops: _Ints) -> tuple[_Floa
 
 def _misplaced(kinds: NDArray[np.uint8]) -> _Ints:
     """Where a byte is that plain path data have not, or a comma that is not between two numbers, one space behind."""
-    commas = np.flatnonzero(kinds == _COMMA)
-    padded = np.concatenate([kinds, [_LETTER, _LETTER]])
-    behind = padded[commas + 1]
-    behind = np.where(behind == _SPACE, padded[commas + 2], behind)
-    good = (padded[commas - 1] == _DIGIT) & (behind >= _DIGIT)  # before the first comma is at least what is between
-    return np.concatenate([np.flatnonzero(kinds == _OTHER), commas[~good]])
+    padded = np.concatenate([kinds, [_LETTER, _LETTER]]).astype(np.uint8)
+    begins = padded >= _DIGIT
+    between = (padded[:-3] == _DIGIT) & begins[2:-1]  # before the first comma is at least what is between
+    odd = np.flatnonzero((kinds[1:] == _COMMA) & ~between) + 1
+    good = (kinds[odd - 1] == _DIGIT) & (padded[odd + 1] == _SPACE) & begins[odd + 2]
+    return np.concatenate([np.flatnonzero(kinds == _OTHER), odd[~good]])
 
 
 def _in_order(letters: NDArray[np.uint8], counts: _Ints) -> _Bools:

@@ -13,18 +13,27 @@ from importers.drawing import Drawing, DrawnPath, FillRule, Layer, Level
 from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.numbers import NumberError
 from importers.regions import ALL, Region
+<<<<<<< HEAD
 from importers.svg import left_out
+=======
+from importers.subpaths import settle
+>>>>>>> import23
 from importers.svg.around import Around, BoxFirst, Reading
 from importers.svg.cascade import Cascade
 from importers.svg.clipping import Clips
 from importers.svg.conditions import chosen, holds
 from importers.svg.inheritance import Style
+<<<<<<< HEAD
+=======
+from importers.svg.left_out import NO_GEOMETRY, note_foreign, note_shape, note_skipped, note_unseen
+from importers.svg.looks import Look, Looks, Words, without_opacity
+>>>>>>> import23
 from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transformed, translation
-from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS, label_of, level_of, merged, name_of, title_of
+from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS, label_of, name_of, title_of, words_of
 from importers.svg.notes import Notes
 from importers.svg.pages import pages_of, sheet_of
 from importers.svg.paint import Paints
-from importers.svg.placing import DEFAULT_SIZE, element_matrix, has_transform, nested_viewport, root_viewport, use_size
+from importers.svg.placing import DEFAULT_SIZE, nested_viewport, root_viewport, use_size
 from importers.svg.plain_paths import PlainPaths
 from importers.svg.references import References
 from importers.svg.shapes import SHAPES, Lengths, Shapes, within_bounds
@@ -33,6 +42,8 @@ from importers.svg.style import Declared
 from importers.svg.units import Viewport
 
 _GROUPS = frozenset(("g", "a", "svg", "switch", "use"))
+
+_INSENSITIVE, _GROUPMODE = SODIPODI + "insensitive", INKSCAPE + "groupmode"
 
 Attributes = dict[str, str]
 
@@ -59,7 +70,12 @@ class Reader:
         self.illustrator = "Adobe Illustrator" in head or "ns.adobe.com/AdobeIllustrator" in head
         named = "groupmode" in source.text  # in names of attributes nothing stands for anything else
         self.inkscape_layers = named and bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
+<<<<<<< HEAD
         self.paints = Paints(self.references, self.cascade, source, self.notes)
+=======
+        self.looks = Looks(self.cascade, source.work)
+        self.paints = Paints(self.references, self.cascade, source)
+>>>>>>> import23
         self.clips = Clips(self.references, self.cascade, source, self.prefix)
         self.layers: dict[str, Layer] = {}
         self.stack: list[tuple[Any, Around]] = []
@@ -78,6 +94,7 @@ class Reader:
         self.drawing.problems += self.source.problems
         self._push_children(root, self.enter())
         self._walk()
+        settle(subpath for path in self.drawing.paths for subpath in path.subpaths)
         self.references.report(self.notes)
         self.drawing.layers = list(self.layers.values())
         self.drawing.problems += self.notes.problems()
@@ -113,7 +130,7 @@ class Reader:
         tag = str(element.tag).rpartition("}")[2]
         message = f"<{tag}> is left out with all in it: a number there is too large"
         attributes = self.source.attributes(element)
-        name = name_of(element, attributes, self.illustrator) or around.outline
+        name = name_of(attributes, title_of(element), self.illustrator) or around.outline
         attribute = error.attribute if error.attribute in attributes else ""
         self.notes.add(
             "bad-number",
@@ -149,14 +166,14 @@ class Reader:
         self.drawing.artboards = pages_of(root, matrix)
         hidden = declared.get("display") == "none"
         region = ALL if page is None else Region(page)
-        around = Around(matrix, style, viewport, page=region, hidden=hidden, unseen=_without_opacity(declared))
+        around = Around(matrix, style, viewport, page=region, hidden=hidden, unseen=without_opacity(declared))
         return around._replace(clip=self._clip(declared, around, matrix, lambda: None))
 
     def _push_children(self, element: Any, around: Around) -> None:
         if around.depth >= MAX_DEPTH:
             line = self.source.line(element)
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file, line=line)
-        self.stack.extend((child, around) for child in element.iterchildren("*", reversed=True))
+        self.stack.extend([(child, around) for child in element.iterchildren("*", reversed=True)])
 
     def _visit(self, element: Any, around: Around) -> None:
         tag = element.tag
@@ -181,8 +198,8 @@ class Reader:
         if tag == "a" and element.getparent().tag == element.tag:
             self.notes.count("not-drawn", "info", "<a> directly in <a> is not shown", element)
             return
-        declared = self.cascade.declared(element, attributes, around.style, around.chain)
-        inside = self._inside(tag, element, attributes, declared, around)
+        look = self.looks.of(element, attributes, around)
+        declared, inside = look.declared, self._inside(tag, element, attributes, look, around)
         if tag == "use":
             self._use(element, attributes, declared, inside)
         elif tag == "svg":
@@ -198,28 +215,40 @@ class Reader:
         else:
             self._push_children(element, inside)
 
-    def _inside(self, tag: str, element: Any, attributes: Attributes, declared: Declared, around: Around) -> Around:
+    def _inside(self, tag: str, element: Any, attributes: Attributes, look: Look, around: Around) -> Around:
         """Give what the children of a group have around them."""
-        style = self.cascade.inherited(around.style, declared)
-        matrix = around.matrix
+        title, note = words_of(element)
+        name = name_of(attributes, title, self.illustrator)
+        on_layer = self._is_layer(tag, element, attributes, around)
+        level: Level | None = None  # what is read on the side has a box, and no words
+        if not self.aside:
+            level = self.looks.level(attributes, name, note, "layer" if on_layer else "group")
+        words = Words(name, level, around.locked or attributes.get(_INSENSITIVE) == "true", on_layer)
+
+        def made() -> Around:
+            return self._made_inside(tag, element, attributes, look, words, around)
+
+        return self.looks.inside(around, look, words, made) if tag == "g" else made()
+
+    def _made_inside(
+        self, tag: str, element: Any, attributes: Attributes, look: Look, words: Words, around: Around
+    ) -> Around:
+        """Make it: of the group's look, and of what it says of itself."""
+        name, level, locked, on_layer = words
+        declared, style, matrix = look.declared, look.style, around.matrix
         display = declared.get("display")
         hidden = around.hidden or display == "none" or (display == "contents" and tag in ("svg", "use", "symbol"))
 
         def own_box() -> Box | None:
             return self._box_of(tag, element, attributes, around, style)
 
-        if has_transform(declared) and display != "contents":
-            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, own_box))
-        name = name_of(element, attributes, self.illustrator)
-        locked = around.locked or attributes.get(SODIPODI + "insensitive") == "true"
+        if look.moves and display != "contents":
+            matrix = multiply(matrix, look.matrix(around, own_box))
         layer, groups, levels, clones = around.layer, around.groups, around.levels, around.clones
-        on_layer = self._is_layer(tag, element, attributes, around)
-        if self.aside:
-            pass  # what is read on the side has a box, and no words
-        elif tag == "use":
-            clones = (level_of(element, attributes, name, "group"), *clones)
-        else:
-            levels = (*levels, level_of(element, attributes, name, "layer" if on_layer else "group"))
+        if level is not None and tag == "use":
+            clones = (level, *clones)
+        elif level is not None:
+            levels = (*levels, level)
         if on_layer:
             layer = name
             found = self.layers.setdefault(name, Layer(name, visible=not hidden, locked=locked))
@@ -235,7 +264,7 @@ class Reader:
             clones=clones,
             clip=self._clip(declared, around, matrix, lambda: self._box_now(own_box)),
             hidden=hidden,
-            unseen=around.unseen or _without_opacity(declared),
+            unseen=around.unseen or look.unseen,
             locked=locked,
             depth=around.depth + 1,
         )
@@ -321,9 +350,9 @@ class Reader:
         if tag != "g" or around.chain:
             return False
         if self.inkscape_layers:
-            return attributes.get(INKSCAPE + "groupmode") == "layer"
-        top = element.getparent() is self.source.root
-        return top and bool(attributes.get("id") or attributes.get("data-name"))
+            return attributes.get(_GROUPMODE) == "layer"
+        named = attributes.get("id") or attributes.get("data-name")
+        return bool(named) and element.getparent() is self.source.root
 
     def _use(self, element: Any, attributes: Attributes, declared: Declared, inside: Around) -> None:
         self.work.charge("references", _STEPS_OF_A_USE + len(inside.chain))
@@ -339,7 +368,7 @@ class Reader:
         size = use_size(tag, lengths) if tag in ("symbol", "svg") else (None, None)
         left_out.note_lengths(element, lengths, inside.layer, inside.outline, self.notes)
         matrix = multiply(inside.matrix, translation(x, y))
-        name = name_of(element, attributes, self.illustrator)
+        name = name_of(attributes, title_of(element), self.illustrator)
         label = inside.label or label_of(attributes)
         chain = (*inside.chain, target)
         inside = inside._replace(matrix=matrix, chain=chain, outline=name or inside.outline, label=label)
@@ -347,10 +376,17 @@ class Reader:
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file)
         if tag in ("symbol", "svg"):
             own = self.source.attributes(target)
+<<<<<<< HEAD
             said = self.cascade.declared(target, own, inside.style, inside.chain)
             within = self._inside(tag, target, own, said, inside)
             self._nested(target, own, said, within, size)
         elif tag in SHAPES or tag in _GROUPS or tag in left_out.NO_GEOMETRY:
+=======
+            look = self.looks.of(target, own, inside)
+            within = self._inside(tag, target, own, look, inside)
+            self._nested(target, own, look.declared, within, use_size(tag, lengths))
+        elif tag in SHAPES or tag in _GROUPS or tag in NO_GEOMETRY:
+>>>>>>> import23
             self.stack.append((target, inside))
         else:
             self.notes.count("bad-use", "info", f"<use> of a <{tag}> draws nothing", element)
@@ -380,17 +416,18 @@ class Reader:
         self._push_children(element, inside._replace(matrix=matrix, viewport=viewport, page=page))
 
     def _draw(self, tag: str, element: Any, attributes: Attributes, around: Around) -> None:
-        declared = self.cascade.declared(element, attributes, around.style, around.chain)
-        style = self.cascade.inherited(around.style, declared)
+        look = self.looks.of(element, attributes, around)
+        declared, style = look.declared, look.style
         hidden = around.hidden or declared.get("display") in ("none", "contents")
         if hidden and self.aside:  # what is not displayed counts for no box
             return
         lengths = Lengths(attributes, declared, around.viewport, style.font)
         shape = self.shapes.of(tag, element, attributes, lengths, bool(around.chain))
         matrix = around.matrix
-        if has_transform(declared):
-            matrix = multiply(matrix, element_matrix(declared, style, around.viewport, shape.box))
-        own_name = name_of(element, attributes, self.illustrator)
+        if look.moves:
+            matrix = multiply(matrix, look.matrix(around, shape.box))
+        title, note = words_of(element)
+        own_name = name_of(attributes, title, self.illustrator)
         name = around.label or own_name or around.outline
         if shape.fault is not None or lengths.invalid or lengths.assumed or not shape.subpaths:
             left_out.note_shape(tag, element, shape, lengths, around.layer, name, matrix, self.notes)
@@ -409,25 +446,30 @@ class Reader:
             rule: FillRule = "evenodd" if style.clip_rule == "evenodd" else "nonzero"
             self.drawing.paths.append(DrawnPath(subpaths, visible=style.visible and not hidden, fill_rule=rule))
             return
-        levels = (*around.levels, level_of(element, attributes, own_name, "object"), *around.clones)
+        levels = (*around.levels, self.looks.level(attributes, own_name, note, "object"), *around.clones)
         fill, stroke, width = None, None, None
-        if not (around.unseen or _without_opacity(declared)):
+        if not (around.unseen or look.unseen):
             fill = self.paints.word(style.fill) if style.fill_seen and tag != "line" else None
+<<<<<<< HEAD
             stroke, width = self.paints.stroke(style, around.viewport, mean_scale(matrix), element)
+=======
+            if style.stroke is not None:
+                stroke, width = self.paints.stroke(style, around.viewport, mean_scale(matrix))
+>>>>>>> import23
         drawn = DrawnPath(
             subpaths=subpaths,
             name=name,
             layer=around.layer,
             groups=around.groups,
             visible=style.visible and not hidden,
-            locked=around.locked or attributes.get(SODIPODI + "insensitive") == "true",
+            locked=around.locked or attributes.get(_INSENSITIVE) == "true",
             fill=fill,
             stroke=stroke,
             stroke_width=width,
             fill_rule="evenodd" if style.fill_rule == "evenodd" else "nonzero",
             line=self.source.line(element),
-            tags=self._merged(levels),
-            title=title_of(element),
+            tags=self.looks.tags(levels),
+            title=title,
             levels=levels,
         )
         self.drawing.paths.append(drawn)
@@ -435,6 +477,7 @@ class Reader:
             clip = around.clip
             if "clip-path" in declared or "mask" in declared:
                 clip = self._clip(declared, around, matrix, shape.box)
+<<<<<<< HEAD
             left_out.note_unseen(tag, element, drawn, around.page, clip, self.notes)
 
     def _merged(self, levels: tuple[Level, ...]) -> dict[str, str]:
@@ -446,3 +489,6 @@ def _without_opacity(declared: Declared) -> bool:
     """Tell whether an element and all in it is fully transparent; what has no box has no opacity of its own."""
     opacity = declared.get("opacity")
     return isinstance(opacity, float) and opacity <= 0 and declared.get("display") != "contents"
+=======
+            note_unseen(tag, element, drawn, around.page, clip, self.notes)
+>>>>>>> import23

@@ -158,6 +158,8 @@ class Shapes:
 def within_bounds(subpaths: list[Subpath]) -> bool:
     """Tell whether every number is finite and no larger than coordinates may be."""
     for sub in subpaths:
+        if sub.surely_within(MAX_COORDINATE):
+            continue
         if sub.columns is not None:
             if not abs(sub.columns[1]).max() <= MAX_COORDINATE:
                 return False

@@ -71,9 +71,10 @@ def is_one_way(path: DrawnPath) -> bool:
 
 def is_silent(path: DrawnPath) -> bool:
     """Tell whether none of its levels has a word, as of nearly all paths; without levels its tags may be words."""
-    if path.levels:
-        return all(map(_is_silent, path.levels))
-    return not path.tags and all(map(_is_plain, (path.layer, *path.groups, path.name)))
+    for level in path.levels:  # a loop, for every path is asked several times
+        if not _is_silent(level):
+            return False
+    return bool(path.levels) or (not path.tags and all(map(_is_plain, (path.layer, *path.groups, path.name))))
 
 
 def _is_silent(level: Level) -> bool:
@@ -81,7 +82,7 @@ def _is_silent(level: Level) -> bool:
 
 
 def _is_plain(name: str) -> bool:
-    return name != BALLS_LAYER and "#" not in name and "[" not in name
+    return not name or (name != BALLS_LAYER and "#" not in name and "[" not in name)
 
 
 def plain_name(label: str) -> str:

@@ -6,7 +6,7 @@ the control points (n, 4) of ``curves.Cubics``. Arcs are tuples (joints, directi
 
 from __future__ import annotations
 
-from wallkit.kernels.fitting.biarc_formulas import half_tangent, larger, offset, turned_back, unit
+from wallkit.kernels.fitting.biarc_formulas import biarc, half_tangent, larger, offset, turned_back, unit
 from wallkit.kernels.jit import kernel
 
 PLACES = 19
@@ -27,30 +27,34 @@ def curve_at(offsets, starts, chain, u):
 
 
 @kernel
-def points_at(chains, ids, u, places, directions):
-    """Points and directions of chains ``ids`` at ``u``, as ``Chains.at`` gives them; both are written."""
+def point_at(chains, chain, u):
+    """Give the point of a chain at ``u`` and the direction there, as ``Chains.at`` does."""
     control, offsets, shifts, starts, stops, headings, _ = chains
+    curve = curve_at(offsets, starts, chain, u)
+    t = (u - starts[curve]) / (stops[curve] - starts[curve])
+    p0, p1, p2, p3 = control[curve, 0], control[curve, 1], control[curve, 2], control[curve, 3]
+    c = 3 * p1
+    b = 3 * (p2 - 2 * p1)
+    a = p3 - c - b
+    place = shifts[curve] + complex(((a.real * t + b.real) * t + c.real) * t, ((a.imag * t + b.imag) * t + c.imag) * t)
+    if t == 0.0:
+        return place, headings[curve]
+    first, second, third = 3 * (p1 - p0), 3 * (p2 - p1), 3 * (p3 - p2)
+    s, double, square = 1.0 - t, 2.0 * t, t * t
+    direction = unit(
+        complex(
+            (first.real * s + second.real * double) * s + third.real * square,
+            (first.imag * s + second.imag * double) * s + third.imag * square,
+        )
+    )
+    return place, direction
+
+
+@kernel
+def points_at(chains, ids, u, places, directions):
+    """Points and directions of chains ``ids`` at ``u``; both are written."""
     for n in range(len(ids)):
-        curve = curve_at(offsets, starts, ids[n], u[n])
-        t = (u[n] - starts[curve]) / (stops[curve] - starts[curve])
-        p0, p1, p2, p3 = control[curve, 0], control[curve, 1], control[curve, 2], control[curve, 3]
-        c = 3 * p1
-        b = 3 * (p2 - 2 * p1)
-        a = p3 - c - b
-        places[n] = shifts[curve] + complex(
-            ((a.real * t + b.real) * t + c.real) * t, ((a.imag * t + b.imag) * t + c.imag) * t
-        )
-        if t == 0.0:
-            directions[n] = headings[curve]
-            continue
-        first, second, third = 3 * (p1 - p0), 3 * (p2 - p1), 3 * (p3 - p2)
-        s, double, square = 1.0 - t, 2.0 * t, t * t
-        directions[n] = unit(
-            complex(
-                (first.real * s + second.real * double) * s + third.real * square,
-                (first.imag * s + second.imag * double) * s + third.imag * square,
-            )
-        )
+        places[n], directions[n] = point_at(chains, ids[n], u[n])
 
 
 @kernel
@@ -92,29 +96,55 @@ def off_and_turn(x_column, y_column, bend0, bend1, t):
 
 
 @kernel
-def look(control, shifts, sections, arcs, fractions, distance, turn):
-    """Measure sections at fixed fractions: the largest distance and turn of each are written, see ``biarcs.measure``.
+def last_curve(offsets, starts, chain, low, high):
+    """The last curve that a span from ``low`` to ``high`` has a part of."""
+    curve = curve_at(offsets, starts, chain, high)
+    return curve - 1 if (starts[curve] == high) & (curve > curve_at(offsets, starts, chain, low)) else curve
+
+
+@kernel
+def part_of(starts, stops, curve, low, high):
+    """Parameters of a curve where a span of its chain begins and ends in it."""
+    start, stop = starts[curve], stops[curve]
+    return (max(low, start) - start) / (stop - start), (min(high, stop) - start) / (stop - start)
+
+
+@kernel
+def look(chains, spans, limits, straight, fractions, work, distance, turn, sound):
+    """Join spans by arcs and measure these: at fixed fractions of the part of a span that is in one curve.
 
     Args:
-        control: of the curves.
-        shifts: of the curves.
-        sections: the span of each, its curve, low and high.
-        arcs: of the spans.
+        chains: of cubics.
+        spans: chain, low, high, first and last point, and the directions there of each.
+        limits: directions equal within the first make two arcs one; within the second where a curve is all of its
+            chain and of the span.
+        straight: see ``biarc_formulas.biarc``.
         fractions: where.
-        distance: (n,) written.
-        turn: (n,) written.
+        work: (2, as many) for the work.
+        distance: (n,) the largest, written.
+        turn: (n,) the largest, see ``biarcs.measure``; written.
+        sound: (n,) whether the arcs are; written.
     """
-    rows, curves, lows, highs = sections
-    joint, along, bend0, bend1 = arcs
-    for n in range(len(rows)):
-        span, curve = rows[n], curves[n]
-        x_column, y_column = moved(control, curve, joint[span] - shifts[curve], along[span])
+    control, offsets, shifts, starts, stops, _, _ = chains
+    ids, lows, highs, p0, p1, t0, t1 = spans
+    for n in range(len(ids)):
+        chain, low, high = ids[n], lows[n], highs[n]
+        curve, last = curve_at(offsets, starts, chain, low), last_curve(offsets, starts, chain, low, high)
+        alone = (offsets[chain + 1] - offsets[chain] == 1) & (low == 0.0) & (high == stops[curve])
+        limit = limits[1] if alone else limits[0]
+        joint, along, bend0, bend1, _, _, _, fine = biarc(p0[n], p1[n], t0[n], t1[n], limit, straight)
         most, widest = 0.0, 0.0
-        for fraction in fractions:
-            t = lows[n] + (highs[n] - lows[n]) * fraction
-            off, angle = off_and_turn(x_column, y_column, bend0[span], bend1[span], t)
-            most, widest = larger(most, abs(off)), larger(widest, angle)
-        distance[n], turn[n] = most, widest
+        while curve <= last:
+            begin, end = part_of(starts, stops, curve, low, high)
+            x_column, y_column = moved(control, curve, joint - shifts[curve], along)
+            for k in range(len(fractions)):
+                t = begin + (end - begin) * fractions[k]
+                off, work[1, k] = off_and_turn(x_column, y_column, bend0, bend1, t)
+                work[0, k] = abs(off)
+            for k in range(len(fractions)):
+                most, widest = larger(most, work[0, k]), larger(widest, work[1, k])
+            curve += 1
+        distance[n], turn[n], sound[n] = most, widest, fine
 
 
 @kernel
@@ -131,33 +161,60 @@ def peak_of(values):
 
 
 @kernel
-def look_closely(control, shifts, sections, arcs, fractions, work, largest, at, around):
-    """Measure sections at PLACES places: the largest distance and turn, where, and what is around them.
+def count_sections(chains, ids, lows, highs, counts):
+    """Write in how many curves each span has a part."""
+    _, offsets, _, starts, _, _, _ = chains
+    for n in range(len(ids)):
+        first = curve_at(offsets, starts, ids[n], lows[n])
+        counts[n] = last_curve(offsets, starts, ids[n], lows[n], highs[n]) - first + 1
+
+
+@kernel
+def look_closely(chains, spans, limits, straight, fractions, margin, work, arcs, sections, seen):
+    """Join spans by arcs and measure their sections at PLACES places.
 
     Args:
-        control: of the curves.
-        shifts: of the curves.
-        sections: the span of each, its curve, low and high of where to look.
-        arcs: of the spans.
-        fractions: where, PLACES of them.
+        chains: of cubics.
+        spans: as :func:`look` takes them.
+        limits: see there.
+        straight: see there.
+        fractions: where, PLACES of them, from ``margin`` of a section away from the ends of its span.
+        margin: so much.
         work: (2, PLACES) for the work.
-        largest: (2, n) of distances and turns, written.
-        at: (2, n) where these are, one of the fractions but the first and the last, written.
-        around: (2, 3, n) the values before, there and after, written.
+        arcs: joint, direction there and both curvatures of each span, written, and whether they are sound.
+        sections: span, curve, low and high of each section, and low and high of where to look, written.
+        seen: (2, m) of largest distances and turns; (2, m) where these are, one of the fractions but the first and the
+            last; (2, 3, m) the values before, there and after; written.
     """
-    rows, curves, lows, highs = sections
-    joint, along, bend0, bend1 = arcs
-    for n in range(len(rows)):
-        span, curve = rows[n], curves[n]
-        x_column, y_column = moved(control, curve, joint[span] - shifts[curve], along[span])
-        for k in range(PLACES):
-            t = lows[n] + (highs[n] - lows[n]) * fractions[k]
-            off, angle = off_and_turn(x_column, y_column, bend0[span], bend1[span], t)
-            work[0, k], work[1, k] = abs(off), angle
-        for which in range(2):
-            largest[which, n], at[which, n] = peak_of(work[which])
-            for step in range(3):
-                around[which, step, n] = work[which, at[which, n] - 1 + step]
+    control, offsets, shifts, starts, stops, _, _ = chains
+    ids, lows, highs, p0, p1, t0, t1 = spans
+    joints, alongs, bends0, bends1, sounds = arcs
+    rows, curves, begins, ends, first_looks, last_looks = sections
+    largest, at, around = seen
+    section = 0
+    for n in range(len(ids)):
+        chain, low, high = ids[n], lows[n], highs[n]
+        first, last = curve_at(offsets, starts, chain, low), last_curve(offsets, starts, chain, low, high)
+        alone = (offsets[chain + 1] - offsets[chain] == 1) & (low == 0.0) & (high == stops[first])
+        limit = limits[1] if alone else limits[0]
+        joint, along, bend0, bend1, _, _, _, fine = biarc(p0[n], p1[n], t0[n], t1[n], limit, straight)
+        joints[n], alongs[n], bends0[n], bends1[n], sounds[n] = joint, along, bend0, bend1, fine
+        for curve in range(first, last + 1):
+            begin, end = part_of(starts, stops, curve, low, high)
+            away = (end - begin) * margin
+            low_look, high_look = begin + (away if curve == first else 0.0), end - (away if curve == last else 0.0)
+            x_column, y_column = moved(control, curve, joint - shifts[curve], along)
+            for k in range(len(fractions)):
+                t = low_look + (high_look - low_look) * fractions[k]
+                off, work[1, k] = off_and_turn(x_column, y_column, bend0, bend1, t)
+                work[0, k] = abs(off)
+            for which in range(2):
+                largest[which, section], at[which, section] = peak_of(work[which])
+                for step in range(3):
+                    around[which, step, section] = work[which, at[which, section] - 1 + step]
+            rows[section], curves[section], begins[section], ends[section] = n, curve, begin, end
+            first_looks[section], last_looks[section] = low_look, high_look
+            section += 1
 
 
 @kernel

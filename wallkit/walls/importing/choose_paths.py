@@ -70,9 +70,10 @@ def choose(drawing: Drawing, options: ImportOptions, balls: list[DrawnBall]) -> 
     candidates = [path for path, reason in sorted_out if reason in ("", "other-layer")]
     if not options.unpainted and any(_painted(path) for path in candidates):
         sorted_out = [(p, reason or ("" if _painted(p) else "unpainted")) for p, reason in sorted_out]
-    marked = [(p, reason or ("marker" if marks_a_ball(p, balls) else "")) for p, reason in sorted_out]
-    if any(not reason for _, reason in marked):
-        sorted_out = marked
+    if balls:
+        marked = [(p, reason or ("marker" if marks_a_ball(p, balls) else "")) for p, reason in sorted_out]
+        if any(not reason for _, reason in marked):
+            sorted_out = marked
     left: Counter[str] = Counter(reason for _, reason in sorted_out if reason)
     first: dict[str, DrawnPath] = {}
     for path, reason in sorted_out:

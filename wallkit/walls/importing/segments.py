@@ -12,7 +12,8 @@ from itertools import chain, groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from importers.drawing import NUMBERS, Subpath
+from importers.drawing import Subpath
+from importers.subpaths import NUMBERS
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.ellipse_arcs import Arcs, centre_form
 
@@ -79,9 +80,9 @@ def _strung(subpaths: Iterable[Subpath]) -> tuple[NDArray[np.uint8], FloatArray,
     """String subpaths together: the letters and the numbers of all segments, and how many segments each has."""
     letters: list[bytes] = []
     numbers: list[FloatArray] = [np.empty(0)]
-    for in_columns, some in groupby(subpaths, lambda sub: sub.columns is not None):
+    for in_columns, some in groupby(subpaths, lambda sub: sub.in_columns):
         if in_columns:
-            columns = [sub.columns for sub in some if sub.columns is not None]
+            columns = [columns for sub in some if (columns := sub.columns) is not None]
             letters += [words for words, _ in columns]
             numbers += [values for _, values in columns]
             continue

@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,19 +32,19 @@ from wallkit.walls.importing.arc_fitting.curves import (
     turned_back,
     unit,
 )
-from wallkit.walls.importing.arc_fitting.machine_code import joined_ends, measured
+from wallkit.walls.importing.arc_fitting.machine_code import CloseLook, joined_ends, looked_at, looked_closely
 from wallkit.walls.importing.arc_fitting.moved_curves import Moved
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
 
 # Directions that are equal within this make the two arcs one. The kink that is left in the middle of nowhere,
 # at the piece's ends, is half of it: an order below the 1e-9 that is promised for joints.
-_SAME = 2e-10
+SAME = 2e-10
 # A whole segment may become one arc that leaves its ends by up to this (radians), if it stays within the
 # tolerance: the natural arc of a circle that some program wrote with a few decimals. A quarter circle written as
 # a cubic differs in direction from its circle by as much anyway.
 _NEARLY_SAME = 1e-3
 # Below this a bulge means no more than the rounding of its end points: the edge is a line.
-_STRAIGHT = 1e-12
+STRAIGHT = 1e-12
 # Pieces whose direction differs by more from their arcs are cut further, so that arcs never take short cuts
 # through a loop, however large the tolerance.
 _LARGEST_TURN = math.tan(0.5 / 2)  # of half the angle, as turns are measured
@@ -77,14 +78,19 @@ class Spans:
         return len(self.ids)
 
     def take(self, index: NDArray[np.generic]) -> Spans:
-        """Give those at ``index``."""
-        return Spans(*(getattr(self, part.name)[index] for part in fields(self)))
+        """Give those at ``index``, or where it is true."""
+        rows: Any = np.flatnonzero(index) if index.dtype == np.bool_ else index
+        return Spans(*(column.take(rows) for column in self.columns))
+
+    @property
+    def columns(self) -> tuple[NDArray[Any], ...]:
+        """All arrays, in order."""
+        return self.ids, self.stretch, self.low, self.high, self.p0, self.p1, self.t0, self.t1
 
     @staticmethod
     def joined(parts: list[Spans]) -> Spans:
         """String several together."""
-        names = [part.name for part in fields(Spans)]
-        return Spans(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+        return Spans(*map(np.concatenate, zip(*(part.columns for part in parts), strict=True)))
 
     def cut(self, chains: Chains, counts: IntArray, at: FloatArray) -> Spans:
         """Cut each into ``counts`` (>= 1) at the parameters ``at``, one after the other."""
@@ -133,9 +139,9 @@ def biarcs(spans: Spans, loose: BoolArray | None = None, *, machine_code: bool =
         loose: where one arc is taken even if it leaves the ends a little off the directions there.
         machine_code: let compiled kernels do it.
     """
-    limit = np.full(len(spans), _SAME) if loose is None else np.where(loose, _NEARLY_SAME, _SAME)
+    limit = np.full(len(spans), SAME) if loose is None else np.where(loose, _NEARLY_SAME, SAME)
     if machine_code:
-        ends, bends, bulges, told = joined_ends(spans, limit, _STRAIGHT)
+        ends, bends, bulges, told = joined_ends(spans, limit, STRAIGHT)
         return Biarcs(*ends, *bends, *bulges, *told)
     v, both, across = spans.p1 - spans.p0, spans.t0 + spans.t1, spans.t0 - spans.t1
     ahead, apart, square = dot(v, both), dot(across, across), dot(v, v)
@@ -187,7 +193,7 @@ def _from(direction: ComplexArray, chord: ComplexArray) -> tuple[FloatArray, Flo
 
 
 def _rounded(bulge: FloatArray) -> FloatArray:
-    return np.where(np.abs(bulge) < _STRAIGHT, 0.0, bulge)
+    return np.where(np.abs(bulge) < STRAIGHT, 0.0, bulge)
 
 
 @dataclass(slots=True)
@@ -214,21 +220,30 @@ class Fit:
         return Fit(*(np.concatenate([getattr(part, name.name) for part in parts]) for name in fields(Fit)))
 
 
+def look(chains: Chains, spans: Spans, fractions: FloatArray) -> Fit:
+    """Join spans by arcs, for cubics by compiled kernels, and measure: see :func:`measure`."""
+    distance, turn, sound = looked_at(chains, spans, (SAME, _NEARLY_SAME), STRAIGHT, fractions)
+    return Fit(distance, turn, sound & (turn <= _LARGEST_TURN))
+
+
+def look_closely(chains: Chains, spans: Spans, fractions: FloatArray, margin: float) -> CloseLook:
+    """Join spans by arcs, for cubics by compiled kernels, and measure in all sections, a margin away from the ends."""
+    return looked_closely(chains, spans, (SAME, _NEARLY_SAME), STRAIGHT, fractions, margin)
+
+
 MOST_PLACES = 1 << 14  # of sections measured at once, so that the work stays in the cache
 
 
 def measure(chains: Chains, spans: Spans, arcs: Biarcs, fractions: FloatArray) -> Fit:
     """Measure at fixed fractions of the parameter range of each part of a span that is in one curve."""
     sections = chains.sections(spans.ids, spans.low, spans.high)
-    if chains.machine_code:
-        return largest(sections, *measured(chains, sections, arcs, fractions), arcs)
     distance, turn = np.zeros(len(sections)), np.zeros(len(sections))
     for rows in portions(len(sections), len(fractions)):
         low = sections.low[rows]
         t = low + (sections.high[rows] - low) * fractions[:, None]
         off, angle = Ruler.of(chains, sections, rows, arcs).offsets(t)
         distance[rows], turn[rows] = np.abs(off).max(axis=0), angle.max(axis=0)
-    return largest(sections, distance, turn, arcs)
+    return largest(sections.rows, distance, turn, arcs.sound)
 
 
 def portions(count: int, places: int) -> Iterator[slice]:
@@ -237,12 +252,12 @@ def portions(count: int, places: int) -> Iterator[slice]:
     return (slice(first, first + step) for first in range(0, count, step))
 
 
-def largest(sections: Sections, distance: FloatArray, turn: FloatArray, arcs: Biarcs) -> Fit:
-    """Give the largest distance and turn of each span from those of its sections."""
-    first = np.flatnonzero(sections.begins)
-    if len(first) < len(sections):
+def largest(rows: IntArray, distance: FloatArray, turn: FloatArray, sound: BoolArray) -> Fit:
+    """Give the largest distance and turn of each span from those of its sections, ``rows`` the span of each."""
+    first = np.flatnonzero(np.diff(rows, prepend=-1))
+    if len(first) < len(rows):
         distance, turn = np.maximum.reduceat(distance, first), np.maximum.reduceat(turn, first)
-    sound: BoolArray = arcs.sound & (turn <= _LARGEST_TURN)
+    sound = sound & (turn <= _LARGEST_TURN)
     return Fit(distance, turn, sound)
 
 

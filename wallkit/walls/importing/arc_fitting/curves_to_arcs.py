@@ -24,7 +24,16 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.ellipse_arcs import Arcs
 from wallkit.kernels.compile_aside import at_hand
 from wallkit.walls.importing.arc_fitting.biarcs import Fit, Spans
-from wallkit.walls.importing.arc_fitting.curves import BoolArray, Cubics, Curves, Ellipses, as_complex, cross, length
+from wallkit.walls.importing.arc_fitting.curves import (
+    BoolArray,
+    ComplexArray,
+    Cubics,
+    Curves,
+    Ellipses,
+    as_complex,
+    cross,
+    length,
+)
 from wallkit.walls.importing.arc_fitting.cuts import (
     between_cusps,
     even_out,
@@ -45,7 +54,7 @@ _LEAST_TURN = 0.35
 # 8 to 64 need the same number of arcs within some percent. With much less every joint is a cut, with much more the
 # spans around jumps get many and short.
 _LARGEST_JUMP = 32.0
-_BLOCK = 8192
+_BLOCK = 1 << 14
 """About so many curves are fitted at once: what the work needs for them stays in the cache."""
 _KERNELS_PAY = 1 << 14
 """So many cubics take NumPy longer than kernels that have to be loaded; where they have to be compiled, another process
@@ -122,7 +131,8 @@ def _fit(curves: Curves, segments: Segments, at: IntArray, tolerance: float) -> 
     """Fit curves of one kind, whose segments are ``at``, block by block; a chain lies in one block."""
     if not len(curves):
         return _Edges(at, np.empty((0, 2)), np.empty(0))
-    smooth = runs_on(curves, segments, at)
+    tangents = curves.end_tangents()
+    smooth = runs_on(tangents, segments, at)
     starts = np.flatnonzero(~smooth)
     blocks = [*starts[np.flatnonzero(np.diff(starts // _BLOCK, prepend=-1))].tolist(), len(curves)]
     parts: list[_Edges] = []
@@ -130,7 +140,8 @@ def _fit(curves: Curves, segments: Segments, at: IntArray, tolerance: float) -> 
     for first, last in pairwise(blocks):
         rows = np.arange(first, last)
         kernels = isinstance(curves, Cubics) and len(curves) >= _KERNELS_PAY and at_hand(fit_a_few)
-        parts.append(_fit_block(curves.take(rows), segments, at[rows], smooth[rows], tolerance, kernels))
+        own = tangents[0][rows], tangents[1][rows]
+        parts.append(_fit_block(curves.take(rows), own, segments, at[rows], smooth[rows], tolerance, kernels))
         total += len(parts[-1].bulges)
         within_limit(total)
     return _Edges(
@@ -143,12 +154,19 @@ def _fit(curves: Curves, segments: Segments, at: IntArray, tolerance: float) -> 
 
 
 def _fit_block(
-    curves: Curves, segments: Segments, at: IntArray, smooth: BoolArray, tolerance: float, kernels: bool
+    curves: Curves,
+    tangents: tuple[ComplexArray, ComplexArray],
+    segments: Segments,
+    at: IntArray,
+    smooth: BoolArray,
+    tolerance: float,
+    kernels: bool,
 ) -> _Edges:
     """Fit curves; the edges of a chain count as its last segment's.
 
     Args:
         curves: of one kind, the first of them the start of a chain.
+        tangents: of them at their ends.
         segments: all subpaths.
         at: (n,) the segment of each curve.
         smooth: (n,) the curve goes on smoothly from the one before.
@@ -156,7 +174,7 @@ def _fit_block(
         kernels: compiled kernels do what takes longest; for cubics.
     """
     origins = as_complex(segments.begins[at])
-    chains = Chains.of(curves, origins, np.zeros(len(curves), dtype=np.bool_), kernels)
+    chains = Chains.of(curves, tangents, origins, np.zeros(len(curves), dtype=np.bool_), kernels)
     whole = between_cusps(chains)
     spans, fit = halve(chains, whole, tolerance)
     joined = smooth.copy()
@@ -164,7 +182,7 @@ def _fit_block(
     joined[1:] &= ~apart[1:] & ~apart[:-1]
     joined &= _bends_on(curves, spans, fit, tolerance)
     if joined.any():
-        chains = Chains.of(curves, origins, joined, kernels)
+        chains = Chains.of(curves, tangents, origins, joined, kernels)
         stretch = np.cumsum(~(joined[whole.ids] & (whole.low == 0))) - 1
         spans = strung(chains, spans, stretch)
         whole = run_together(strung(chains, whole, stretch))
@@ -187,7 +205,8 @@ def fit_a_few() -> None:
     subpath = Subpath([("M", 0, 0), ("C", 40, 0, 80, 20, 100, 100), ("C", 120, 180, 200, 90, 300, 0)], closed=False)
     segments = gather([subpath])
     curves = Cubics.of(segments.cubics)
-    _fit_block(curves, segments, np.arange(2), np.array([False, True]), 0.01, kernels=True)
+    smooth = np.array([False, True])
+    _fit_block(curves, curves.end_tangents(), segments, np.arange(2), smooth, 0.01, kernels=True)
 
 
 def _arcs_by_themselves(chains: Chains, spans: Spans) -> BoolArray:

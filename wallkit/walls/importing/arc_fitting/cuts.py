@@ -25,12 +25,14 @@ from wallkit.walls.importing.arc_fitting.biarcs import (
     flatten,
     half_tangent,
     largest,
+    look,
+    look_closely,
     measure,
     portions,
 )
 from wallkit.walls.importing.arc_fitting.curves import ROUNDING, BoolArray, cross, dot, length
 from wallkit.walls.importing.arc_fitting.joint_directions import lean
-from wallkit.walls.importing.arc_fitting.machine_code import measured_closely, raise_to
+from wallkit.walls.importing.arc_fitting.machine_code import raise_to, shared_out
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
 from wallkit.walls.importing.curves_to_lines import within_limit
 
@@ -39,6 +41,7 @@ from wallkit.walls.importing.curves_to_lines import within_limit
 _LOOK = np.array([0.1, 0.25, 1 / 3, 0.4, 0.6, 2 / 3, 0.75, 0.9])
 _SAFE = 0.99  # of the tolerance; what looking at 8 places may miss
 _EVEN = np.arange(19) / 18  # from 1/20 of a span to 19/20
+_MARGIN, _AGAIN = 1 / 20, 1 / 80  # of a section, between the ends of its span and where it is looked at, and again
 _SURE = 0.999  # the same for the close look at 19 places and the highest between
 _DEEPEST = 48  # halvings: the parameter's own rounding is reached
 _ROUNDS = 8
@@ -54,7 +57,7 @@ def between_cusps(chains: Chains) -> Spans:
     cusps = curves.cusps()
     which, t = cusps.ids, cusps.t
     n = len(curves)
-    first, last = curves.end_tangents()
+    first, last = chains.headings, chains.leavings
     point = curves.motion(which, t[:, None])[0][:, 0]
     ids = np.concatenate([np.arange(n), which])
     order = np.lexsort((np.concatenate([np.zeros(n), t]), ids))
@@ -110,6 +113,8 @@ def fitted(chains: Chains, spans: Spans) -> Biarcs:
 
 
 def _look(chains: Chains, spans: Spans) -> Fit:
+    if chains.machine_code:
+        return look(chains, spans, _LOOK)
     return measure(chains, spans, fitted(chains, spans), _LOOK)
 
 
@@ -154,6 +159,7 @@ def even_out(chains: Chains, best: Spans, fit: Fit, whole: Spans, tolerance: flo
     count = len(whole)
     cost = np.bincount(best.stretch, minlength=count)
     trial, failed = best, np.zeros(count, dtype=np.int64)
+    trials, best_of = [best], np.zeros(count, dtype=np.int64)
     open_ = cost > 1
     for round_ in range(_ROUNDS):
         share = _share(fit, tolerance)
@@ -170,12 +176,13 @@ def even_out(chains: Chains, best: Spans, fit: Fit, whole: Spans, tolerance: flo
         fit = _look(chains, trial)
         wrong = np.bincount(trial.stretch[_wrong(chains, fit, trial, _SAFE * tolerance)], minlength=count)
         better = open_ & (wanted + wrong < cost)
-        best = _replaced(best, trial, better)
+        best_of[better] = len(trials)
+        trials.append(trial)
         cost = np.where(better, wanted + wrong, cost)
         failed = np.where(wrong > 0, wanted, 0)
         if round_ > 1:
             open_[trial.stretch[fit.distance > _ROUGH * tolerance]] = False
-    return best
+    return _strung_by_parameter([trial.take(best_of[trial.stretch] == number) for number, trial in enumerate(trials)])
 
 
 def _share(fit: Fit, tolerance: float) -> FloatArray:
@@ -192,8 +199,13 @@ def _exact(share: FloatArray) -> FloatArray:
 
 
 def _recut(chains: Chains, old: Spans, share: FloatArray, whole: Spans, wanted: IntArray, open_: BoolArray) -> Spans:
-    """Cut the open stretches into ``wanted`` spans of equal shares; within an old span shares grow evenly."""
+    """Cut the open stretches into ``wanted`` spans of equal shares; within an old span shares grow evenly.
+
+    The directions at the new cuts are to be found by :func:`lean`.
+    """
     rows = np.flatnonzero(open_)
+    if chains.machine_code:
+        return shared_out(chains, old, share, whole.take(rows), wanted[rows])
     keep = open_[old.stretch]
     old, share = old.take(keep), share[keep]
     which = np.searchsorted(rows, old.stretch)
@@ -210,8 +222,12 @@ def _recut(chains: Chains, old: Spans, share: FloatArray, whole: Spans, wanted: 
     return whole.take(rows).cut(chains, count, old.low[at] + part * (old.high[at] - old.low[at]))
 
 
-def _replaced(best: Spans, trial: Spans, passed: BoolArray) -> Spans:
-    joined = Spans.joined([best.take(~passed[best.stretch]), trial.take(passed[trial.stretch])])
+def _strung_by_parameter(parts: list[Spans]) -> Spans:
+    """String spans together, by chain and parameter."""
+    parts = [part for part in parts if len(part)]
+    if len(parts) == 1:
+        return parts[0]  # they are in order
+    joined = Spans.joined(parts)
     return joined.take(np.lexsort((joined.low, joined.ids)))
 
 
@@ -219,7 +235,7 @@ def settled_cuts(chains: Chains, spans: Spans, whole: Spans, tolerance: float) -
     """Measure closely, cut more finely what turns out wrong after all, and give the final arcs with their errors."""
     settled: list[tuple[Spans, Fit]] = []
     for depth in range(_DEEPEST):
-        fit = _close_look(chains, spans, fitted(chains, spans))
+        fit = _close_look(chains, spans)
         wrong = _wrong(chains, fit, spans, _SURE * tolerance) & (depth < _DEEPEST - 1)
         open_ = wrong
         if depth < _CUT_ANEW:  # the directions around what is cut have to be found anew
@@ -259,8 +275,7 @@ def _cut_anew(chains: Chains, spans: Spans, fit: Fit, wrong: BoolArray, whole: S
     if gentle.any():
         wanted = count + np.maximum(count // 50, 1)
         parts.append(_recut(chains, spans, _share(fit, tolerance), whole, wanted, gentle))
-    result = Spans.joined(parts)
-    return lean(chains, result.take(np.lexsort((result.low, result.ids))))
+    return lean(chains, _strung_by_parameter(parts))
 
 
 def _in_order(parts: list[tuple[Spans, Fit]]) -> tuple[Spans, Fit]:
@@ -270,15 +285,25 @@ def _in_order(parts: list[tuple[Spans, Fit]]) -> tuple[Spans, Fit]:
     return spans.take(order), fit.take(order)
 
 
-def _close_look(chains: Chains, spans: Spans, arcs: Biarcs) -> Fit:
-    """Measure at even places, then once more at the top of the parabola through the worst place and its neighbours."""
-    sections = chains.sections(spans.ids, spans.low, spans.high)
-    worst = np.zeros((2, len(sections)))
-    for rows in [slice(len(sections))] if chains.machine_code else portions(len(sections), len(_EVEN)):
-        look = _kernels_look if chains.machine_code else _look_closely
-        worst[:, rows] = look(chains, sections, rows, arcs)
-    turn = np.where(spans.t0[sections.rows] == 0, 0.0, worst[1])  # a curve that is a point has no direction
-    return largest(sections, worst[0], turn, arcs)
+def _close_look(chains: Chains, spans: Spans, arcs: Biarcs | None = None) -> Fit:
+    """Measure at even places, then once more at the top of the parabola through the worst place and its neighbours.
+
+    Args:
+        chains: the chains.
+        spans: of them.
+        arcs: theirs, where these are not :func:`fitted` ones.
+    """
+    if chains.machine_code and arcs is None:
+        rows, sound, worst = _kernels_look(chains, spans)
+    else:
+        arcs = fitted(chains, spans) if arcs is None else arcs
+        sections = chains.sections(spans.ids, spans.low, spans.high)
+        worst = np.zeros((2, len(sections)))
+        for some in portions(len(sections), len(_EVEN)):
+            worst[:, some] = _look_closely(chains, sections, some, arcs)
+        rows, sound = sections.rows, arcs.sound
+    turn = np.where(spans.t0[rows] == 0, 0.0, worst[1])  # a curve that is a point has no direction
+    return largest(rows, worst[0], turn, sound)
 
 
 def _look_closely(chains: Chains, sections: Sections, rows: slice, arcs: Biarcs) -> FloatArray:
@@ -287,21 +312,27 @@ def _look_closely(chains: Chains, sections: Sections, rows: slice, arcs: Biarcs)
     low, high = _inside(sections, rows)
     off, angle = ruler.offsets(low + (high - low) * _EVEN[:, None])
     peaks = [_peak(np.abs(off, out=off)), _peak(angle, np.arctan)]
-    place = np.clip(low + (high - low) * np.stack([place for place, _ in peaks]), *_inside(sections, rows, 1 / 80))
+    place = np.clip(low + (high - low) * np.stack([place for place, _ in peaks]), *_inside(sections, rows, _AGAIN))
     off, angle = ruler.offsets(place)
     return np.stack([np.maximum(peaks[0][1], np.abs(off[0])), np.maximum(peaks[1][1], angle[1])])
 
 
-def _kernels_look(chains: Chains, sections: Sections, rows: slice, arcs: Biarcs) -> FloatArray:
-    """The same by compiled kernels, of all sections; arctan is NumPy's here too."""
-    low, high = _inside(sections, rows)
-    worst, at, around = measured_closely(chains, sections, (low, high), arcs, _EVEN)
-    tops = np.stack([_top(at[0], *around[0]), _top(at[1], *np.arctan(around[1]))])
-    raise_to(chains, sections, arcs, np.clip(low + (high - low) * tops, *_inside(sections, rows, 1 / 80)), worst)
-    return worst
+def _kernels_look(chains: Chains, spans: Spans) -> tuple[IntArray, BoolArray, FloatArray]:
+    """The same by compiled kernels: the span of each section, which arcs are sound, and what is worst (2, m).
+
+    arctan is NumPy's here too.
+    """
+    close = look_closely(chains, spans, _EVEN, _MARGIN)
+    rows, _, low, high, first, last = close.sections
+    away = (high - low) * _AGAIN
+    begins, ends = np.diff(rows, prepend=-1) != 0, np.diff(rows, append=-1) != 0
+    tops = np.stack([_top(close.at[0], *close.around[0]), _top(close.at[1], *np.arctan(close.around[1]))])
+    places = np.clip(first + (last - first) * tops, low + away * begins, high - away * ends)
+    raise_to(chains, close, places)
+    return rows, close.sound, close.worst
 
 
-def _inside(sections: Sections, rows: slice, margin: float = 1 / 20) -> tuple[FloatArray, FloatArray]:
+def _inside(sections: Sections, rows: slice, margin: float = _MARGIN) -> tuple[FloatArray, FloatArray]:
     """Where to look first and last: a margin away from the span's own ends, but at joints of curves."""
     low, high = sections.low[rows], sections.high[rows]
     away = (high - low) * margin

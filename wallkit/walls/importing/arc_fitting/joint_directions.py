@@ -21,9 +21,9 @@ from itertools import pairwise
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.walls.importing.arc_fitting.biarcs import Biarcs, Spans, biarcs, deviations
+from wallkit.walls.importing.arc_fitting.biarcs import SAME, STRAIGHT, Biarcs, Spans, biarcs, deviations
 from wallkit.walls.importing.arc_fitting.curves import length
-from wallkit.walls.importing.arc_fitting.machine_code import leaning_angles
+from wallkit.walls.importing.arc_fitting.machine_code import lean_in_place
 from wallkit.walls.importing.arc_fitting.smooth_chains import Chains
 
 _MOST = 0.05  # radians a direction leans at most; what asks for more is no smooth curve yet
@@ -37,14 +37,13 @@ _NORM, _STRIDE = 12.0, 3.0
 
 def lean(chains: Chains, spans: Spans) -> Spans:
     """Turn the directions at the cuts inside of stretches, in place."""
+    if chains.machine_code:
+        lean_in_place(chains, spans, (SAME, STRAIGHT, _MOST), _LOOK, (_SWEEPS, _NORM, _STRIDE))
+        return spans
     left = np.flatnonzero(spans.stretch[1:] == spans.stretch[:-1])
     spans.t1[left] = spans.t0[left + 1] = chains.at(spans.ids[left], spans.high[left])[1]
-    _turn(spans, left, _rate(spans, left, chains.machine_code))
-    arcs = biarcs(spans, machine_code=chains.machine_code)
-    if chains.machine_code:
-        angle = leaning_angles(chains, spans, arcs, _LOOK, _SWEEPS, _NORM, _STRIDE)
-    else:
-        angle = _all_angles(chains, spans, arcs)
+    _turn(spans, left, _rate(spans, left))
+    angle = _all_angles(chains, spans, biarcs(spans))
     _turn(spans, left, angle[left])
     return spans
 
@@ -100,9 +99,9 @@ def _turn(spans: Spans, left: IntArray, angle: FloatArray) -> None:
     spans.t1[left] = spans.t0[left + 1] = after
 
 
-def _rate(spans: Spans, left: IntArray, machine_code: bool) -> FloatArray:
+def _rate(spans: Spans, left: IntArray) -> FloatArray:
     """Give -k' h^2 / 48 at the ends of spans ``left``: the mean of both sides."""
-    arcs = biarcs(spans, machine_code=machine_code)
+    arcs = biarcs(spans)
     # the curvatures of the two arcs of a biarc differ by 2 k' h / 3
     rate = (arcs.bend0 - arcs.bend1) * length(spans.p1 - spans.p0) / 32
     rate = np.where(arcs.sound & ~arcs.single, rate, 0.0)

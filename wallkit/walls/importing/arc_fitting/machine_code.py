@@ -6,20 +6,23 @@ does the same. :class:`smooth_chains.Chains` knows which of the two is to do it.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.fitting.biarc_formulas import biarcs_of
-from wallkit.kernels.fitting.cubic_chains import PLACES, look, look_again, look_closely, points_at
+from wallkit.kernels.fitting.cubic_chains import PLACES, count_sections, look, look_again, look_closely, points_at
+from wallkit.kernels.fitting.equal_shares import share_out
 from wallkit.kernels.fitting.leaning import LOOKS, lean_all
 from wallkit.kernels.jit import compiled
 
 if TYPE_CHECKING:
-    from wallkit.walls.importing.arc_fitting.biarcs import Biarcs, Spans
+    from wallkit.walls.importing.arc_fitting.biarcs import Spans
     from wallkit.walls.importing.arc_fitting.curves import BoolArray, ComplexArray
-    from wallkit.walls.importing.arc_fitting.smooth_chains import Chains, Sections
+    from wallkit.walls.importing.arc_fitting.smooth_chains import Chains
 
 
 def chain_points(chains: Chains, ids: IntArray, u: FloatArray) -> tuple[ComplexArray, ComplexArray]:
@@ -44,41 +47,96 @@ def joined_ends(
     return ends, bends, bulges, told
 
 
-def measured(chains: Chains, sections: Sections, arcs: Biarcs, fractions: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Largest distance and turn of each section at fixed fractions of it."""
-    distance, turn = np.empty(len(sections)), np.empty(len(sections))
-    where = sections.rows, sections.curves, sections.low, sections.high
-    compiled(look)(_control(chains), chains.shifts, where, _of(arcs), fractions, distance, turn)
-    return distance, turn
+def looked_at(
+    chains: Chains, spans: Spans, limits: tuple[float, float], straight: float, fractions: FloatArray
+) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Join the ends of spans by arcs: largest distance and turn of each, and whether the arcs are sound."""
+    distance, turn, sound = np.empty(len(spans)), np.empty(len(spans)), np.empty(len(spans), dtype=np.bool_)
+    where = spans.ids, spans.low, spans.high, *_ends(spans)
+    work = np.empty((2, len(fractions)))
+    compiled(look)(_columns(chains), where, limits, straight, fractions, work, distance, turn, sound)
+    return distance, turn, sound
 
 
-def measured_closely(
-    chains: Chains, sections: Sections, inside: tuple[FloatArray, FloatArray], arcs: Biarcs, fractions: FloatArray
-) -> tuple[FloatArray, IntArray, FloatArray]:
-    """Largest distance and turn (2, n) of sections, at which of the fractions (2, n), and around these (2, 3, n)."""
-    count = len(sections)
-    largest, at, around = np.empty((2, count)), np.empty((2, count), dtype=np.int64), np.empty((2, 3, count))
-    where, work = (sections.rows, sections.curves, *inside), np.empty((2, PLACES))
-    compiled(look_closely)(_control(chains), chains.shifts, where, _of(arcs), fractions, work, largest, at, around)
-    return largest, at, around
+@dataclass(slots=True)
+class CloseLook:
+    """What a close look at spans found, by section, see ``fitting.cubic_chains.look_closely``.
+
+    Attributes:
+        sections: those of the spans, as the kernels have them, with low and high of where was looked.
+        arcs: of the spans, as the kernels have them.
+        sound: (n,) whether these are.
+        worst: (2, m) largest distances and turns.
+        at: (2, m) at which of the fractions these are.
+        around: (2, 3, m) the values before, there and after.
+    """
+
+    sections: tuple[NDArray[Any], ...]
+    arcs: tuple[NDArray[Any], ...]
+    sound: BoolArray
+    worst: FloatArray
+    at: IntArray
+    around: FloatArray
 
 
-def raise_to(chains: Chains, sections: Sections, arcs: Biarcs, places: FloatArray, worst: FloatArray) -> None:
-    """Raise distance and turn (2, n) to what they are at one more place each (2, n)."""
-    where = sections.rows, sections.curves, sections.low, sections.high
-    compiled(look_again)(_control(chains), chains.shifts, where, _of(arcs), places, worst)
+def looked_closely(
+    chains: Chains,
+    spans: Spans,
+    limits: tuple[float, float],
+    straight: float,
+    fractions: FloatArray,
+    margin: float,
+) -> CloseLook:
+    """Join the ends of spans by arcs, and measure these at many places of each section."""
+    count = len(spans)
+    counts = np.empty(count, dtype=np.int64)
+    compiled(count_sections)(_columns(chains), spans.ids, spans.low, spans.high, counts)
+    total = int(counts.sum())
+    sections = *np.empty((2, total), dtype=np.int64), *np.empty((4, total))
+    arcs = *np.empty((2, count), dtype=np.complex128), *np.empty((2, count))
+    sound = np.empty(count, dtype=np.bool_)
+    seen = np.empty((2, total)), np.empty((2, total), dtype=np.int64), np.empty((2, 3, total))
+    where, work = (spans.ids, spans.low, spans.high, *_ends(spans)), np.empty((2, PLACES))
+    compiled(look_closely)(
+        _columns(chains), where, limits, straight, fractions, margin, work, (*arcs, sound), sections, seen
+    )
+    return CloseLook(sections, arcs, sound, *seen)
 
 
-def leaning_angles(
-    chains: Chains, spans: Spans, arcs: Biarcs, fractions: FloatArray, sweeps: int, norm: float, stride: float
-) -> FloatArray:
-    """Angles that directions at the ends of spans are turned by, (n,), 0 at those of stretches."""
-    angle = np.zeros(len(spans))
-    off, start, end = (np.empty((len(spans), LOOKS)) for _ in range(3))
-    where = spans.ids, spans.stretch, spans.low, spans.high, spans.p0, spans.p1
-    numbers = fractions, sweeps, norm, stride
-    compiled(lean_all)(_columns(chains), where, _of(arcs), *numbers, off, start, end, np.empty((2, 2 * LOOKS)), angle)
-    return angle
+def raise_to(chains: Chains, close: CloseLook, places: FloatArray) -> None:
+    """Raise what is worst to what it is at one more place each (2, m)."""
+    compiled(look_again)(_control(chains), chains.shifts, close.sections[:4], close.arcs, places, close.worst)
+
+
+def lean_in_place(
+    chains: Chains,
+    spans: Spans,
+    arc_limits: tuple[float, float, float],
+    fractions: FloatArray,
+    search: tuple[int, float, float],
+) -> None:
+    """Turn the directions at the cuts inside of stretches, in place."""
+    longest = int(np.bincount(spans.stretch).max())
+    half = max(longest // 2 + 1, _HALF)
+    room = np.empty((2, 2 * LOOKS, half)), np.empty((4, half)), np.empty((5, half))
+    work = np.empty((2, 3, LOOKS, half)), np.empty((2, half)), np.empty(longest), room
+    where = spans.ids, spans.stretch, spans.low, spans.high, *_ends(spans)
+    compiled(lean_all)(_columns(chains), where, arc_limits, fractions, search, work)
+
+
+_HALF = 60  # spans with even numbers that are looked at together, and as many with odd ones: they stay in the cache
+
+
+def shared_out(chains: Chains, old: Spans, share: FloatArray, whole: Spans, counts: IntArray) -> Spans:
+    """Cut stretches ``whole`` into ``counts`` spans each, of equal shares; inner directions are left open."""
+    new = whole.take(np.repeat(np.arange(len(whole)), counts))
+    olds, stretches = (old.stretch, old.low, old.high, share), (whole.ids, whole.stretch)
+    compiled(share_out)(_columns(chains), olds, stretches, counts, (new.low, new.high, new.p0, new.p1))
+    return new
+
+
+def _ends(spans: Spans) -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
+    return spans.p0, spans.p1, spans.t0, spans.t1
 
 
 def _control(chains: Chains) -> ComplexArray:
@@ -90,7 +148,3 @@ def _control(chains: Chains) -> ComplexArray:
 def _columns(chains: Chains) -> tuple[Any, ...]:
     ends = chains.headings, chains.leavings
     return _control(chains), chains.offsets, chains.shifts, chains.starts, chains.stops, *ends
-
-
-def _of(arcs: Biarcs) -> tuple[ComplexArray, ComplexArray, FloatArray, FloatArray]:
-    return arcs.joint, arcs.along, arcs.bend0, arcs.bend1

@@ -71,11 +71,19 @@ class Chains:
     machine_code: bool = False
 
     @classmethod
-    def of(cls, curves: Curves, origins: ComplexArray, joined: NDArray[np.bool_], machine_code: bool = False) -> Chains:
+    def of(
+        cls,
+        curves: Curves,
+        tangents: tuple[ComplexArray, ComplexArray],
+        origins: ComplexArray,
+        joined: NDArray[np.bool_],
+        machine_code: bool = False,
+    ) -> Chains:
         """String curves together.
 
         Args:
             curves: the curves.
+            tangents: their ``end_tangents``.
             origins: (n,) first point of each.
             joined: (n,) the curve goes on with the chain of the one before it.
             machine_code: the curves are cubics, and compiled kernels are at hand.
@@ -89,7 +97,7 @@ class Chains:
         stops = _running_sums(np.where(share > 0, share, 1.0), offsets)
         starts = np.where(joined, np.roll(stops, 1), 0.0)
         shifts = origins - origins[first][chain]
-        return cls(curves, offsets, shifts, starts, stops, *curves.end_tangents(), machine_code)
+        return cls(curves, offsets, shifts, starts, stops, *tangents, machine_code)
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
@@ -173,15 +181,15 @@ class Chains:
         return first
 
 
-def runs_on(curves: Curves, segments: Segments, at: IntArray) -> NDArray[np.bool_]:
+def runs_on(tangents: tuple[ComplexArray, ComplexArray], segments: Segments, at: IntArray) -> NDArray[np.bool_]:
     """Tell which curves go on smoothly from the one before, in the same subpath, with nothing else at the joint.
 
     Args:
-        curves: the curves.
+        tangents: of the curves at their ends.
         segments: all subpaths.
         at: (n,) the segment of each curve, rising.
     """
-    first, last = curves.end_tangents()
+    first, last = tangents
     subpath = np.searchsorted(segments.offsets, at, side="right")
     joined = np.zeros(len(at), dtype=np.bool_)
     joined[1:] = (np.diff(at) == 1) & (np.diff(subpath) == 0)
