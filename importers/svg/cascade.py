@@ -103,16 +103,8 @@ class Cascade:
         if not self._sheet.empty or style is not None:
             matched = [] if self._sheet.empty else self._sheet.matches(element, chain[-1] if chain else None)
             inline = _NONE if style is None else self._inline(style)
-<<<<<<< HEAD
             for name, (code, severity, message) in inline.faults:
-                offset = place_of(name, style or "")
-                self._notes.add(code, severity, f"{name} {message}", element, attribute="style", offset=offset)
-=======
-            for name in inline.too_large:
-                self._say("bad-number", "error", f"{name} {_TOO_LARGE}", element, "style")
-            for name in inline.unread:
-                self._say("bad-transform", "warning", f"{name} {_UNREAD}", element, "style")
->>>>>>> import23
+                self._say(code, severity, f"{name} {message}", element, "style", place_of(name, style or ""))
             for rule in (*(one.normal for one in matched), inline.normal):
                 found.update(rule)
             for rule in (*(one.important for one in matched), inline.important):
@@ -131,25 +123,13 @@ class Cascade:
             if len(text) >= SHORT:
                 self._work.charge("long values", len(text))
             value = parse_declaration(name, text, "attribute")
-<<<<<<< HEAD
             fault = fault_of(name, value)
             if fault is not None:
                 message = f"{name}={text[:40]!r} {fault.message}"
-                offset = getattr(value, "offset", 0)
-                self._notes.add(fault.code, fault.severity, message, element, attribute=name, offset=offset)
+                self._say(fault.code, fault.severity, message, element, name, getattr(value, "offset", 0))
             value = used(value)
             if value is not None:
                 found[name] = value
-=======
-            if isinstance(value, TooLarge):
-                message = f"{name}={text[:40]!r} {_TOO_LARGE}"
-                self._say("bad-number", "error", message, element, name, value.offset)
-            elif value is not None:
-                found[name] = value
-            elif name == "transform":
-                message = f"transform={text[:40]!r} {_UNREAD}"
-                self._say("bad-transform", "warning", message, element, "transform")
->>>>>>> import23
         return found
 
     def _resolved(self, element: Any, found: Declared, around: Style) -> Declared:
@@ -167,19 +147,10 @@ class Cascade:
                     value = parse_declaration(name, text, value.origin)
                 except UnresolvedError:
                     value = None
-<<<<<<< HEAD
                 fault = fault_of(name, value)
                 if fault is not None:
-                    self._notes.add(fault.code, fault.severity, f"{name} {fault.message}", element)
+                    self._say(fault.code, fault.severity, f"{name} {fault.message}", element)
                 value = used(value)
-=======
-                if isinstance(value, TooLarge):
-                    self._say("bad-number", "error", f"{name} {_TOO_LARGE}", element)
-                    value = None
-                elif isinstance(value, Unread):
-                    self._say("bad-transform", "warning", f"{name} {_UNREAD}", element)
-                    value = None
->>>>>>> import23
                 value = unset(name) if value is None or isinstance(value, Pending) else value
             result[name] = value
         if own:

@@ -13,21 +13,14 @@ from importers.drawing import Drawing, DrawnPath, FillRule, Layer, Level
 from importers.limits import MAX_COORDINATE, MAX_DEPTH, MAX_ELEMENTS, limit_error
 from importers.numbers import NumberError
 from importers.regions import ALL, Region
-<<<<<<< HEAD
-from importers.svg import left_out
-=======
 from importers.subpaths import settle
->>>>>>> import23
+from importers.svg import left_out
 from importers.svg.around import Around, BoxFirst, Reading
 from importers.svg.cascade import Cascade
 from importers.svg.clipping import Clips
 from importers.svg.conditions import chosen, holds
 from importers.svg.inheritance import Style
-<<<<<<< HEAD
-=======
-from importers.svg.left_out import NO_GEOMETRY, note_foreign, note_shape, note_skipped, note_unseen
 from importers.svg.looks import Look, Looks, Words, without_opacity
->>>>>>> import23
 from importers.svg.matrix import IDENTITY, Matrix, mean_scale, multiply, transformed, translation
 from importers.svg.names import INKSCAPE, SODIPODI, SVG_NS, label_of, name_of, title_of, words_of
 from importers.svg.notes import Notes
@@ -70,12 +63,8 @@ class Reader:
         self.illustrator = "Adobe Illustrator" in head or "ns.adobe.com/AdobeIllustrator" in head
         named = "groupmode" in source.text  # in names of attributes nothing stands for anything else
         self.inkscape_layers = named and bool(root.xpath("//*[@*[local-name()='groupmode']='layer']"))
-<<<<<<< HEAD
-        self.paints = Paints(self.references, self.cascade, source, self.notes)
-=======
         self.looks = Looks(self.cascade, source.work)
-        self.paints = Paints(self.references, self.cascade, source)
->>>>>>> import23
+        self.paints = Paints(self.references, self.cascade, source, self.notes)
         self.clips = Clips(self.references, self.cascade, source, self.prefix)
         self.layers: dict[str, Layer] = {}
         self.stack: list[tuple[Any, Around]] = []
@@ -376,17 +365,10 @@ class Reader:
             raise limit_error("groups in groups", str(MAX_DEPTH), file=self.source.file)
         if tag in ("symbol", "svg"):
             own = self.source.attributes(target)
-<<<<<<< HEAD
-            said = self.cascade.declared(target, own, inside.style, inside.chain)
-            within = self._inside(tag, target, own, said, inside)
-            self._nested(target, own, said, within, size)
-        elif tag in SHAPES or tag in _GROUPS or tag in left_out.NO_GEOMETRY:
-=======
             look = self.looks.of(target, own, inside)
             within = self._inside(tag, target, own, look, inside)
-            self._nested(target, own, look.declared, within, use_size(tag, lengths))
-        elif tag in SHAPES or tag in _GROUPS or tag in NO_GEOMETRY:
->>>>>>> import23
+            self._nested(target, own, look.declared, within, size)
+        elif tag in SHAPES or tag in _GROUPS or tag in left_out.NO_GEOMETRY:
             self.stack.append((target, inside))
         else:
             self.notes.count("bad-use", "info", f"<use> of a <{tag}> draws nothing", element)
@@ -450,12 +432,8 @@ class Reader:
         fill, stroke, width = None, None, None
         if not (around.unseen or look.unseen):
             fill = self.paints.word(style.fill) if style.fill_seen and tag != "line" else None
-<<<<<<< HEAD
-            stroke, width = self.paints.stroke(style, around.viewport, mean_scale(matrix), element)
-=======
             if style.stroke is not None:
-                stroke, width = self.paints.stroke(style, around.viewport, mean_scale(matrix))
->>>>>>> import23
+                stroke, width = self.paints.stroke(style, around.viewport, mean_scale(matrix), element)
         drawn = DrawnPath(
             subpaths=subpaths,
             name=name,
@@ -477,18 +455,4 @@ class Reader:
             clip = around.clip
             if "clip-path" in declared or "mask" in declared:
                 clip = self._clip(declared, around, matrix, shape.box)
-<<<<<<< HEAD
             left_out.note_unseen(tag, element, drawn, around.page, clip, self.notes)
-
-    def _merged(self, levels: tuple[Level, ...]) -> dict[str, str]:
-        self.work.charge("tags", sum(1 + 4 * len(level.tags) for level in levels))
-        return merged(levels)
-
-
-def _without_opacity(declared: Declared) -> bool:
-    """Tell whether an element and all in it is fully transparent; what has no box has no opacity of its own."""
-    opacity = declared.get("opacity")
-    return isinstance(opacity, float) and opacity <= 0 and declared.get("display") != "contents"
-=======
-            note_unseen(tag, element, drawn, around.page, clip, self.notes)
->>>>>>> import23
