@@ -57,7 +57,7 @@ def clustered(drawn, bulge=0.0):
     return Walls.from_polylines([ROOM, *rings], bulges=[np.zeros(4), *(np.full(len(r), bulge) for r in rings)])
 
 
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(spots, st.sampled_from([0.0, 0.01, 5.0]), st.sampled_from([0.0, 0.4, -1.7]))
 def test_places_of_contact_are_in_cells_that_list_them(drawn, radius, bulge):
     scene = modelled(clustered(drawn, bulge), radius)

@@ -161,7 +161,7 @@ def test_shorter_frames_part_later_or_never(way):
     scene = Scene(scenes.stadium(), Balls([(3.0, -7.0)], [(43.0, 24.0)], 4.0))
     run = simulate(scene, until=30.0)
     times = []
-    for dt in (0.4, 0.02, 0.001):
+    for dt in (0.4, 0.02, 0.002):
         found = partings(run, step_through(scene, way, dt, 30.0))
         times.append(found[0].time if found else math.inf)
     assert times == sorted(times)
