@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from importers.limits import MAX_COORDINATE
 from importers.regions import ALL, Region
+from importers.subpaths import Matrix as Matrix
 
-Matrix = tuple[float, float, float, float, float, float]
 IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
 
 

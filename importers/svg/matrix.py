@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import math
 
-from importers.drawing import Segment, Subpath
-
-Matrix = tuple[float, float, float, float, float, float]
+from importers.subpaths import Matrix as Matrix
+from importers.subpaths import Segment, Subpath
 
 IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
 

@@ -50,9 +50,7 @@ class Notes:
 
         Beyond MOST of a code they are only counted.
         """
-        self._seen[code] += 1
-        if self._seen[code] > MOST:
-            self.count(code, severity, "more of the same", element, fix=fix)
+        if self._is_enough(code, severity, element, fix):
             return
         line, column, text = self._source.place(element, attribute, offset)
         x, y = at if at is not None and all(map(good_coordinate, at)) else (None, None)
@@ -62,12 +60,18 @@ class Notes:
         self, code: str, severity: Severity, message: str, element: Any, line: int, column: int, words: str
     ) -> None:
         """Add one problem at words within the text of an element, as :meth:`add` does."""
-        self._seen[code] += 1
-        if self._seen[code] > MOST:
-            self.count(code, severity, "more of the same", element)
+        if self._is_enough(code, severity, element):
             return
         place = self._source.place_within(element, line, column, words)
         self._problems.append(Problem(code, severity, message, "", "", "", place[0], place[1], None, None, place[2]))
+
+    def _is_enough(self, code: str, severity: Severity, element: Any, fix: str = "") -> bool:
+        """Tell whether MOST of a code were told before this one, which then is only counted."""
+        self._seen[code] += 1
+        if self._seen[code] <= MOST:
+            return False
+        self.count(code, severity, "more of the same", element, fix=fix)
+        return True
 
     def count(
         self, code: str, severity: Severity, message: str, element: Any, *, fix: str = "", number: int = 1

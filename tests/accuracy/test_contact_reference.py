@@ -5,6 +5,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from agreement import assert_ends_as_the_reference
 
 from wallkit import Balls, Material, Scene, Walls, simulate
 from wallkit.accuracy.contact_scenes import contact_scene, one_sided_scene, rolling_scene, touching_scene
@@ -113,9 +114,7 @@ def test_runs_with_rolling_friction_end_where_the_reference_ends_them(first):
     # rounding of 1e-15 over that, and the end of them by a few times as much.
     for seed in range(first, first + 6):
         _kind, scene, until = rolling_scene(seed)
-        run = simulate(scene, until=until)
-        off = np.abs(np.array(run.final[0].tolist()) - np.array(ContactReference(scene).run(until)[-1].row()))
-        assert off[1:].max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
+        assert_ends_as_the_reference(scene, until)
 
 
 def test_the_last_bounces_of_a_disc_in_a_corner_do_not_take_it_into_the_other_wall():
@@ -151,9 +150,7 @@ def test_the_reference_lets_rolling_friction_wait_for_the_end_of_endless_bounces
 def test_runs_through_one_sided_walls_and_from_starts_in_touch_end_where_the_reference_ends_them(scene_of):
     for seed in range(24):
         _kind, scene, until = scene_of(seed)
-        run = simulate(scene, until=until)
-        off = np.abs(np.array(run.final[0].tolist()) - np.array(ContactReference(scene).run(until)[-1].row()))
-        assert off[1:].max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
+        assert_ends_as_the_reference(scene, until)
 
 
 def test_a_disc_comes_through_a_one_sided_shelf_and_lies_down_on_it():
@@ -199,10 +196,7 @@ def test_runs_end_where_the_reference_ends_them(first):
     # bounces at the end of their series lose of the time, see docs/accuracy.md
     for seed in range(first, first + 6):
         _kind, scene, until = contact_scene(seed)
-        run = simulate(scene, until=until)
-        true = np.array(ContactReference(scene).run(until)[-1].row())[1:]
-        own = np.array(run.final[0].tolist())[1:]
-        assert np.abs(own - true).max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
+        assert_ends_as_the_reference(scene, until)
 
 
 def test_a_disc_that_runs_up_and_out_of_a_half_pipe_keeps_its_speed():

@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from agreement import assert_ends_as_the_reference
 
-from wallkit import Balls, Material, Scene, Walls, simulate
+from wallkit import Balls, Material, Scene, Walls
 from wallkit.accuracy.contact_scenes import drag_scene
 from wallkit.accuracy.reference_contact import ContactReference
 
@@ -94,6 +95,4 @@ def test_runs_with_drag_end_where_the_reference_ends_them(first):
     # 1e-9 as without drag: what bounces at the end of their series lose of the time, see docs/accuracy.md
     for seed in range(first, first + 6):
         _kind, scene, until = drag_scene(seed)
-        run = simulate(scene, until=until)
-        off = np.abs(np.array(run.final[0].tolist()) - np.array(ContactReference(scene).run(until)[-1].row()))
-        assert off[1:].max() <= 1e-9 or not run.trusted_until(1e-9)[0].whole
+        assert_ends_as_the_reference(scene, until)

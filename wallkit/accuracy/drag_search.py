@@ -50,15 +50,17 @@ class _Gap(NamedTuple):
 
     def at(self, time: Real) -> tuple[Real, Real]:
         """F and F'."""
-        place, velocity = self.flight.at(time)
+        return self._of(*self.flight.at(time), time)
+
+    def _of(self, place: Vector, velocity: Vector, time: Real) -> tuple[Real, Real]:
         none, one, two = self.less
         value = self.barrier.gap(place) - none - time * (one + time * two / 2)
         return value, self.barrier.rate(place, velocity) - one - time * two
 
     def bound(self, middle: Real, half: Real) -> tuple[Real, Real, Real]:
         """F and F' at the middle of a stretch, and M."""
-        (value, slope), mp = self.at(middle), self.flight.mp
-        place, velocity = self.flight.at(middle)
+        mp, (place, velocity) = self.flight.mp, self.flight.at(middle)
+        value, slope = self._of(place, velocity, middle)
         pull = mp.sqrt(_dot(a := self.flight.pulled(self.flight.at(middle - half)[1]), a))
         two = abs(self.less[2])
         if self.barrier.bend == 0:

@@ -97,7 +97,7 @@ def _at_the_roomiest_spot(opened: OpenedScene, wishes: Wishes) -> tuple[Walls, B
         return walls, Balls(np.empty((0, 2)), np.empty((0, 2)))
     if spot is None:
         why = "there is no room for a ball inside these walls"
-        if lines.too_many:
+        if lines.met.too_many:
             why = "these walls cross too often to look for room for a ball among them"
         raise UsageError(why, code="no-room", fix="give --ball X,Y")
     assumed, count, radius = opened.assumed, wishes.balls, wishes.radius

@@ -71,11 +71,6 @@ class Lines:
         edges = Edges(np.concatenate([np.empty((0, 2)), *rings]), offsets, walls.closed)
         return cls(MetLines.of(walls, edges))
 
-    @property
-    def too_many(self) -> bool:
-        """Walls cross at more places than are cut: then no place is looked for among them."""
-        return self.met.too_many
-
     @cached_property
     def tree(self) -> Any:
         """A tree of the pieces as lines of shapely."""
@@ -178,7 +173,7 @@ def _faces(walls: Walls, lines: Lines, anywhere: bool) -> list[Any]:
     """Give the faces that may be meant as rooms, the largest first; none where walls cross too often."""
     import shapely
 
-    if not len(lines.met.edges) or lines.too_many:
+    if not len(lines.met.edges) or lines.met.too_many:  # then no place is looked for among them
         return []
     bounded = lines.bounded
     faces = [*bounded] if anywhere else _largest_free(walls, bounded)

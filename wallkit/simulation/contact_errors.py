@@ -10,6 +10,7 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.flight.ball_state import FALLING_TOLERANCE
 from wallkit.kernels.flight.error_growth import BOUNCES, SLIDES, SLOWS, STOPS
 from wallkit.scene.scene import Scene
+from wallkit.simulation.gliding import edges_of
 
 Course = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, float, FloatArray]
 """What the kernels of the horizon need of one ball's run, see ``wallkit.kernels.flight.error_growth.carry``."""
@@ -37,8 +38,9 @@ def roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
         place, speed = _falling_roundings(course, places)
     turn = np.where(plain, 0.0, RMS_ROUNDING + place * np.abs(bend))
     # An edge is where its first vertex is: what is left of the way from there is rounded as that is long.
-    edge = scene.walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
-    d = scene.walls.vertices[scene.walls.edge_starts[edge]] - np.stack([own["x"], own["y"]], axis=1)
+    d = scene.walls.vertices[scene.walls.edge_starts[edges_of(scene.walls, own)]] - np.stack(
+        [own["x"], own["y"]], axis=1
+    )
     wall = np.hypot(place, np.where(own["edge"] < 0, 0.0, RMS_ROUNDING * np.hypot(*d.T)))
     if scene.gravity is not None:
         near = FALLING_TOLERANCE * float(np.abs(scene.walls.vertices - origin).max(initial=0.0))
@@ -103,6 +105,5 @@ def drawing_errors(scene: Scene, own: Any) -> FloatArray:
     else:  # a chord of length c with the sagitta s is turned by at most 4 s / c from its arc
         d = walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]
         chord = np.maximum(np.hypot(d[:, 0], d[:, 1]), walls.measured_error or 1.0)
-        edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
-        fresh[:, 1] = 4 * walls.measured_error / chord[edge]
+        fresh[:, 1] = 4 * walls.measured_error / chord[edges_of(walls, own)]
     return fresh

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.bulge_arcs import offset_of, radius_of
 from wallkit.kernels.flight.pendulum import swing, turned
 from wallkit.kernels.flight.slowed_contact import pull_ahead, slows, swing_on
@@ -19,6 +19,12 @@ from wallkit.walls import Walls
 
 SLIDE = 2
 """The kind of the contact from which on a ball keeps to the wall: ``wallkit.simulation.run.ContactKind.SLIDE``."""
+
+
+def edges_of(walls: Walls, contacts: NDArray[Any]) -> IntArray:
+    """(n,) number, over all walls, of the edge of each contact; of one at a vertex, the first of its wall."""
+    edges: IntArray = walls.edge_offsets[contacts["wall"]] + np.maximum(contacts["edge"], 0)
+    return edges
 
 
 def guides(walls: Walls, contacts: NDArray[Any]) -> FloatArray:
@@ -35,7 +41,7 @@ def guides(walls: Walls, contacts: NDArray[Any]) -> FloatArray:
     own = contacts[kept]
     radius = np.hypot(own["x"] - own["px"], own["y"] - own["py"])
     found = np.where(own["edge"] < 0, radius, 0.0)
-    edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
+    edge = edges_of(walls, own)
     start, end = walls.edge_starts[edge], walls.edge_ends[edge]
     bulge = np.where(own["edge"] < 0, 0.0, walls.bulges[start])
     chord = walls.vertices[end] - walls.vertices[start]

@@ -62,7 +62,7 @@ from wallkit.scene.scene import Scene
 from wallkit.simulation.contact_errors import SURE, Course, drawing_errors, roundings
 from wallkit.simulation.damping import damping_of, on_a_free_clock, slowing_of
 from wallkit.simulation.glide_errors import COLUMNS, glides_of
-from wallkit.simulation.gliding import pull_along
+from wallkit.simulation.gliding import edges_of, pull_along
 from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, FlightTable, near_misses
 
 ErrorSource = Literal["rounding", "drawing"]
@@ -286,7 +286,7 @@ def bends(scene: Scene, own: Any, ball: int) -> FloatArray:
     if radius > 0:
         bent[corner] = 1 / radius
     if walls.has_arcs:
-        edge = walls.edge_offsets[own["wall"]] + np.maximum(own["edge"], 0)
+        edge = edges_of(walls, own)
         start = walls.edge_starts[edge]
         bulge = np.where(corner, 0.0, walls.bulges[start])
         round_ = bulge != 0

@@ -110,6 +110,28 @@ def part_of(starts, stops, curve, low, high):
 
 
 @kernel
+def joined(chains, spans, n, limits, straight):
+    """Join a span by arcs, see :func:`look`: (its first and last curve, joint, direction there, curvatures, sound)."""
+    _, offsets, _, starts, stops, _, _ = chains
+    ids, lows, highs, p0, p1, t0, t1 = spans
+    chain, low, high = ids[n], lows[n], highs[n]
+    first, last = curve_at(offsets, starts, chain, low), last_curve(offsets, starts, chain, low, high)
+    alone = (offsets[chain + 1] - offsets[chain] == 1) & (low == 0.0) & (high == stops[first])
+    limit = limits[1] if alone else limits[0]
+    joint, along, bend0, bend1, _, _, _, sound = biarc(p0[n], p1[n], t0[n], t1[n], limit, straight)
+    return first, last, joint, along, bend0, bend1, sound
+
+
+@kernel
+def measure_between(x_column, y_column, bend0, bend1, low, high, fractions, work):
+    """Write distance and turn of a curve from arcs, at fractions of what is between two of its parameters."""
+    for k in range(len(fractions)):
+        t = low + (high - low) * fractions[k]
+        off, work[1, k] = off_and_turn(x_column, y_column, bend0, bend1, t)
+        work[0, k] = abs(off)
+
+
+@kernel
 def look(chains, spans, limits, straight, fractions, work, distance, turn, sound):
     """Join spans by arcs and measure these: at fixed fractions of the part of a span that is in one curve.
 
@@ -125,25 +147,18 @@ def look(chains, spans, limits, straight, fractions, work, distance, turn, sound
         turn: (n,) the largest, see ``biarcs.measure``; written.
         sound: (n,) whether the arcs are; written.
     """
-    control, offsets, shifts, starts, stops, _, _ = chains
-    ids, lows, highs, p0, p1, t0, t1 = spans
-    for n in range(len(ids)):
-        chain, low, high = ids[n], lows[n], highs[n]
-        curve, last = curve_at(offsets, starts, chain, low), last_curve(offsets, starts, chain, low, high)
-        alone = (offsets[chain + 1] - offsets[chain] == 1) & (low == 0.0) & (high == stops[curve])
-        limit = limits[1] if alone else limits[0]
-        joint, along, bend0, bend1, _, _, _, fine = biarc(p0[n], p1[n], t0[n], t1[n], limit, straight)
+    control, _, shifts, starts, stops, _, _ = chains
+    _, lows, highs, _, _, _, _ = spans
+    for n in range(len(lows)):
+        low, high = lows[n], highs[n]
+        first, last, joint, along, bend0, bend1, fine = joined(chains, spans, n, limits, straight)
         most, widest = 0.0, 0.0
-        while curve <= last:
+        for curve in range(first, last + 1):
             begin, end = part_of(starts, stops, curve, low, high)
             x_column, y_column = moved(control, curve, joint - shifts[curve], along)
-            for k in range(len(fractions)):
-                t = begin + (end - begin) * fractions[k]
-                off, work[1, k] = off_and_turn(x_column, y_column, bend0, bend1, t)
-                work[0, k] = abs(off)
+            measure_between(x_column, y_column, bend0, bend1, begin, end, fractions, work)
             for k in range(len(fractions)):
                 most, widest = larger(most, work[0, k]), larger(widest, work[1, k])
-            curve += 1
         distance[n], turn[n], sound[n] = most, widest, fine
 
 
@@ -186,28 +201,22 @@ def look_closely(chains, spans, limits, straight, fractions, margin, work, arcs,
         seen: (2, m) of largest distances and turns; (2, m) where these are, one of the fractions but the first and the
             last; (2, 3, m) the values before, there and after; written.
     """
-    control, offsets, shifts, starts, stops, _, _ = chains
-    ids, lows, highs, p0, p1, t0, t1 = spans
+    control, _, shifts, starts, stops, _, _ = chains
+    _, lows, highs, _, _, _, _ = spans
     joints, alongs, bends0, bends1, sounds = arcs
     rows, curves, begins, ends, first_looks, last_looks = sections
     largest, at, around = seen
     section = 0
-    for n in range(len(ids)):
-        chain, low, high = ids[n], lows[n], highs[n]
-        first, last = curve_at(offsets, starts, chain, low), last_curve(offsets, starts, chain, low, high)
-        alone = (offsets[chain + 1] - offsets[chain] == 1) & (low == 0.0) & (high == stops[first])
-        limit = limits[1] if alone else limits[0]
-        joint, along, bend0, bend1, _, _, _, fine = biarc(p0[n], p1[n], t0[n], t1[n], limit, straight)
+    for n in range(len(lows)):
+        low, high = lows[n], highs[n]
+        first, last, joint, along, bend0, bend1, fine = joined(chains, spans, n, limits, straight)
         joints[n], alongs[n], bends0[n], bends1[n], sounds[n] = joint, along, bend0, bend1, fine
         for curve in range(first, last + 1):
             begin, end = part_of(starts, stops, curve, low, high)
             away = (end - begin) * margin
             low_look, high_look = begin + (away if curve == first else 0.0), end - (away if curve == last else 0.0)
             x_column, y_column = moved(control, curve, joint - shifts[curve], along)
-            for k in range(len(fractions)):
-                t = low_look + (high_look - low_look) * fractions[k]
-                off, work[1, k] = off_and_turn(x_column, y_column, bend0, bend1, t)
-                work[0, k] = abs(off)
+            measure_between(x_column, y_column, bend0, bend1, low_look, high_look, fractions, work)
             for which in range(2):
                 largest[which, section], at[which, section] = peak_of(work[which])
                 for step in range(3):

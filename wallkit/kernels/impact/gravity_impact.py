@@ -239,8 +239,7 @@ def fall_corners(
             LATER * min(best, until), from_behind,
         )  # fmt: skip
         if drag is None:
-            hides = t == NEVER or radius < HIDING * way_of(ex, ey, vx, vy, gx, gy, t)
-            if grazes and hides:
+            if grazes and (t == NEVER or radius < HIDING * way_of(ex, ey, vx, vy, gx, gy, t)):
                 t = _grazing(radius, ex, ey, vx, vy, gx, gy, near, LATER * min(best, until))
         if one_sided is not None:
             if t <= best and t < NEVER:
