@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
@@ -43,6 +42,8 @@ def _segment_areas(chord: FloatArray, bulges: FloatArray) -> FloatArray:
 
 def rings_of(vertices: FloatArray, offsets: IntArray) -> NDArray[np.object_]:
     """Make a shapely polygon of each ring of at least three vertices; None for the others."""
+    import shapely
+
     counts = np.diff(offsets)
     full = np.flatnonzero(counts >= 3)
     polygons = np.full(len(counts), None, dtype=object)

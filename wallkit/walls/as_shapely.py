@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-import shapely
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.bulge_arcs import edge_points
@@ -27,6 +26,8 @@ def to_shapely(walls: Walls, tolerance: float | None = None) -> Any:
         for a room, whose material is outside, the free space inside is what is given), and the open walls as
         a MultiLineString.
     """
+    import shapely
+
     vertices, offsets = straightened(walls, tolerance)
     rings = rings_of(vertices, offsets)[walls.closed]
     rings = rings[rings != None]  # noqa: E711  (elementwise)
@@ -37,6 +38,8 @@ def to_shapely(walls: Walls, tolerance: float | None = None) -> Any:
 
 def even_odd(rings: Any) -> Any:
     """Area that an odd number of the polygons covers, each made valid first; in pairs, so that no part grows early."""
+    import shapely
+
     if not len(rings):
         return shapely.MultiPolygon()
     layer = np.where(shapely.is_valid(rings), rings, shapely.make_valid(rings, method="structure"))

@@ -13,7 +13,7 @@ from wallkit.walls.copies import copies
 from wallkit.walls.edge_tree import Edges
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Touches:
     """What was found, each kind as arrays of the same length.
 

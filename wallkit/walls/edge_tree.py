@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
@@ -21,7 +20,7 @@ _FIRST_PORTION = 16  # runs; the next portions are as large as the pairs found l
 _PAIRS_AT_ONCE = 200_000  # about so many a portion: bounds the memory
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Edges:
     """Straight edges of polylines that are laid out as in Walls.
 
@@ -160,6 +159,8 @@ class EdgeTree:
 
     def query(self, boxes: Any) -> tuple[IntArray, IntArray]:
         """Pairs of a shapely geometry, one of (m,), and an edge whose boxes meet: number of each, geometries rising."""
+        import shapely
+
         x0, y0, x1, y1 = shapely.bounds(boxes).T
         return self.meeting(np.stack([x0, y0]), np.stack([x1, y1]))
 

@@ -15,7 +15,7 @@ from typing import Any, Literal, NamedTuple, TypedDict
 
 from importers.page_choice import PageChoice
 from wallkit import arguments
-from wallkit.walls.repairing.passes import Repairs
+from wallkit.walls.repairing.repairs import Repairs
 from wallkit.walls.walls import Sides, WallsError
 
 Curves = Literal["lines", "arcs"]
