@@ -19,7 +19,7 @@ def signed_areas(vertices: FloatArray, bulges: FloatArray, offsets: IntArray) ->
     full = counts > 0
     following[offsets[1:][full] - 1] = offsets[:-1][full]
     a = vertices - np.repeat(vertices[offsets[:-1][full]], counts[full], axis=0)
-    b = vertices[following] - np.repeat(vertices[offsets[:-1][full]], counts[full], axis=0)
+    b = a[following]
     parts = (a[:, 0] * b[:, 1] - b[:, 0] * a[:, 1]) / 2
     if np.any(bulges):
         parts = parts + _segment_areas(b - a, bulges)

@@ -9,8 +9,11 @@ import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.bulge_arcs import edge_points
+from wallkit.geometry.ragged import numbered
 from wallkit.geometry.rings import rings_of
 from wallkit.walls.walls import Walls
+
+_AT_ONCE = 1 << 14  # edges: what they need stays in the cache
 
 
 def to_shapely(walls: Walls, tolerance: float | None = None) -> Any:
@@ -53,12 +56,22 @@ def straightened(walls: Walls, tolerance: float | None = None) -> tuple[FloatArr
     """Put lines in the place of arcs: vertices and offsets as in Walls. Line edges stay as they are."""
     if not walls.has_arcs:
         return walls.vertices, walls.offsets
-    counts, inner, ranks = points_in_arcs(walls, largest_distance(walls) if tolerance is None else tolerance)
-    first = np.cumsum(counts) - counts
-    vertices = np.empty((int(counts.sum()), 2))
-    vertices[first] = walls.vertices
-    vertices[np.repeat(first, counts - 1) + ranks] = inner
-    return vertices, np.concatenate([[0], np.cumsum(counts)])[walls.offsets]
+    within = largest_distance(walls) if tolerance is None else tolerance
+    following = np.arange(1, len(walls.vertices) + 1)
+    full = np.diff(walls.offsets) > 0
+    following[walls.offsets[1:][full] - 1] = walls.offsets[:-1][full]
+    parts, counts = [], np.empty(len(walls.vertices), dtype=np.int64)
+    for begin in range(0, len(counts), _AT_ONCE):
+        some = slice(begin, begin + _AT_ONCE)
+        a, b, bulge = walls.vertices[some], walls.vertices[following[some]], walls.bulges[some]
+        counts[some] = lines_in_arcs(a, b, bulge, within)
+        which, rank = numbered(counts[some])
+        points = a[which]
+        inner = np.flatnonzero(rank)
+        on = which[inner]
+        points[inner] = edge_points(a[on], b[on], bulge[on], rank[inner] / counts[some][on])
+        parts.append(points)
+    return np.concatenate(parts), np.concatenate([[0], np.cumsum(counts)])[walls.offsets]
 
 
 def largest_distance(walls: Walls) -> float:
@@ -67,19 +80,12 @@ def largest_distance(walls: Walls) -> float:
     return walls.tolerance or 1e-4 * math.hypot(high_x - low_x, high_y - low_y) or 1.0
 
 
-def points_in_arcs(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, IntArray]:
-    """Points along each arc: vertices that each vertex turns into, the new points, and their rank from 1."""
-    following = np.arange(1, len(walls.vertices) + 1)
-    full = np.diff(walls.offsets) > 0
-    following[walls.offsets[1:][full] - 1] = walls.offsets[:-1][full]
-    a, b, bulge = walls.vertices, walls.vertices[following], walls.bulges
+def lines_in_arcs(a: FloatArray, b: FloatArray, bulge: FloatArray, tolerance: float) -> IntArray:
+    """How many lines are put in the place of each edge from a to b: (n,)."""
     angle = 4 * np.arctan(bulge)
     half_chord = np.hypot(*(b - a).T) / 2
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = np.where(bulge != 0, half_chord / np.abs(np.sin(angle / 2)), 0.0)
         step = 2 * np.arccos(np.clip(1 - tolerance / radius, math.cos(math.pi / 8), 1.0))
         step = np.where(step > 0, step, np.sqrt(8 * tolerance / radius))
-        counts = np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1).astype(np.int64)
-    which = np.repeat(np.arange(len(counts)), counts - 1)
-    rank = np.arange(len(which)) - np.repeat(np.cumsum(counts - 1) - (counts - 1), counts - 1) + 1
-    return counts, edge_points(a[which], b[which], bulge[which], rank / counts[which]), rank
+        return np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1).astype(np.int64)

@@ -155,11 +155,10 @@ def _folds(edges: Edges) -> tuple[IntArray, IntArray]:
     edge_at = np.full(len(edges.vertices), -1, dtype=np.int64)
     edge_at[edges.start] = np.arange(len(edges))
     second = edge_at[edges.stop]
-    first = np.flatnonzero(second >= 0)
+    x, y = (edges.b[:, k] - edges.a[:, k] for k in (0, 1))
+    back = x * x[second] + y * y[second] < 0
+    first = np.flatnonzero(back & (second >= 0))
     second = second[first]
-    x, y = (edges.b - edges.a).T.copy()
-    back = x[first] * x[second] + y[first] * y[second] < 0
-    first, second = first[back], second[back]
     on_line = side(edges.a[first], edges.b[first], edges.b[second]) == 0
     return first[on_line], second[on_line]
 

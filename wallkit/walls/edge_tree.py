@@ -77,7 +77,7 @@ class Edges:
     @cached_property
     def a(self) -> FloatArray:
         """(E, 2) start points."""
-        return self.vertices[self.start]
+        return self.vertices if len(self.start) == len(self.vertices) else self.vertices[self.start]
 
     @cached_property
     def b(self) -> FloatArray:
@@ -118,8 +118,11 @@ class EdgeTree:
         """Make runs of the edges ``rows`` (n,), in rising order."""
         self.rows = rows
         a, b = (edges.a, edges.b) if len(rows) == len(edges) else (edges.a[rows], edges.b[rows])
-        self.low, self.high = np.minimum(a, b).T.copy(), np.maximum(a, b).T.copy()
-        self.first, self.goes_on = self._runs(b - a, edges.stop[rows[:-1]] == edges.start[rows[1:]])
+        self.low, self.high = np.empty((2, len(rows))), np.empty((2, len(rows)))
+        for k in (0, 1):
+            np.minimum(a[:, k], b[:, k], out=self.low[k])
+            np.maximum(a[:, k], b[:, k], out=self.high[k])
+        self.first, self.goes_on = self._runs(a, b, edges.stop[rows[:-1]] == edges.start[rows[1:]])
         self.run_low, self.run_high = self._boxes()
         if not self._pay():
             self.first, self.goes_on = np.arange(len(rows)), np.zeros(len(rows), dtype=np.bool_)
@@ -148,9 +151,10 @@ class EdgeTree:
         return 4 * runs * covered < area * (count / _RUN)
 
     @staticmethod
-    def _runs(step: FloatArray, follows: NDArray[np.bool_]) -> tuple[IntArray, NDArray[np.bool_]]:
+    def _runs(a: FloatArray, b: FloatArray, follows: NDArray[np.bool_]) -> tuple[IntArray, NDArray[np.bool_]]:
         """Give the first edge of each run, and whether it goes on as the run before it, which was full."""
-        way = np.where((step[:, 0] == 0) & (step[:, 1] == 0), -1, 2 * (step[:, 0] < 0) + (step[:, 1] < 0))
+        way = 2 * (b[:, 0] < a[:, 0]).astype(np.int8) + (b[:, 1] < a[:, 1])
+        way[(a == b).all(axis=1)] = -1
         turns = np.ones(len(way), dtype=np.bool_)
         turns[1:] = ~follows | (way[1:] != way[:-1]) | (way[1:] < 0)
         rank = numbered(np.diff(np.flatnonzero(turns), append=len(way)))[1]

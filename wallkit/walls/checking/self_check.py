@@ -104,7 +104,7 @@ def straight_edges(walls: Walls) -> Edges:
 
 def diagonal(vertices: FloatArray) -> float:
     """The diagonal of the points' box; 0 without any."""
-    return float(np.hypot(*(vertices.max(axis=0) - vertices.min(axis=0)))) if len(vertices) else 0.0
+    return float(np.hypot(*(column.max() - column.min() for column in vertices.T))) if len(vertices) else 0.0
 
 
 def _loose_ends(findings: Findings, reach: float) -> list[LooseEnd]:
