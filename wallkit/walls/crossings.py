@@ -48,6 +48,7 @@ class Touches:
 # Of near edges that are looked at, and of those that meet; a tangle beyond that is reported as one.
 MOST_PAIRS = 10_000_000
 MOST_CONTACTS = 500_000
+_AT_ONCE = 1 << 14  # edges of which neighbours are looked at: fresh memory takes longer than the look
 
 
 def find_touches(edges: Edges) -> Touches:
@@ -154,11 +155,13 @@ def _folds(edges: Edges) -> tuple[IntArray, IntArray]:
     """Neighbours along a polyline of which the second goes back over the first."""
     edge_at = np.full(len(edges.vertices), -1, dtype=np.int64)
     edge_at[edges.start] = np.arange(len(edges))
-    second = edge_at[edges.stop]
-    x, y = (edges.b[:, k] - edges.a[:, k] for k in (0, 1))
-    back = x * x[second] + y * y[second] < 0
-    first = np.flatnonzero(back & (second >= 0))
-    second = second[first]
+    found = [np.empty((2, 0), dtype=np.int64)]
+    for begin in range(0, len(edges), _AT_ONCE):
+        second = edge_at[edges.stop[begin : begin + _AT_ONCE]]
+        (x, y), (u, v) = ((edges.b[some] - edges.a[some]).T for some in (slice(begin, begin + _AT_ONCE), second))
+        back = np.flatnonzero((x * u + y * v < 0) & (second >= 0))
+        found.append(np.stack([begin + back, second[back]]))
+    first, second = np.concatenate(found, axis=1)
     on_line = side(edges.a[first], edges.b[first], edges.b[second]) == 0
     return first[on_line], second[on_line]
 

@@ -62,12 +62,12 @@ class Edges:
     @cached_property
     def stop(self) -> IntArray:
         """(E,) the vertex each edge ends at."""
-        return self.following[self.start]
+        return self._at_starts(self.following)
 
     @cached_property
     def wall(self) -> IntArray:
         """(E,) the polyline each edge belongs to."""
-        return self.wall_of[self.start]
+        return self._at_starts(self.wall_of)
 
     @cached_property
     def wall_of(self) -> IntArray:
@@ -77,12 +77,16 @@ class Edges:
     @cached_property
     def a(self) -> FloatArray:
         """(E, 2) start points."""
-        return self.vertices if len(self.start) == len(self.vertices) else self.vertices[self.start]
+        return self._at_starts(self.vertices)
 
     @cached_property
     def b(self) -> FloatArray:
         """(E, 2) end points."""
         return self.vertices[self.stop]
+
+    def _at_starts(self, of_vertices: NDArray[Any]) -> NDArray[Any]:
+        """Take of what vertices have what edges begin at: all of it, and no copy, where all polylines are closed."""
+        return of_vertices if len(self.start) == len(of_vertices) else of_vertices[self.start]
 
     @cached_property
     def areas(self) -> FloatArray:
@@ -117,12 +121,14 @@ class EdgeTree:
     def __init__(self, edges: Edges, rows: IntArray) -> None:
         """Make runs of the edges ``rows`` (n,), in rising order."""
         self.rows = rows
-        a, b = (edges.a, edges.b) if len(rows) == len(edges) else (edges.a[rows], edges.b[rows])
+        a, b, start, stop = edges.a, edges.b, edges.start, edges.stop
+        if len(rows) < len(edges):
+            a, b, start, stop = a[rows], b[rows], start[rows], stop[rows]
         self.low, self.high = np.empty((2, len(rows))), np.empty((2, len(rows)))
         for k in (0, 1):
             np.minimum(a[:, k], b[:, k], out=self.low[k])
             np.maximum(a[:, k], b[:, k], out=self.high[k])
-        self.first, self.goes_on = self._runs(a, b, edges.stop[rows[:-1]] == edges.start[rows[1:]])
+        self.first, self.goes_on = self._runs(a, b, stop[:-1] == start[1:])
         self.run_low, self.run_high = self._boxes()
         if not self._pay():
             self.first, self.goes_on = np.arange(len(rows)), np.zeros(len(rows), dtype=np.bool_)
@@ -157,8 +163,11 @@ class EdgeTree:
         way[(a == b).all(axis=1)] = -1
         turns = np.ones(len(way), dtype=np.bool_)
         turns[1:] = ~follows | (way[1:] != way[:-1]) | (way[1:] < 0)
-        rank = numbered(np.diff(np.flatnonzero(turns), append=len(way)))[1]
-        first = np.flatnonzero(rank % _RUN == 0)
+        straight = np.flatnonzero(turns)
+        rank = np.arange(len(way))
+        rank -= np.repeat(straight, np.diff(straight, append=len(way)))
+        rank %= _RUN
+        first = np.flatnonzero(rank == 0)
         return first, ~turns[first]
 
     def query(self, boxes: Any) -> tuple[IntArray, IntArray]:
