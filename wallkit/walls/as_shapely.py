@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import shapely
 
+from importers.limits import MAX_VERTICES, limit_error
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.bulge_arcs import edge_points
 from wallkit.geometry.rings import rings_of
@@ -47,7 +48,11 @@ def even_odd(rings: Any) -> Any:
 
 
 def straightened(walls: Walls, tolerance: float | None = None) -> tuple[FloatArray, IntArray]:
-    """Put lines in the place of arcs: vertices and offsets as in Walls. Line edges stay as they are."""
+    """Put lines in the place of arcs: vertices and offsets as in Walls. Line edges stay as they are.
+
+    Raises:
+        LimitError: more than 2,000,000 lines.
+    """
     if not walls.has_arcs:
         return walls.vertices, walls.offsets
     counts, inner, ranks = points_in_arcs(walls, largest_distance(walls) if tolerance is None else tolerance)
@@ -64,8 +69,26 @@ def largest_distance(walls: Walls) -> float:
     return walls.tolerance or 1e-4 * math.hypot(high_x - low_x, high_y - low_y) or 1.0
 
 
-def points_in_arcs(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, IntArray]:
-    """Points along each arc: vertices that each vertex turns into, the new points, and their rank from 1."""
+CHORDS, CHORDS_OF_AN_ARC = 100_000, 64
+"""So many lines are put in the place of arcs for a check, however small the tolerance is; or so many for each arc."""
+
+
+def check_tolerance(walls: Walls, tolerance: float) -> float:
+    """Give the distance from arcs at which checks see them as lines.
+
+    It is a tenth of the tolerance, 1e-4 of the walls' size where that is 0, or what so many lines come to. A chord
+    over the angle s is off by r s^2 / 8, so arcs of angles a take sum(a sqrt(r / 8)) / sqrt(tolerance) of them.
+    """
+    asked = tolerance / 10 or largest_distance(walls)
+    if not walls.has_arcs:
+        return asked
+    *_, angle, radius = _arcs(walls)
+    most = min(max(CHORDS, CHORDS_OF_AN_ARC * np.count_nonzero(angle)), MAX_VERTICES // 2)
+    return max(asked, float((np.abs(angle) * np.sqrt(radius / 8)).sum() / most) ** 2)
+
+
+def _arcs(walls: Walls) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Of each vertex: itself, the one behind it, the angle of the arc between (0 for a line), its radius (0)."""
     following = np.arange(1, len(walls.vertices) + 1)
     full = np.diff(walls.offsets) > 0
     following[walls.offsets[1:][full] - 1] = walls.offsets[:-1][full]
@@ -73,10 +96,24 @@ def points_in_arcs(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray
     angle = 4 * np.arctan(bulge)
     half_chord = np.hypot(*(b - a).T) / 2
     with np.errstate(divide="ignore", invalid="ignore"):
-        radius = np.where(bulge != 0, half_chord / np.abs(np.sin(angle / 2)), 0.0)
+        return a, b, angle, np.where(bulge != 0, half_chord / np.abs(np.sin(angle / 2)), 0.0)
+
+
+def points_in_arcs(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, IntArray]:
+    """Points along each arc: vertices that each vertex turns into, the new points, and their rank from 1.
+
+    Raises:
+        LimitError: more than 2,000,000 of them.
+    """
+    a, b, angle, radius = _arcs(walls)
+    bulge = walls.bulges
+    with np.errstate(divide="ignore", invalid="ignore"):
         step = 2 * np.arccos(np.clip(1 - tolerance / radius, math.cos(math.pi / 8), 1.0))
         step = np.where(step > 0, step, np.sqrt(8 * tolerance / radius))
-        counts = np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1).astype(np.int64)
+        wanted = np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1)
+    if not wanted.sum() <= MAX_VERTICES + len(a):
+        raise limit_error("lines in the place of arcs", f"{MAX_VERTICES:,}", fix="ask for a larger tolerance")
+    counts = wanted.astype(np.int64)
     which = np.repeat(np.arange(len(counts)), counts - 1)
     rank = np.arange(len(which)) - np.repeat(np.cumsum(counts - 1) - (counts - 1), counts - 1) + 1
     return counts, edge_points(a[which], b[which], bulge[which], rank / counts[which]), rank
