@@ -77,6 +77,14 @@ class Subpath:
         """Tell without a look at the numbers that none is larger; by half, so that rounding does not matter."""
         return self._segments is None and self._reach <= most / 2
 
+    def within(self, most: float) -> bool:
+        """Tell whether every number is finite and none larger."""
+        if self.surely_within(most):
+            return True
+        if self.columns is not None:
+            return bool(abs(self.columns[1]).max(initial=0.0) <= most)
+        return all(-most <= number <= most for segment in self.segments for number in segment[1:])
+
     @property
     def segments(self) -> list[Segment]:
         """The segments; from then on they are what the subpath is, for a list may be changed."""

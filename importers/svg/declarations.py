@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from importers.svg.style import MISSED, Declaration, Declared, Fault, TooLarge, Unread
+from importers.svg.style import Declaration, Declared, TooLarge, Unread
+from importers.svg.values import MISSED, Fault
 
 _NAME = re.compile(r"(?:^|(?<=[;\s{]))([-a-zA-Z]++)\s*+:")
 

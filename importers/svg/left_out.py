@@ -14,7 +14,7 @@ from importers.svg.notes import Notes
 from importers.svg.references import References
 from importers.svg.shapes import Lengths, Shape
 from importers.svg.units import parse_length
-from importers.svg.viewbox import parse_view_box
+from importers.svg.viewbox import parse_aspect, parse_view_box
 
 _NEVER = frozenset(("defs", "clipPath", "mask", "pattern", "marker", "symbol"))
 _SILENT = frozenset(
@@ -85,7 +85,11 @@ def note_length(element: Any, attribute: str, words: str, notes: Notes, layer: s
 
 
 def note_viewport(element: Any, lengths: tuple[str, ...], notes: Notes) -> None:
-    """Say which of a viewBox and some lengths of an element that makes a viewport cannot be read."""
+    """Say which of a viewBox, how it is fitted, and some lengths of an element that makes a viewport cannot be read."""
+    aspect = element.get("preserveAspectRatio") or ""
+    if parse_aspect(aspect) is None and element.get("viewBox") is not None:
+        message = f"preserveAspectRatio={aspect[:40]!r} is no such thing as 'xMidYMid meet', which is used instead"
+        notes.add("bad-value", "warning", message, element, attribute="preserveAspectRatio")
     for name in ("viewBox", *lengths):
         text = (element.get(name) or "").strip()
         if text in ("", "auto"):

@@ -73,16 +73,21 @@ def parse_path_data(text: str) -> tuple[list[Subpath], Fault | None]:
     if not has_arcs and "e" not in words and "E" not in words:
         tokens = _split(words)
         subpaths, used = _interpret(tokens)
-        if used == len(tokens):
+        if used == len(tokens) and not _ends_unfinished(tokens):
             return subpaths, fault
     spans = _arc_spans(words) if has_arcs else [match.span() for match in _TOKEN.finditer(words)]
     tokens = [words[start:stop] for start, stop in spans]
     huge = (i for i, token in enumerate(tokens) if token not in _COMMANDS and math.isinf(float(token)))
     stop = next(huge, len(tokens))
     subpaths, used = _interpret(tokens[:stop])
-    if used < len(tokens):
+    if used < len(tokens) or _ends_unfinished(tokens):
         fault = _command_fault(tokens, spans, used, stop, fault)
     return subpaths, fault
+
+
+def _ends_unfinished(tokens: list[str]) -> bool:
+    """Tell whether the last token is a command that lacks its numbers."""
+    return bool(tokens) and tokens[-1] in _COMMANDS and tokens[-1] not in "Zz"
 
 
 def check_length(text: str) -> None:

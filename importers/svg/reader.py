@@ -29,7 +29,7 @@ from importers.svg.paint import Paints
 from importers.svg.placing import DEFAULT_SIZE, nested_viewport, root_viewport, use_size
 from importers.svg.plain_paths import PlainPaths
 from importers.svg.references import References
-from importers.svg.shapes import SHAPES, Lengths, Shapes, within_bounds
+from importers.svg.shapes import SHAPES, Lengths, Shapes
 from importers.svg.source import Source
 from importers.svg.style import Declared
 from importers.svg.units import Viewport
@@ -419,7 +419,7 @@ class Reader:
         self.segments += sum(map(len, subpaths))
         if self.segments > MAX_ELEMENTS:
             raise limit_error("segments of all paths", f"{MAX_ELEMENTS:,}", file=self.source.file)
-        if not within_bounds(subpaths):
+        if not all(sub.within(MAX_COORDINATE) for sub in subpaths):
             if not self.aside:
                 message = f"<{tag}> reaches beyond {MAX_COORDINATE:g} and is left out"
                 self.notes.add("bad-coordinate", "error", message, element, layer=around.layer, name=name)

@@ -8,7 +8,7 @@ from typing import Any
 
 from importers.boxes import Box, box_of_segments
 from importers.drawing import Segment, Subpath
-from importers.limits import LETTERS_OF_A_STEP, MAX_COORDINATE, Work
+from importers.limits import LETTERS_OF_A_STEP, Work
 from importers.numbers import NumberError
 from importers.svg.arcs import full_ellipse
 from importers.svg.path_data import COMMA, NUMBER, Fault, check_length, parse_path_data
@@ -153,22 +153,6 @@ class Shapes:
                 self._read[element] = shape
         self._work.charge("shapes", _STEPS_OF_A_SHAPE + sum(map(len, shape.subpaths)))
         return shape
-
-
-def within_bounds(subpaths: list[Subpath]) -> bool:
-    """Tell whether every number is finite and no larger than coordinates may be."""
-    for sub in subpaths:
-        if sub.surely_within(MAX_COORDINATE):
-            continue
-        if sub.columns is not None:
-            if not abs(sub.columns[1]).max() <= MAX_COORDINATE:
-                return False
-            continue
-        for segment in sub.segments:
-            for number in segment[1:]:
-                if not -MAX_COORDINATE <= number <= MAX_COORDINATE:
-                    return False
-    return True
 
 
 def make_shape(tag: str, attributes: Any, lengths: Lengths) -> Shape:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import NamedTuple
 
 from importers.numbers import NumberError
 from importers.svg.matrix import IDENTITY, Matrix
@@ -34,6 +35,29 @@ def parse_view_box(text: str | None) -> Box | None:
     return x, y, width, height
 
 
+class Aspect(NamedTuple):
+    """How a viewBox goes into a viewport.
+
+    Attributes:
+        along: where it is put along x and y, 0 to 1; None where it is stretched to the whole viewport.
+        slice: it covers the viewport, and does not just fit into it.
+    """
+
+    along: tuple[float, float] | None
+    slice: bool
+
+
+def parse_aspect(text: str) -> Aspect | None:
+    """Read a preserveAspectRatio, which is ``xMidYMid meet`` where it is empty; None when it is wrong."""
+    words = (text.strip() or "xMidYMid").split(maxsplit=2)
+    good = len(words) == 1 or (len(words) == 2 and words[1] in ("meet", "slice"))
+    match = _ALIGN.fullmatch(words[0]) if good else None
+    if match is None:
+        return None
+    along = None if match[0] == "none" else (_PART[match[1]], _PART[match[2]])
+    return Aspect(along, words[-1] == "slice")
+
+
 def fit(box: Box | None, aspect: str | None, width: float, height: float) -> Matrix:
     """Give the matrix that puts a viewBox into a viewport of width and height at (0, 0).
 
@@ -47,13 +71,10 @@ def fit(box: Box | None, aspect: str | None, width: float, height: float) -> Mat
         return IDENTITY
     x, y, box_width, box_height = box
     sx, sy = width / box_width, height / box_height
-    words = (aspect or "").split(maxsplit=2)
-    good = len(words) == 1 or (len(words) == 2 and words[1] in ("meet", "slice"))
-    match = _ALIGN.fullmatch(words[0]) if good else None
-    if match is not None and match[0] == "none":
+    along, covers = parse_aspect(aspect or "") or Aspect((0.5, 0.5), False)
+    if along is None:
         return (sx, 0.0, 0.0, sy, -x * sx, -y * sy)
-    along_x, along_y = (_PART[match[1]], _PART[match[2]]) if match else (0.5, 0.5)
-    scale = max(sx, sy) if match is not None and words[-1] == "slice" else min(sx, sy)
-    left = along_x * (width - box_width * scale) - x * scale
-    top = along_y * (height - box_height * scale) - y * scale
+    scale = max(sx, sy) if covers else min(sx, sy)
+    left = along[0] * (width - box_width * scale) - x * scale
+    top = along[1] * (height - box_height * scale) - y * scale
     return (scale, 0.0, 0.0, scale, left, top)

@@ -14,9 +14,10 @@ from typing import Literal
 
 import numpy as np
 
+from importers.limits import MAX_COORDINATE
 from wallkit.export.findings import Findings
 from wallkit.export.number_text import BLOCK
-from wallkit.export.options import Box, ExportOptions, Point
+from wallkit.export.options import Box, ExportError, ExportOptions, Point
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.rings import signed_areas
 from wallkit.walls.as_shapely import straightened
@@ -196,7 +197,11 @@ class _Frame:
         return corner[0], corner[3] if self.flip else corner[1]
 
     def place(self, walls: Walls, grid: float) -> Walls:
-        """Move, mirror, scale and round; walls keep their number, order and first vertices."""
+        """Move, mirror, scale and round; walls keep their number, order and first vertices.
+
+        Raises:
+            ExportError: what comes out is larger than coordinates may be.
+        """
         x, y = self.origin()
         vertices, bulges = walls.vertices, walls.bulges
         if self.flip:
@@ -206,7 +211,11 @@ class _Frame:
         elif x or y:
             vertices = vertices - [x, y]
         if self.scale != 1:
-            vertices = vertices * self.scale
+            with np.errstate(over="ignore"):
+                vertices = vertices * self.scale
+        if not np.abs(vertices).max(initial=0.0) <= MAX_COORDINATE:
+            message = f"the level reaches beyond {MAX_COORDINATE:g}"
+            raise ExportError(message, code="bad-option", fix="give a smaller --target-scale, or a nearer --origin")
         if grid:
             vertices = np.round(vertices / grid) * grid + 0.0  # no -0
         return replace(walls, vertices=vertices, bulges=bulges)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from importers.errors import WallkitError
+from importers.limits import MAX_COORDINATE
 
 Box = tuple[float, float, float, float]
 Point = tuple[float, float]
@@ -56,8 +57,8 @@ class ExportOptions:
                 raise _bad(name, value, "give a number above 0")
         for name in ("grid", "min_spacing"):
             value = getattr(self, name)
-            if value is not None and not (math.isfinite(value) and value >= 0):
-                raise _bad(name, value, "give 0 or more")
+            if value is not None and not 0 <= value <= MAX_COORDINATE:
+                raise _bad(name, value, f"give a number from 0 to {MAX_COORDINATE:g}")
         if self.max_vertices < 3:
             raise _bad("max_vertices", self.max_vertices, "give 3 or more")
         object.__setattr__(self, "origin", _origin(self.origin))

@@ -12,7 +12,7 @@ from wallkit import arguments
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.levels.obstacles import obstacles_of
 from wallkit.levels.search import APART, FINEST, Searched, Shooter, search
-from wallkit.levels.targets import Disc, target_of
+from wallkit.levels.targets import FARTHEST, Disc, target_of
 from wallkit.levels.unfolding import Unfolded, unfold, unfolding_at_hand, warm_unfolding
 from wallkit.levels.windows import NONE, Windows, merged
 from wallkit.scene.scene import Balls, Scene, SceneError
@@ -122,9 +122,9 @@ def warm_aim(scene: Scene) -> None:
 
 
 def _pair(value: Sequence[float], name: str) -> tuple[float, float]:
-    may_be = "two finite numbers, (x, y)"
+    may_be = f"two numbers up to {FARTHEST:g}, (x, y)"
     pair = arguments.floats(value, name, may_be, error=SceneError, code="bad-aim")
-    if pair.shape != (2,) or not np.isfinite(pair).all():
+    if pair.shape != (2,) or not (np.abs(pair) <= FARTHEST).all():
         raise arguments.refused(name, value, may_be, SceneError, "bad-aim")
     return float(pair[0]), float(pair[1])
 

@@ -9,8 +9,11 @@ import numpy as np
 
 from wallkit import arguments
 from wallkit.scene.scene import Scene, SceneError
+from wallkit.simulation.modelled import LENGTHS
 
 Disc = tuple[float, float, float]
+FARTHEST = LENGTHS[1]
+"""A place is no farther away than the walls may be, so that products of two are numbers."""
 
 
 def target_of(scene: Scene, target: Sequence[float] | str) -> Disc:
@@ -30,11 +33,11 @@ def disc_of(target: Sequence[float]) -> Disc:
     """Give a target that is said in numbers.
 
     Raises:
-        SceneError: they are not three finite numbers with a radius above 0.
+        SceneError: they are not three numbers of at most 1e60, the last above 0.
     """
-    may_be = "three finite numbers, (x, y, radius above 0), or a name"
+    may_be = f"three numbers up to {FARTHEST:g}, (x, y, radius above 0), or a name"
     disc = arguments.floats(target, "target", may_be, error=SceneError, code="bad-target")
-    if disc.shape != (3,) or not np.isfinite(disc).all() or disc[2] <= 0.0:
+    if disc.shape != (3,) or not (np.abs(disc) <= FARTHEST).all() or disc[2] <= 0.0:
         raise arguments.refused("target", target, may_be, SceneError, "bad-target")
     x, y, r = disc.tolist()
     return x, y, r

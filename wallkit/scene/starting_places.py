@@ -348,8 +348,9 @@ def room_for(spot: Spot, radius: float) -> Any:
         fix = "give places (--ball X,Y, --from X,Y), or take fewer layers (--layer)"
         raise SceneError(why, code="no-room", fix=fix)
     x0, y0, x1, y1 = spot.face.bounds
+    least = min(radius, x1 - x0)  # of which a ball has no room either; far larger ones overflow in a buffer
     # Around a corner a buffer of 32 chords a quarter is short by 0.03 %, and arcs bow out of the face by _FINE_STEP.
-    room = shapely.buffer(spot.face, -1.0005 * radius - 2e-5 * max(x1 - x0, y1 - y0), quad_segs=32)
+    room = shapely.buffer(spot.face, -1.0005 * least - 2e-5 * max(x1 - x0, y1 - y0), quad_segs=32)
     if shapely.is_empty(room):
         raise SceneError(
             f"a ball of radius {radius:g} has no room",

@@ -68,7 +68,7 @@ class Modelled:
         self.box = _box(scene.walls)
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
         self.tallies = len(scene.walls)
-        self._size = _check_sizes(scene)
+        self._size = check_sizes(scene)
         self.origin = local_origin(scene.walls.vertices) if origin is None else origin
         self.model = self._made(scene, index, machine_code, fine)
         self._lists: Model | None = None
@@ -135,7 +135,7 @@ class Modelled:
     def with_balls(self, balls: Balls) -> Modelled | None:
         """Give the same model with other balls; None if it must be made anew, for other radii or from farther away."""
         radii, off = np.asarray(balls.radius), np.abs(np.asarray(balls.position) - self.origin)
-        _check_speeds(balls, self._size, self.model.gravity is not None)
+        check_balls(balls, self._size, self.model.gravity is not None)
         if not (len(radii) and len(self.radii) and off.max() <= self.model.extent):
             return None
         if (radii.min(), radii.max()) != (self.radii.min(), self.radii.max()):
@@ -189,24 +189,40 @@ def _machine_code_pays(entries: int, arcs: bool) -> bool:
     return entries > WAITING_PAYS or (entries > LOADING_PAYS and index_at_hand(arcs))
 
 
-def _check_sizes(scene: Scene) -> float:
+def check_sizes(scene: Scene) -> float:
     """Refuse what is so large or so small that squares of products of two of it are no numbers any more.
 
     Returns:
         The size of the walls.
 
     Raises:
-        SceneError: lengths, speeds or gravity are beyond LENGTHS, SPEEDS and FALLING.
+        SceneError: lengths, speeds, gravity or what slows balls are beyond LENGTHS, SPEEDS and FALLING.
     """
-    size = max(float(np.abs(part).max(initial=0.0)) for part in (scene.walls.vertices, scene.balls.radius))
+    size = max(*map(abs, _box(scene.walls)), float(scene.balls.radius.max(initial=0.0)))
     _check_range("the largest coordinate or radius", size, LENGTHS, "draw it in another unit of length")
+    for what in ("rolling_friction", "drag"):
+        slows = getattr(scene, what)
+        if slows is not None:
+            _check_range(what.replace("_", " "), slows, (0.0, FALLING[1]), "take another unit of time, or None")
     if scene.gravity is not None:
         _check_range("gravity", float(np.hypot(*np.ravel(scene.gravity))), FALLING, "take another unit of time, or 0")
-    _check_speeds(scene.balls, size, scene.gravity is not None)
+    check_balls(scene.balls, size, scene.gravity is not None)
     return size
 
 
-def _check_speeds(balls: Balls, size: float, falls: bool) -> None:
+def check_balls(balls: Balls, size: float, falls: bool) -> None:
+    """Refuse balls that are so far away, so slow or so fast that squares of products are no numbers any more.
+
+    Args:
+        balls: any number of them.
+        size: what :func:`check_sizes` gave for their scene.
+        falls: there is gravity.
+
+    Raises:
+        SceneError: a coordinate or a speed is beyond LENGTHS, SPEEDS and FALLING.
+    """
+    farthest = float(np.abs(balls.position).max(initial=0.0))
+    _check_range("a ball's coordinate", farthest, (0.0, LENGTHS[1]), "place it nearer to the walls")
     speeds = np.hypot(*np.asarray(balls.velocity, dtype=np.float64).reshape(-1, 2).T)
     moving = speeds[speeds > 0.0]
     if len(moving):
@@ -219,7 +235,7 @@ def _check_speeds(balls: Balls, size: float, falls: bool) -> None:
 
 
 def _check_range(what: str, size: float, limits: tuple[float, float], fix: str) -> None:
-    if size != 0.0 and math.isfinite(size) and not limits[0] <= size <= limits[1]:
+    if size != 0.0 and not limits[0] <= size <= limits[1]:
         known = f"{what} is {size:g}, and is known to work from {limits[0]:g} to {limits[1]:g}"
         raise SceneError(known, code="beyond-numbers", fix=fix)
 
@@ -230,7 +246,7 @@ def _box(walls: Walls) -> tuple[float, float, float, float]:
     if not walls.has_arcs:
         return x0, y0, x1, y1
     chord = np.hypot(*(walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]).T)
-    bulge = np.abs(walls.bulges[walls.edge_starts])
+    bulge = np.minimum(np.abs(walls.bulges[walls.edge_starts]), 1e200)  # larger circles are refused all the same
     bow = float((chord * bulge * np.where(bulge > 1.0, 1.0, 0.5)).max(initial=0.0))
     return x0 - bow, y0 - bow, x1 + bow, y1 + bow
 

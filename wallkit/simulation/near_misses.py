@@ -140,7 +140,8 @@ def _near_lines(scene: Scene, flights: FlightTable, radius: float, reach: float)
     normal = np.stack([along[:, 1], -along[:, 0]], axis=1) / np.maximum(length, 1e-300)[:, None]
     across = (flights.velocity[found] * normal).sum(axis=1)
     pull = (flights.pulls[found] * normal).sum(axis=1)
-    turn = np.divide(-across, pull, out=np.full(len(found), -1.0), where=pull != 0)
+    with np.errstate(over="ignore"):  # an infinite time is beyond the flight
+        turn = np.divide(-across, pull, out=np.full(len(found), -1.0), where=pull != 0)
     if flights.drag > 0.0:  # -v / g is the time in which a speed would turn, (e^(k t) - 1) / k that in which it does
         turn = np.where(turn > 0, np.log1p(flights.drag * np.maximum(turn, 0.0)) / flights.drag, turn)
     inside = np.clip(turn, 0.0, flights.time[found])

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from importers.limits import limit_error
 from wallkit.arguments import flag, floats, number, of_type, refused, whole_number, word
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.records import LOG, NO_HIT
-from wallkit.scene.scene import Scene, SceneError
+from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.simulation.gliding import guides
+from wallkit.simulation.modelled import check_balls, check_sizes
 from wallkit.simulation.motion import Motion
 from wallkit.simulation.run import CONTACT, ContactKind
 from wallkit.simulation.sensors import sensors_of, together
@@ -24,6 +26,8 @@ if TYPE_CHECKING:
     from wallkit.simulation.meeting_world import Together
     from wallkit.simulation.overlapping import Overlapping
 
+MOST_CONTACTS = 100_000
+"""Of one ball in one frame: they take a minute or two, and no frame of a game has as many."""
 _NO_CONTACTS = np.empty(0, dtype=CONTACT)
 _NO_CONTACTS.flags.writeable = False
 Way = Literal["exact", "stop", "full-step", "reflect-in-place", "overlap"]
@@ -73,6 +77,7 @@ class World:
         self.scene = scene
         self.way: Way = way
         self.time = 0.0
+        self._size = check_sizes(scene)
         self._lost = 0.0  # what the sum of the frames loses to rounding
         self._stepper: Together | Overlapping | None = None  # what moves the balls where no contact is foreseen here
         if scene.meeting or way == "overlap":
@@ -122,6 +127,7 @@ class World:
 
         Raises:
             SceneError: ``dt`` is negative or not finite.
+            LimitError: a ball makes more than 100,000 contacts in this frame; the world is then of no use any more.
         """
         dt = number(dt, "dt", "finite seconds, 0 or more", error=SceneError, code="bad-step", least=0.0)
         whole = dt + self._lost  # Kahan's sum: what one frame loses to rounding the next one gets
@@ -138,7 +144,12 @@ class World:
         crossed: list[tuple[Any, ...]] = []
         for ball in np.flatnonzero(self._next_time <= end).tolist():
             crossed += self._cross(ball, end)
+            most = len(rows) + MOST_CONTACTS
             while (row := self._next[ball]) is not None and row[LOG.time] <= end:
+                if len(rows) >= most:
+                    raise limit_error(
+                        "contacts of a ball in one frame", f"{MOST_CONTACTS:,}", fix="take shorter frames"
+                    )
                 rows.append(row[None])
                 owners.append(ball)
                 if self.way == "exact":
@@ -157,12 +168,14 @@ class World:
         A velocity into the wall that the ball touches is turned at once, without a loss.
 
         Raises:
-            SceneError: there is no such ball, or a place or velocity is not two finite numbers.
+            SceneError: there is no such ball, or a place or velocity is not two finite numbers, or beyond what is known
+                to work.
         """
         most, may_be = len(self) - 1, f"a whole number from 0 to {len(self) - 1}"
         ball = whole_number(ball, "ball", may_be, error=SceneError, code="bad-ball", least=0, most=most)
         here = self.position[ball] if position is None else _pair(position, "position")
         speed = self.velocity[ball] if velocity is None else _pair(velocity, "velocity")
+        check_balls(Balls([here], [speed]), self._size, self.scene.gravity is not None)
         if self._stepper is not None:
             self._stepper.place(ball, here, speed, self.time)
             return

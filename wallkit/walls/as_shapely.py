@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from importers.limits import MAX_VERTICES, limit_error
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.bulge_arcs import edge_points
 from wallkit.geometry.ragged import numbered
@@ -53,18 +54,24 @@ def even_odd(rings: Any) -> Any:
 
 
 def straightened(walls: Walls, tolerance: float | None = None) -> tuple[FloatArray, IntArray]:
-    """Put lines in the place of arcs: vertices and offsets as in Walls. Line edges stay as they are."""
+    """Put lines in the place of arcs: vertices and offsets as in Walls. Line edges stay as they are.
+
+    Raises:
+        LimitError: more than 2,000,000 lines.
+    """
     if not walls.has_arcs:
         return walls.vertices, walls.offsets
     within = largest_distance(walls) if tolerance is None else tolerance
-    following = np.arange(1, len(walls.vertices) + 1)
-    full = np.diff(walls.offsets) > 0
-    following[walls.offsets[1:][full] - 1] = walls.offsets[:-1][full]
+    following, total = _following(walls), 0.0
     parts, counts = [], np.empty(len(walls.vertices), dtype=np.int64)
     for begin in range(0, len(counts), _AT_ONCE):
         some = slice(begin, begin + _AT_ONCE)
         a, b, bulge = walls.vertices[some], walls.vertices[following[some]], walls.bulges[some]
-        counts[some] = lines_in_arcs(a, b, bulge, within)
+        wanted = _lines_wanted(a, b, bulge, within)
+        total += float(wanted.sum())
+        if not total <= MAX_VERTICES + len(counts):
+            raise limit_error("lines in the place of arcs", f"{MAX_VERTICES:,}", fix="ask for a larger tolerance")
+        counts[some] = wanted
         which, rank = numbered(counts[some])
         points = a[which]
         inner = np.flatnonzero(rank)
@@ -80,12 +87,45 @@ def largest_distance(walls: Walls) -> float:
     return walls.tolerance or 1e-4 * math.hypot(high_x - low_x, high_y - low_y) or 1.0
 
 
-def lines_in_arcs(a: FloatArray, b: FloatArray, bulge: FloatArray, tolerance: float) -> IntArray:
-    """How many lines are put in the place of each edge from a to b: (n,)."""
+CHORDS, CHORDS_OF_AN_ARC = 100_000, 64
+"""So many lines are put in the place of arcs for a check, however small the tolerance is; or so many for each arc."""
+
+
+def check_tolerance(walls: Walls, tolerance: float) -> float:
+    """Give the distance from arcs at which checks see them as lines.
+
+    It is a tenth of the tolerance, 1e-4 of the walls' size where that is 0, or what so many lines come to. A chord
+    over the angle s is off by r s^2 / 8, so arcs of angles a take sum(a sqrt(r / 8)) / sqrt(tolerance) of them.
+    """
+    asked = tolerance / 10 or largest_distance(walls)
+    if not walls.has_arcs:
+        return asked
+    angle, radius = _arcs(walls.vertices, walls.vertices[_following(walls)], walls.bulges)
+    most = min(max(CHORDS, CHORDS_OF_AN_ARC * np.count_nonzero(angle)), MAX_VERTICES // 2)
+    return max(asked, float((np.abs(angle) * np.sqrt(radius / 8)).sum() / most) ** 2)
+
+
+def _following(walls: Walls) -> IntArray:
+    """(V,) the vertex after each, around the end of its wall."""
+    following = np.arange(1, len(walls.vertices) + 1)
+    full = np.diff(walls.offsets) > 0
+    following[walls.offsets[1:][full] - 1] = walls.offsets[:-1][full]
+    return following
+
+
+def _arcs(a: FloatArray, b: FloatArray, bulge: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Of each edge from a to b: the angle of the arc (0 for a line) and its radius (0)."""
     angle = 4 * np.arctan(bulge)
     half_chord = np.hypot(*(b - a).T) / 2
     with np.errstate(divide="ignore", invalid="ignore"):
-        radius = np.where(bulge != 0, half_chord / np.abs(np.sin(angle / 2)), 0.0)
+        return angle, np.where(bulge != 0, half_chord / np.abs(np.sin(angle / 2)), 0.0)
+
+
+def _lines_wanted(a: FloatArray, b: FloatArray, bulge: FloatArray, tolerance: float) -> FloatArray:
+    """How many lines are to be put in the place of each edge from a to b: (n,), 1 for a line."""
+    angle, radius = _arcs(a, b, bulge)
+    with np.errstate(divide="ignore", invalid="ignore"):
         step = 2 * np.arccos(np.clip(1 - tolerance / radius, math.cos(math.pi / 8), 1.0))
         step = np.where(step > 0, step, np.sqrt(8 * tolerance / radius))
-        return np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1).astype(np.int64)
+        wanted: FloatArray = np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1.0)
+    return wanted

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal, NamedTuple, TypedDict
 
+from importers.limits import MAX_COORDINATE
 from importers.page_choice import PageChoice
 from wallkit import arguments
 from wallkit.walls.repairing.repairs import Repairs
@@ -132,7 +133,7 @@ class ImportOptions:
             if not isinstance(getattr(self, name), bool):
                 raise self._wrong(name, "give true or false")
         for name in _LENGTHS:
-            self._number(name, least=0.0)
+            self._number(name, least=0.0, most=MAX_COORDINATE)
         if self.tolerance is not None:
             self._number("tolerance", least=0.0, above=True)
         self._number("scale", least=0.0, above=True)
@@ -184,10 +185,11 @@ class ImportOptions:
         pairs = ((name, getattr(self, name)) for name in option_names())
         return {name: value for name, value in pairs if value != getattr(usual, name)}
 
-    def _number(self, name: str, least: float, above: bool = False) -> None:
-        may_be = f"a number {'above' if above else 'from'} {least:g}"
-        at_least = math.nextafter(least, math.inf) if above else least
-        found = arguments.number(getattr(self, name), name, may_be, error=WallsError, code="bad-option", least=at_least)
+    def _number(self, name: str, least: float, above: bool = False, most: float = math.inf) -> None:
+        may_be = f"a number {'above' if above else 'from'} {least:g}" + (f" to {most:g}" if most < math.inf else "")
+        least = math.nextafter(least, math.inf) if above else least
+        value = getattr(self, name)
+        found = arguments.number(value, name, may_be, error=WallsError, code="bad-option", least=least, most=most)
         object.__setattr__(self, name, found)
 
     def _word(self, name: str, words: tuple[str, ...]) -> None:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from wallkit.arguments import ABOVE_0, number, of_type
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.triangulation import Triangulation
-from wallkit.walls.as_shapely import straightened
+from wallkit.walls.as_shapely import check_tolerance
 from wallkit.walls.checking.climbing import Segments, climb
 from wallkit.walls.checking.exact_widths import exact_edges, nearest_pair
 from wallkit.walls.checking.material import Solids
@@ -115,7 +115,7 @@ def free_space(walls: Walls, narrow: float = _NARROW) -> FreeSpace:
     """
     of_type(walls, "walls", Walls, "Walls", error=WallsError, code="bad-walls")
     may_be = "a number above 0"
-    number(narrow, "narrow", may_be, error=WallsError, code="bad-argument", least=ABOVE_0)
+    narrow = number(narrow, "narrow", may_be, error=WallsError, code="bad-argument", least=ABOVE_0)
     edges = straight_edges(walls)
     return free_space_among(walls, edges, MetLines.of(walls, edges), narrow)
 
@@ -147,7 +147,7 @@ def free_space_among(walls: Walls, edges: Edges, met: MetLines, narrow: float = 
         solids=solids,
     )
     found = _roomier(found, mesh, circles, seam)
-    return _sharpened(found, walls, vertices) if walls.has_arcs else found
+    return _sharpened(found, walls) if walls.has_arcs else found
 
 
 def _roomier(found: FreeSpace, mesh: Triangulation, circles: _Circles, seam: float) -> FreeSpace:
@@ -162,10 +162,10 @@ def _roomier(found: FreeSpace, mesh: Triangulation, circles: _Circles, seam: flo
     return replace(found, gaps=gaps, closed_rooms=largest[len(gaps) :])
 
 
-def _sharpened(found: FreeSpace, walls: Walls, vertices: FloatArray) -> FreeSpace:
+def _sharpened(found: FreeSpace, walls: Walls) -> FreeSpace:
     """Measure gaps between the arcs themselves."""
     exact = exact_edges(walls)
-    reach = 4 * (walls.tolerance / 10 or 1e-4 * diagonal(vertices))
+    reach = 4 * check_tolerance(walls, walls.tolerance)
     gaps = []
     for gap in found.gaps[:MOST_SHARPENED]:
         a, b = nearest_pair(exact, complex(*gap.a), complex(*gap.b), min(reach, 0.4 * gap.width))
@@ -182,11 +182,10 @@ def eroded(walls: Walls, radius: float) -> list[shapely.Polygon]:
     The plane is a box around the walls, wider by four radii. Round corners are polygons of 64 edges a quarter,
     on the safe side (inside) by 8e-5 radii at most.
     """
-    vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
-    edges = Edges(vertices, offsets, walls.closed)
+    edges = straight_edges(walls)
     lines = shapely.multilinestrings(shapely.linestrings(np.stack([edges.a, edges.b], axis=1)))
     taken = shapely.buffer(lines, radius / np.cos(np.pi / 256), quad_segs=64) if radius > 0 else lines.buffer(0)
-    low, high = vertices.min(axis=0) - 4 * radius - 1e-9, vertices.max(axis=0) + 4 * radius + 1e-9
+    low, high = edges.vertices.min(axis=0) - 4 * radius - 1e-9, edges.vertices.max(axis=0) + 4 * radius + 1e-9
     free = shapely.difference(shapely.box(*low, *high), taken)
     return [part for part in shapely.get_parts(free) if not part.is_empty]
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from importers.errors import LimitError
 from importers.problems import Problem, Severity
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.walls.as_shapely import straightened
+from wallkit.walls.as_shapely import check_tolerance, straightened
 from wallkit.walls.checking.loose_ends import LooseEnd, loose_ends, settled_places
 from wallkit.walls.checking.open_ends import Surroundings
 from wallkit.walls.copies import copies
@@ -97,8 +97,8 @@ def validate(
 
 
 def straight_edges(walls: Walls) -> Edges:
-    """The walls' edges, arcs as lines within a tenth of the tolerance."""
-    vertices, offsets = straightened(walls, walls.tolerance / 10 or None)
+    """The walls' edges, arcs as lines within :func:`check_tolerance`."""
+    vertices, offsets = straightened(walls, check_tolerance(walls, walls.tolerance))
     return Edges(vertices, offsets, walls.closed)
 
 

@@ -142,11 +142,19 @@ def on_grid(outlines: Outlines, grid: float) -> tuple[Outlines, float]:
         its point at z (0 at a, 1 at b, complex) moves by (1 - z) da + z db, and |1 - z| + |z| <= sqrt(2) up to a half
         circle.
     """
-    parts = round(1.0 / grid) if grid < 1.0 else 0
+    parts = round(1.0 / grid) if 2.0**-1000 < grid < 1.0 else 0
     whole = bool(parts) and abs(parts * grid - 1.0) <= 2.0**-50
-    vertices = np.round(outlines.vertices * parts) / parts if whole else np.round(outlines.vertices / grid) * grid
+    multiples = outlines.vertices * float(parts) if whole else _quotient(outlines.vertices, grid)
+    near = np.round(multiples) / parts if whole else np.round(multiples) * grid
+    # beyond 2^52 a double is a whole number, so the vertex is on the grid as well as a double can be
+    vertices = np.where(np.abs(multiples) < 2.0**52, near, outlines.vertices)
     moved = float(np.hypot(*(vertices - outlines.vertices).T).max(initial=0.0))
     return replace(outlines, vertices=vertices + 0.0), moved * (math.sqrt(2.0) if outlines.bulges.any() else 1.0)
+
+
+def _quotient(vertices: FloatArray, grid: float) -> FloatArray:
+    with np.errstate(over="ignore"):  # an infinite one is beyond any whole number that matters
+        return vertices / grid
 
 
 def assemble(segments: Segments, pieces: Pieces, paths: list[DrawnPath]) -> Outlines:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from importers.boxes import Box, box_of
 from importers.drawing import Artboard, Drawing, DrawnPath, Segment, Subpath
+from importers.limits import MAX_COORDINATE
 from importers.page_choice import keep_artboard
 from importers.problems import Problem
 from wallkit.walls.import_options import INCH, ImportOptions, point_of, scale_of
@@ -29,7 +30,8 @@ def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
     Raises:
         DrawingError: there is no such page.
         LimitError: the clips are too large to cut with.
-        WallsError: the origin is to be a page or box that the drawing has not, or its units are no lengths.
+        WallsError: the origin is to be a page or box that the drawing has not, its units are no lengths, or what comes
+            out is larger than 1e9.
     """
     if isinstance(options.page, int) and drawing.page != options.page:
         drawing = replace(drawing, problems=list(drawing.problems))
@@ -42,14 +44,14 @@ def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
 
         drawing = clipped(drawing, _nearness(drawing, options, a / b))
     if units == drawing.units and a == b and not options.origin:
-        return drawing
+        return _reachable(drawing, options)
     x0, y0 = point_of(options.origin) or _corner(drawing, options, a, b)
     factor = a / b
 
     def moved(x: float, y: float) -> tuple[float, float]:
         return x * a / b - x0, y * a / b - y0
 
-    return replace(
+    found = replace(
         drawing,
         units=units,
         paths=[_path(path, moved, factor) for path in drawing.paths],
@@ -57,6 +59,19 @@ def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
         artboards=[_artboard(board, moved) for board in drawing.artboards],
         sheet=None if drawing.sheet is None else _artboard(drawing.sheet, moved),
     )
+    return _reachable(found, options)
+
+
+def _reachable(drawing: Drawing, options: ImportOptions) -> Drawing:
+    """Give the drawing back if it stays within the largest coordinates, once it is scaled; readers see to the rest."""
+    moves = [f"--{name}" for name in ("units", "origin") if getattr(options, name)]
+    moves += ["--scale"] if options.scale > 1.0 else []
+    most = MAX_COORDINATE / max(1.0, options.scale)
+    if moves and not all(sub.within(most) for path in drawing.paths for sub in path.subpaths):
+        message = f"the drawing reaches beyond {MAX_COORDINATE:g} with {' and '.join(moves)}"
+        fix = "ask for larger units, a smaller scale or a nearer origin"
+        raise WallsError(message, code="bad-option", fix=fix, file=drawing.file)
+    return drawing
 
 
 def _ratio(drawing: Drawing, options: ImportOptions) -> tuple[str, float, float]:

@@ -19,7 +19,7 @@ from wallkit.walls.repairing.loose_walls import LooseWall, edges_of, like
 
 def resolve_crossings(lines: list[LooseWall], tolerance: float) -> Repaired:
     """Put the outline of what they enclose in the place of closed lines that cross or run over themselves."""
-    edges = edges_of(lines, tolerance / 10)
+    edges = edges_of(lines, tolerance)
     touches = find_touches(edges)
     own = touches.crossing_walls[:, 0] == touches.crossing_walls[:, 1]
     pairs = edges.wall[touches.overlap_edges].reshape(-1, 2)
@@ -64,7 +64,7 @@ def rings_around(area: shapely.Geometry) -> list[FloatArray]:
 
 def unite(lines: list[LooseWall], tolerance: float, arena: bool) -> Repaired:
     """Make one solid of those that overlap or share an edge, with the holes that are left of theirs."""
-    edges = edges_of(lines, tolerance / 10)
+    edges = edges_of(lines, tolerance)
     touches = find_touches(edges)
     depth, _ = depths(edges, touches.crossing_walls)
     depth = depth + (1 if arena else 0)
@@ -134,7 +134,7 @@ def remove_slivers(lines: list[LooseWall], width: float, tolerance: float) -> Re
     """
     if not lines:
         return lines, 0, 0.0, "", None
-    edges = edges_of(lines, tolerance / 10)
+    edges = edges_of(lines, tolerance)
     area = np.abs(edges.areas)
     perimeter = np.bincount(edges.wall, np.hypot(*(edges.b - edges.a).T), len(lines))
     closed = np.array([line.closed for line in lines], dtype=np.bool_)

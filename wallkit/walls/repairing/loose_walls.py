@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray
-from wallkit.walls.as_shapely import straightened
+from wallkit.walls.as_shapely import check_tolerance, straightened
 from wallkit.walls.edge_tree import Edges
 from wallkit.walls.origins import NOWHERE, Origin
 from wallkit.walls.walls import ARRAYS, Material, Sides, Walls
@@ -78,10 +78,10 @@ def from_lines(walls: Walls, lines: Sequence[LooseWall]) -> Walls:
 
 
 def edges_of(lines: Sequence[LooseWall], tolerance: float = 0.0) -> Edges:
-    """The straight edges of lines; with a tolerance arcs become lines within it, else their chords count."""
+    """The straight edges of lines; with a tolerance arcs become lines as checks see them, else their chords count."""
     walls = from_lines(Walls.from_polylines([]), lines)
     if tolerance:
-        vertices, offsets = straightened(walls, tolerance)
+        vertices, offsets = straightened(walls, check_tolerance(walls, tolerance))
         return Edges(vertices, offsets, walls.closed)
     return Edges(walls.vertices, walls.offsets, walls.closed)
 

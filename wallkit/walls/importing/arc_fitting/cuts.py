@@ -166,7 +166,8 @@ def even_out(chains: Chains, best: Spans, fit: Fit, whole: Spans, tolerance: flo
         needed = np.bincount(trial.stretch, share, minlength=count)
         # the first shares are of directions that do not lean yet, and at the two ends they never do
         needed = needed if round_ else np.minimum(needed, _LEANING * needed + 0.5)
-        wanted = np.maximum(np.ceil(needed - 0.02), 1).astype(np.int64)
+        # as many as there are already, or more, are not tried: a tolerance near rounding may ask for any number
+        wanted = np.maximum(np.minimum(np.ceil(needed - 0.02), cost), 1).astype(np.int64)
         # every number has a second chance, with the better shares; then it is one more, or 2 % of many
         wanted = np.maximum(wanted, failed + (1 + failed // 50) * (round_ % 2 == 0))
         open_ &= wanted < cost
