@@ -81,7 +81,7 @@ def good_coordinate(value: float) -> bool:
     return math.isfinite(value) and abs(value) <= MAX_COORDINATE
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Work:
     """The budget of work of one file: every loop over what the file holds draws on it, by what it does.
 
@@ -139,7 +139,7 @@ class Unpacked(NamedTuple):
     damage: str
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Unpacker:
     """Decompresses the streams of one file and never makes more of them than the limits allow.
 

@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from wallkit.walls.checking.free_space import FreeSpace, Gap, free_space
     from wallkit.walls.import_options import ImportOptions
     from wallkit.walls.importing.pipeline import import_walls
-    from wallkit.walls.repairing.passes import Repairs
+    from wallkit.walls.repairing.repairs import Repairs
     from wallkit.walls.walls import WallsError
 
 _HOMES = {
@@ -73,7 +73,7 @@ _HOMES = {
     "wallkit.view.film": ("film",),
     "wallkit.view.replay": ("replay_html",),
     "wallkit.walls.checking.free_space": ("FreeSpace", "Gap", "free_space"),
-    "wallkit.walls.repairing.passes": ("Repairs",),
+    "wallkit.walls.repairing.repairs": ("Repairs",),
     "wallkit.scene.scene": ("Balls", "Scene", "SceneError"),
     "wallkit.simulation.simulate": ("simulate",),
     "wallkit.simulation.prepared": ("PreparedScene", "prepare"),

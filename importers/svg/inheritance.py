@@ -95,17 +95,17 @@ def _font(parent: Style, declared: Declared, changes: dict[str, Any]) -> Font:
     size = declared.get("font-size", INHERIT)
     if size != INHERIT:
         terms: Terms = ((16.0, "px"),) if size == INITIAL else size
-        font = replace(font, size=max(0.0, to_px(terms, parent.font.size, parent.font)))
+        font = font._replace(size=max(0.0, to_px(terms, parent.font.size, parent.font)))
     height = declared.get("line-height", INHERIT)
     factor = parent.line_factor
     if height in ("normal", INITIAL):
         factor = None
-        font = replace(font, line_height=None)
+        font = font._replace(line_height=None)
     elif height != INHERIT:
         factor = height[0][0] if len(height) == 1 and height[0][1] == "" else None
-        font = replace(font, line_height=to_px(height, font.size, font))
+        font = font._replace(line_height=to_px(height, font.size, font))
     if factor is not None:
-        font = replace(font, line_height=finite(factor * font.size))
+        font = font._replace(line_height=finite(factor * font.size))
     if factor != parent.line_factor:
         changes["line_factor"] = factor
     return font

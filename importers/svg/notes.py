@@ -13,7 +13,7 @@ from importers.svg.source import Source
 MOST = 200  # problems of one code that are told one by one
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class _Kind:
     severity: Severity
     message: str

@@ -15,7 +15,7 @@ import itertools
 import math
 import operator
 import re
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from importers.drawing import Segment, Subpath
 from importers.limits import MAX_ELEMENTS, limit_error
@@ -41,8 +41,7 @@ _TOKEN = re.compile(rf"[MmZzLlHhVvCcSsQqTtAa]|{_NUMBER}")
 _FLAGS = {"0": False, "1": True}
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(NamedTuple):
     """Where and why the reading of an attribute stopped.
 
     Attributes:

@@ -144,7 +144,7 @@ def _arguments(function: Any) -> Iterator[list[Any]]:
             argument.append(token)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Chain:
     """A selector of parts with combinators between, for ``cssselect2.Matcher``, which looks up its last part.
 

@@ -36,7 +36,7 @@ _AXES = {
 _STYLED = frozenset(("x", "y", "cx", "cy", "r", "rx", "ry", "width", "height"))
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Lengths:
     """The lengths of one element, resolved: a style sheet's before the attribute's.
 
@@ -99,7 +99,7 @@ class Lengths:
         return value if isinstance(value, tuple) else None
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Shape:
     """What a shape element draws.
 

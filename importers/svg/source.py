@@ -79,7 +79,7 @@ def _decode(data: bytes, name: str, file: str) -> tuple[str, str]:
         return data.decode(name, "replace"), f"there are bytes that are not {name}, the first in line {line}"
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Source:
     """A parsed file and where everything in it stands.
 

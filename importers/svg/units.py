@@ -10,9 +10,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import tinycss2
 
@@ -70,8 +69,7 @@ _LONG_NUMBER = 300  # letters; the largest double has 309 digits
 MAX_LENGTH_LETTERS = 256
 
 
-@dataclass(frozen=True, slots=True)
-class Font:
+class Font(NamedTuple):
     """What font units need.
 
     Attributes:
@@ -86,8 +84,7 @@ class Font:
 ROOT_FONT = Font()
 
 
-@dataclass(frozen=True, slots=True)
-class Viewport:
+class Viewport(NamedTuple):
     """What percentages refer to: the size of the nearest viewport in its user units."""
 
     width: float

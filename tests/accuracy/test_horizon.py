@@ -242,6 +242,26 @@ def test_a_parabola_that_turns_round_just_below_a_ceiling_is_noticed():
     assert clear[0][0] == pytest.approx(1e-8, abs=1e-13)
 
 
+@pytest.mark.parametrize("gravity", [None, (0.0, -9.81)])
+@pytest.mark.parametrize("radius", [0.0, 1.0])
+def test_what_a_tree_finds_near_a_path_is_what_all_pairs_give(gravity, radius, monkeypatch):
+    rng = np.random.default_rng(3)
+    sticks = [np.add(rng.uniform(4, 56, 2), [(0, 0), rng.uniform(-3, 3, 2)]) for _ in range(40)]
+    walls = Walls.from_polylines(
+        [[(0, 0), (0, 60), (60, 60), (60, 0)], *sticks],
+        closed=[True] + [False] * 40,
+        bulges=[[0.0, 0.3, 0.0, 0.0]] + [[0.5, 0.0]] * 20 + [[0.0, 0.0]] * 20,
+    )
+    scene = Scene(walls, Balls([(2.0, 2.0)], [(7.0, 9.0)], radius), gravity=gravity)
+    flights = horizon._flights(scene, simulate(scene, bounces=30).contacts, 0)
+    by_pairs = list(near_misses(scene, flights, radius, 0.5))
+    assert sum(len(found) for found, _, _ in by_pairs)
+    monkeypatch.setattr("wallkit.simulation.near_misses._ALL_PAIRS", 0)
+    for (found, clear, what), other in zip(by_pairs, near_misses(scene, flights, radius, 0.5), strict=True):
+        assert sorted(zip(found, clear, strict=True)) == sorted(zip(other[0], other[1], strict=True))
+        assert what == other[2]
+
+
 @pytest.mark.parametrize("acts", [{"rolling_friction": 0.04}, {"drag": 1e-3}], ids=str)
 def test_what_slows_a_ball_down_leaves_its_errors_as_they_are(acts):
     walls = Walls.from_polylines([scenes.star().vertices], material=Material(0.99, 0.98))

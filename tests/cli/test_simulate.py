@@ -146,6 +146,21 @@ def test_a_small_run_waits_for_no_compiler_and_no_big_library(scene):
     assert imported(scene, {"llvmlite", "scipy", "svgpathtools", "pikepdf", "PIL"}) == "[]\n"
 
 
+def test_a_small_run_loads_only_what_it_uses(tmp_path):
+    script = (
+        "import sys; sys.argv = ['wallkit', 'simulate', 'samples/room.svg', '-o', sys.argv[1]]\n"
+        "from wallkit.cli import main\n"
+        "main()\n"
+        "print(*sys.modules, file=sys.stderr)"
+    )
+    command = [sys.executable, "-c", script, tmp_path / "contacts.csv"]
+    loaded = subprocess.run(command, capture_output=True, text=True, check=True).stderr.split()
+    unused = ("shapely", "fractions", "zipfile", "wallkit.export", "wallkit.view", "wallkit.levels", "wallkit.accuracy",
+              "wallkit.scene.lesson", "wallkit.walls.checking.widths", "wallkit.walls.importing.clips",
+              "wallkit.walls.repairing.passes", "wallkit.walls.walls_json")  # fmt: skip
+    assert [name for name in loaded if name.startswith(unused)] == []
+
+
 def test_a_run_of_a_drawing_waits_for_no_reader_of_scenes(tmp_path):
     drawing = tmp_path / "room.svg"
     drawing.write_text(

@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 from wallkit.walls import Walls
 from wallkit.walls.checking.widths import is_thin
 from wallkit.walls.importing.pipeline import import_walls
-from wallkit.walls.repairing.passes import Repairs, repair
+from wallkit.walls.repairing.passes import repair
+from wallkit.walls.repairing.repairs import Repairs
 from wallkit.walls.walls import WallsError
 
 EVERYTHING = Repairs(

@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 from wallkit.walls import Walls
 from wallkit.walls.importing.pipeline import import_walls
 from wallkit.walls.repairing.loose_walls import to_lines
-from wallkit.walls.repairing.passes import Repairs, repair
+from wallkit.walls.repairing.passes import repair
+from wallkit.walls.repairing.repairs import Repairs
 from wallkit.walls.repairing.snapping import snap_ends
 
 # A frame that is not quite closed, drawn in two strokes; a post from its top; one that sticks out at the bottom by 0.9.

@@ -26,7 +26,7 @@ Place = tuple[float, float]
 MOST_STEPS = 400_000
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Flown:
     """What a contestant gave.
 
@@ -41,7 +41,7 @@ class Flown:
     seconds: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Contestant:
     """One setting of one series.
 
@@ -118,7 +118,7 @@ def _ahead(world: Any, rest: float) -> FloatArray:
     return position
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Stepper:
     """An engine that was set up: ``step`` moves on by its time step, ``state`` gives positions and velocities.
 

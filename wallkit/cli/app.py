@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import importlib
 import os
 import sys
@@ -73,14 +72,8 @@ def _register_commands(wanted: str = "") -> None:
         command.cls = PlainCommand
 
 
-BETWEEN_COLLECTIONS = 20_000
-"""New objects after which Python looks for cycles. Modules and what a drawing holds make hundreds of thousands, which
-stay: with the usual 700 a tenth of a small command's time went into looking at them."""
-
-
-def main() -> None:
-    """Run the command line; end with 0 fine, 1 findings, 2 unreadable input or usage, 3 a limit, 130 interrupted."""
-    gc.set_threshold(BETWEEN_COLLECTIONS, *gc.get_threshold()[1:])
+def run() -> None:
+    """Run the command that the command line names, and put errors into words."""
     _register_commands("".join(sys.argv[1:2]))
     try:
         app()

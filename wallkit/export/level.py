@@ -28,7 +28,7 @@ LARGER_SIDE = 20.0  # m, of a level in an engine that counts in metres
 MIN_SPACING = 0.0051  # m: Box2D's linear slop is 0.005
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class LevelWall:
     """One wall in a target's numbers.
 

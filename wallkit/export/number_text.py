@@ -13,7 +13,7 @@ from wallkit.geometry.arrays import FloatArray
 BLOCK = 2048  # rows that are Python's numbers at the same time: a number takes 24 bytes there, and a list's place
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Rows:
     """Rows of numbers with all their digits. Their text is several times as large, and never stands in memory whole.
 

@@ -10,7 +10,7 @@ import numpy as np
 from wallkit.geometry.arrays import FloatArray, IntArray
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Pieces:
     """Polygons one after the other.
 

@@ -19,7 +19,7 @@ TILE = 32  # px; a map must have tiles, and only its size in tiles is seen
 Value = str | float | bool
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class TiledObject:
     """One object: a polygon or polyline about its own place.
 

@@ -7,8 +7,8 @@ that the work is done in whole arrays.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache, cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -97,8 +97,7 @@ class BoxTree:
         return question, key - question * count
 
 
-@dataclass(frozen=True, slots=True)
-class _Level:
+class _Level(NamedTuple):
     """Boxes in rows of _WIDTH; the last row is filled up with boxes that nothing meets.
 
     Attributes:

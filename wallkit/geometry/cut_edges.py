@@ -40,7 +40,7 @@ def cut(mesh: HalfEdges, h: IntArray, at: FloatArray, size: float) -> HalfEdges:
     return finer
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class _Cuts:
     """Edges that are still to be cut, by their label, from 1.
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Arcs:
     """Elliptic arcs in centre form.
 

@@ -16,7 +16,7 @@ ComplexArray = NDArray[np.complex128]
 _FLAT = 1e-9  # an arc of a smaller bulge bows by less than 1e-9 of its chord and counts as a line here
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class ExactEdges:
     """Lines and arcs as complex numbers: end points, and for arcs centre, radius and the angle that is turned by.
 

@@ -9,7 +9,6 @@ into two floats without error, and ``math.fsum`` rounds their sum only once.
 from __future__ import annotations
 
 import math
-from fractions import Fraction
 from typing import TypeVar
 
 import numpy as np
@@ -58,6 +57,8 @@ def in_circle(a: _Place, b: _Place, c: _Place, d: _Place) -> int:
     most = p * (abs(bx * cy) + abs(cx * by)) + q * (abs(cx * ay) + abs(ax * cy)) + r * (abs(ax * by) + abs(bx * ay))
     if abs(det) > _CIRCLE_BOUND * most:
         return (det > 0) - (det < 0)
+    from fractions import Fraction  # late: it is rarely asked for
+
     dx, dy = Fraction(d[0]), Fraction(d[1])
     rows = [(Fraction(x) - dx, Fraction(y) - dy) for x, y in (a, b, c)]
     (px, py, p2), (qx, qy, q2), (rx, ry, r2) = ((x, y, x * x + y * y) for x, y in rows)

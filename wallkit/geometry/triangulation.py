@@ -20,7 +20,7 @@ MOST_CROSSED, MORE_CROSSED = 100_000, 4
 _FRAME = 4.0  # in diagonals: the frame is far enough to count as outside
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Triangulation:
     """Triangles of points, the walls among their edges.
 

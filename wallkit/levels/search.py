@@ -58,7 +58,7 @@ class Searched(NamedTuple):
     shots: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Shooter:
     """A scene in which shots are flown from one point.
 

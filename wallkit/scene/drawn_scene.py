@@ -23,7 +23,7 @@ SPEED, ANGLE = 50.0, 30.0
 """Of a ball whose velocity nobody said: units per second, and degrees from the x axis towards the y axis."""
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Drawn:
     """What a drawing holds.
 

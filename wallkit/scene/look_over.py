@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from wallkit.walls.met_lines import MetLines
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Given:
     """What FILE holds: walls, places and radii of its balls, all that was found in it, and what was assumed.
 

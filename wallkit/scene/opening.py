@@ -19,20 +19,20 @@ from wallkit.scene.asked_balls import walls_and_balls
 from wallkit.scene.ball_findings import ball_findings
 from wallkit.scene.drawn_scene import Drawn, apart, drawn_scene
 from wallkit.scene.file_kinds import kind_of
-from wallkit.scene.lesson import Lesson
 from wallkit.scene.scene import Scene, downwards, falls
 from wallkit.scene.wishes import USUAL, UsageError, Wishes
 from wallkit.walls import Walls
 from wallkit.walls.import_options import REPAIRS, ImportOptions, as_option
 
 if TYPE_CHECKING:
+    from wallkit.scene.lesson import Lesson
     from wallkit.scene.scene_files import SceneFile
     from wallkit.walls.met_lines import MetLines
 
 BOUNCES = 100
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class OpenedScene:
     """A scene that is ready to fly.
 

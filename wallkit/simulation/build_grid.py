@@ -58,7 +58,7 @@ GROWTH, AT_LEAST = 64, 1 << 12
 over, and cells around a vertex at which a thousand edges meet are crowded however small they are."""
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class _Level:
     """Cells of blocks, and the ids that they list; ``divided`` cells are the ``parts`` of the next level."""
 

@@ -15,8 +15,7 @@ turned does not set out the other way, so that only one motion starts apart from
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,8 +52,7 @@ def glides_of(scene: Scene, own: NDArray[Any], gravity: FloatArray) -> FloatArra
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class _Glide:
+class _Glide(NamedTuple):
     """A ball at the start of its way along a circle: radius, signed as of ``guides``, e, t, v and the place."""
 
     bent: float

@@ -12,7 +12,7 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.simulation.near_misses import FlightTable, closest
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Flights:
     """Flights of one or many discs: who, between which contacts, from where, and what is promised on the way.
 

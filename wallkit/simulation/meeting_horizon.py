@@ -81,7 +81,7 @@ def _on_a_free_clock(run: Run) -> Run:
     return replace(run, scene=replace(run.scene, drag=None), contacts=contacts, final=final)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class _Cloud:
     """The discs after their last contacts, and ``SAMPLES`` errors of each.
 
@@ -106,7 +106,7 @@ class _Cloud:
     wide: FloatArray
 
 
-@dataclass
+@dataclass(eq=False, repr=False)
 class _Trust:
     """What is known so far: per disc from which contact, and from which time on, nothing is promised, and why."""
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from wallkit.scene.scene import Scene
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Motion:
     """What m balls do, each from its start or a contact on until the next one.
 

@@ -7,12 +7,10 @@ misses is widened by its radius.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
@@ -21,12 +19,13 @@ from wallkit.scene.scene import Scene
 from wallkit.simulation.damping import flown_on
 
 NEAR_CORNER, NEAR_GRAZE = 1, 2
+_ALL_PAIRS = 1 << 14
+"""Of a flight and a thing, so many are all looked at: importing shapely for a tree takes longer."""
 Near = tuple[NDArray[np.int64], FloatArray, int]
 """Which flights, by how much they missed, and what: CORNER or GRAZE."""
 
 
-@dataclass(frozen=True, slots=True)
-class FlightTable:
+class FlightTable(NamedTuple):
     """The flights of one ball from contact to contact.
 
     Attributes:
@@ -82,7 +81,7 @@ def near_misses(scene: Scene, flights: FlightTable, radius: float, reach: float)
 def _near_corners(scene: Scene, flights: FlightTable, radius: float, reach: float) -> Near:
     """Flights that pass a corner by no more than ``reach``."""
     corners = _turning_corners(scene)
-    found, corner = _pairs(flights, shapely.points(corners), radius + reach)
+    found, corner = _pairs(flights, len(corners), lambda shapely: shapely.points(corners), radius + reach)
     along, clear = closest(flights, found, corners[corner])
     # A disc rolls from an edge on to its corner without a jump: only a corner passed in full flight decides.
     # For a point the hit itself counts; where it started is the last flight's end and was judged there.
@@ -116,7 +115,7 @@ def _near_arcs(scene: Scene, flights: FlightTable, radius: float, reach: float) 
     bulge = walls.bulges[walls.edge_starts[edges]]
     centre, curve = circles(a, b, bulge)
     around = np.stack([centre - curve[:, None], centre + curve[:, None]], axis=1).reshape(-1, 4)
-    found, arc = _pairs(flights, shapely.box(*around.T), radius + reach)
+    found, arc = _pairs(flights, len(around), lambda shapely: shapely.box(*around.T), radius + reach)
     along, distance = closest(flights, found, centre[arc])
     chord = b - a
     middle = np.sign(bulge)[:, None] * np.stack([chord[:, 1], -chord[:, 0]], axis=1)
@@ -134,7 +133,8 @@ def _near_lines(scene: Scene, flights: FlightTable, radius: float, reach: float)
     walls = scene.walls
     edges = np.flatnonzero(walls.bulges[walls.edge_starts] == 0)
     a, b = walls.vertices[walls.edge_starts[edges]], walls.vertices[walls.edge_ends[edges]]
-    found, line = _pairs(flights, shapely.linestrings(np.stack([a, b], axis=1)), radius + reach)
+    ends = np.stack([a, b], axis=1)
+    found, line = _pairs(flights, len(ends), lambda shapely: shapely.linestrings(ends), radius + reach)
     along = (b - a)[line]
     length = np.hypot(along[:, 0], along[:, 1])
     normal = np.stack([along[:, 1], -along[:, 0]], axis=1) / np.maximum(length, 1e-300)[:, None]
@@ -154,9 +154,19 @@ def _near_lines(scene: Scene, flights: FlightTable, radius: float, reach: float)
     return found[keep], clear[keep], NEAR_GRAZE
 
 
-def _pairs(flights: FlightTable, things: NDArray[Any], distance: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Which flights come how near to which things: by distance, or for parabolas by the box around them."""
-    tree = shapely.STRtree(things)
+def _pairs(
+    flights: FlightTable, count: int, made: Callable[[Any], NDArray[Any]], distance: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Which flights may come how near to which of ``count`` things, that shapely makes; those that do are among them.
+
+    By distance, or for parabolas by the box around them.
+    """
+    if len(flights.time) * count <= _ALL_PAIRS:
+        found, thing = np.indices((len(flights.time), count)).reshape(2, -1)
+        return found, thing
+    import shapely
+
+    tree = shapely.STRtree(made(shapely))
     if flights.pull is None:
         lines = shapely.linestrings(np.stack([flights.start, flights.end], axis=1))
         found, thing = tree.query(lines, predicate="dwithin", distance=distance)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import zipfile
 from pathlib import Path
 from typing import IO, Any
 
@@ -13,7 +12,6 @@ from numpy.typing import NDArray
 
 from importers.errors import WallkitError
 from wallkit.scene.scene import Scene
-from wallkit.scene.scene_files import read_scene, scene_to_json
 from wallkit.simulation.run import CONTACT, FINAL, MEETING_CONTACT, ContactKind, Ending, Run, one_a_ball
 from wallkit.write_file import write_whole
 
@@ -52,6 +50,8 @@ def to_json(run: Run, trusted: list[Any] | None = None, until: float | None = No
         until: the end that was given.
         bounces: the same in bounces a ball.
     """
+    from wallkit.scene.scene_files import scene_to_json
+
     names = run.final.dtype.names or ()
     whole = {
         "format": "wallkit-run",
@@ -80,6 +80,8 @@ def load(source: str | Path | IO[bytes] | IO[str]) -> Run:
     Raises:
         WallkitError: it cannot be read or is no run; the message says what is wrong.
     """
+    from wallkit.scene.scene_files import read_scene
+
     name = str(source) if isinstance(source, str | Path) else str(getattr(source, "name", ""))
     try:
         data: str | bytes = Path(source).read_bytes() if isinstance(source, str | Path) else source.read()
@@ -122,6 +124,8 @@ def to_npz(run: Run) -> bytes:
 
     The archive carries no dates, so that the same run gives the same bytes.
     """
+    import zipfile
+
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
         for name in columns_of(run.contacts):

@@ -30,7 +30,7 @@ MOST_FRAMES = 200_000
 """Of all balls together: some ten seconds of work, and a thousand frames a second for three minutes of one ball."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Stepped:
     """A scene as a program that steps by frames has it.
 

@@ -25,7 +25,7 @@ FINE = 0.03
 MOST_CHORDS = 400
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Tracks:
     """Stretches between contacts: p + v s + a s^2 / 2 for the time s since the stretch began.
 

@@ -6,13 +6,15 @@ import math
 from typing import Any
 
 import numpy as np
-import shapely
 
 from importers.limits import MAX_VERTICES, limit_error
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.bulge_arcs import edge_points
+from wallkit.geometry.ragged import numbered
 from wallkit.geometry.rings import rings_of
 from wallkit.walls.walls import Walls
+
+_AT_ONCE = 1 << 14  # edges: what they need stays in the cache
 
 
 def to_shapely(walls: Walls, tolerance: float | None = None) -> Any:
@@ -28,6 +30,8 @@ def to_shapely(walls: Walls, tolerance: float | None = None) -> Any:
         for a room, whose material is outside, the free space inside is what is given), and the open walls as
         a MultiLineString.
     """
+    import shapely
+
     vertices, offsets = straightened(walls, tolerance)
     rings = rings_of(vertices, offsets)[walls.closed]
     rings = rings[rings != None]  # noqa: E711  (elementwise)
@@ -38,6 +42,8 @@ def to_shapely(walls: Walls, tolerance: float | None = None) -> Any:
 
 def even_odd(rings: Any) -> Any:
     """Area that an odd number of the polygons covers, each made valid first; in pairs, so that no part grows early."""
+    import shapely
+
     if not len(rings):
         return shapely.MultiPolygon()
     layer = np.where(shapely.is_valid(rings), rings, shapely.make_valid(rings, method="structure"))
@@ -55,12 +61,24 @@ def straightened(walls: Walls, tolerance: float | None = None) -> tuple[FloatArr
     """
     if not walls.has_arcs:
         return walls.vertices, walls.offsets
-    counts, inner, ranks = points_in_arcs(walls, largest_distance(walls) if tolerance is None else tolerance)
-    first = np.cumsum(counts) - counts
-    vertices = np.empty((int(counts.sum()), 2))
-    vertices[first] = walls.vertices
-    vertices[np.repeat(first, counts - 1) + ranks] = inner
-    return vertices, np.concatenate([[0], np.cumsum(counts)])[walls.offsets]
+    within = largest_distance(walls) if tolerance is None else tolerance
+    following, total = _following(walls), 0.0
+    parts, counts = [], np.empty(len(walls.vertices), dtype=np.int64)
+    for begin in range(0, len(counts), _AT_ONCE):
+        some = slice(begin, begin + _AT_ONCE)
+        a, b, bulge = walls.vertices[some], walls.vertices[following[some]], walls.bulges[some]
+        wanted = _lines_wanted(a, b, bulge, within)
+        total += float(wanted.sum())
+        if not total <= MAX_VERTICES + len(counts):
+            raise limit_error("lines in the place of arcs", f"{MAX_VERTICES:,}", fix="ask for a larger tolerance")
+        counts[some] = wanted
+        which, rank = numbered(counts[some])
+        points = a[which]
+        inner = np.flatnonzero(rank)
+        on = which[inner]
+        points[inner] = edge_points(a[on], b[on], bulge[on], rank[inner] / counts[some][on])
+        parts.append(points)
+    return np.concatenate(parts), np.concatenate([[0], np.cumsum(counts)])[walls.offsets]
 
 
 def largest_distance(walls: Walls) -> float:
@@ -82,38 +100,32 @@ def check_tolerance(walls: Walls, tolerance: float) -> float:
     asked = tolerance / 10 or largest_distance(walls)
     if not walls.has_arcs:
         return asked
-    *_, angle, radius = _arcs(walls)
+    angle, radius = _arcs(walls.vertices, walls.vertices[_following(walls)], walls.bulges)
     most = min(max(CHORDS, CHORDS_OF_AN_ARC * np.count_nonzero(angle)), MAX_VERTICES // 2)
     return max(asked, float((np.abs(angle) * np.sqrt(radius / 8)).sum() / most) ** 2)
 
 
-def _arcs(walls: Walls) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Of each vertex: itself, the one behind it, the angle of the arc between (0 for a line), its radius (0)."""
+def _following(walls: Walls) -> IntArray:
+    """(V,) the vertex after each, around the end of its wall."""
     following = np.arange(1, len(walls.vertices) + 1)
     full = np.diff(walls.offsets) > 0
     following[walls.offsets[1:][full] - 1] = walls.offsets[:-1][full]
-    a, b, bulge = walls.vertices, walls.vertices[following], walls.bulges
+    return following
+
+
+def _arcs(a: FloatArray, b: FloatArray, bulge: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Of each edge from a to b: the angle of the arc (0 for a line) and its radius (0)."""
     angle = 4 * np.arctan(bulge)
     half_chord = np.hypot(*(b - a).T) / 2
     with np.errstate(divide="ignore", invalid="ignore"):
-        return a, b, angle, np.where(bulge != 0, half_chord / np.abs(np.sin(angle / 2)), 0.0)
+        return angle, np.where(bulge != 0, half_chord / np.abs(np.sin(angle / 2)), 0.0)
 
 
-def points_in_arcs(walls: Walls, tolerance: float) -> tuple[IntArray, FloatArray, IntArray]:
-    """Points along each arc: vertices that each vertex turns into, the new points, and their rank from 1.
-
-    Raises:
-        LimitError: more than 2,000,000 of them.
-    """
-    a, b, angle, radius = _arcs(walls)
-    bulge = walls.bulges
+def _lines_wanted(a: FloatArray, b: FloatArray, bulge: FloatArray, tolerance: float) -> FloatArray:
+    """How many lines are to be put in the place of each edge from a to b: (n,), 1 for a line."""
+    angle, radius = _arcs(a, b, bulge)
     with np.errstate(divide="ignore", invalid="ignore"):
         step = 2 * np.arccos(np.clip(1 - tolerance / radius, math.cos(math.pi / 8), 1.0))
         step = np.where(step > 0, step, np.sqrt(8 * tolerance / radius))
-        wanted = np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1)
-    if not wanted.sum() <= MAX_VERTICES + len(a):
-        raise limit_error("lines in the place of arcs", f"{MAX_VERTICES:,}", fix="ask for a larger tolerance")
-    counts = wanted.astype(np.int64)
-    which = np.repeat(np.arange(len(counts)), counts - 1)
-    rank = np.arange(len(which)) - np.repeat(np.cumsum(counts - 1) - (counts - 1), counts - 1) + 1
-    return counts, edge_points(a[which], b[which], bulge[which], rank / counts[which]), rank
+        wanted: FloatArray = np.where(bulge != 0, np.maximum(np.ceil(np.abs(angle) / step), 1), 1.0)
+    return wanted

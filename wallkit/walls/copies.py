@@ -22,10 +22,10 @@ def copies(edges: Edges, chosen: NDArray[np.bool_], group: IntArray | None = Non
     first = edges.offsets[:-1][rows]
     keep = np.repeat(chosen, np.diff(edges.offsets))
     starts = np.concatenate([[0], np.cumsum(np.diff(edges.offsets)[rows])[:-1]])
-    points = edges.vertices[keep]
-    low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
+    columns = (edges.vertices if keep.all() else edges.vertices[keep]).T
+    boxes = [corner.reduceat(column, starts) for corner in (np.minimum, np.maximum) for column in columns]
     groups = group[rows] if group is not None else 0 * first
-    table = np.column_stack([low, high, edges.offsets[rows + 1] - first, edges.closed[rows], groups])
+    table = np.column_stack([*boxes, edges.offsets[rows + 1] - first, edges.closed[rows], groups])
     _, key, repeats = np.unique(table, axis=0, return_inverse=True, return_counts=True)
     key = key.reshape(-1)
     same: dict[bytes, int] = {}

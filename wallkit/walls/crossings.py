@@ -13,7 +13,7 @@ from wallkit.walls.copies import copies
 from wallkit.walls.edge_tree import Edges
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Touches:
     """What was found, each kind as arrays of the same length.
 
@@ -48,6 +48,7 @@ class Touches:
 # Of near edges that are looked at, and of those that meet; a tangle beyond that is reported as one.
 MOST_PAIRS = 10_000_000
 MOST_CONTACTS = 500_000
+_AT_ONCE = 1 << 14  # edges of which neighbours are looked at: fresh memory takes longer than the look
 
 
 def find_touches(edges: Edges) -> Touches:
@@ -154,12 +155,13 @@ def _folds(edges: Edges) -> tuple[IntArray, IntArray]:
     """Neighbours along a polyline of which the second goes back over the first."""
     edge_at = np.full(len(edges.vertices), -1, dtype=np.int64)
     edge_at[edges.start] = np.arange(len(edges))
-    second = edge_at[edges.stop]
-    first = np.flatnonzero(second >= 0)
-    second = second[first]
-    x, y = (edges.b - edges.a).T.copy()
-    back = x[first] * x[second] + y[first] * y[second] < 0
-    first, second = first[back], second[back]
+    found = [np.empty((2, 0), dtype=np.int64)]
+    for begin in range(0, len(edges), _AT_ONCE):
+        second = edge_at[edges.stop[begin : begin + _AT_ONCE]]
+        (x, y), (u, v) = ((edges.b[some] - edges.a[some]).T for some in (slice(begin, begin + _AT_ONCE), second))
+        back = np.flatnonzero((x * u + y * v < 0) & (second >= 0))
+        found.append(np.stack([begin + back, second[back]]))
+    first, second = np.concatenate(found, axis=1)
     on_line = side(edges.a[first], edges.b[first], edges.b[second]) == 0
     return first[on_line], second[on_line]
 

@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
@@ -21,7 +20,7 @@ _FIRST_PORTION = 16  # runs; the next portions are as large as the pairs found l
 _PAIRS_AT_ONCE = 200_000  # about so many a portion: bounds the memory
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Edges:
     """Straight edges of polylines that are laid out as in Walls.
 
@@ -63,12 +62,12 @@ class Edges:
     @cached_property
     def stop(self) -> IntArray:
         """(E,) the vertex each edge ends at."""
-        return self.following[self.start]
+        return self._at_starts(self.following)
 
     @cached_property
     def wall(self) -> IntArray:
         """(E,) the polyline each edge belongs to."""
-        return self.wall_of[self.start]
+        return self._at_starts(self.wall_of)
 
     @cached_property
     def wall_of(self) -> IntArray:
@@ -78,12 +77,16 @@ class Edges:
     @cached_property
     def a(self) -> FloatArray:
         """(E, 2) start points."""
-        return self.vertices[self.start]
+        return self._at_starts(self.vertices)
 
     @cached_property
     def b(self) -> FloatArray:
         """(E, 2) end points."""
         return self.vertices[self.stop]
+
+    def _at_starts(self, of_vertices: NDArray[Any]) -> NDArray[Any]:
+        """Take of what vertices have what edges begin at: all of it, and no copy, where all polylines are closed."""
+        return of_vertices if len(self.start) == len(of_vertices) else of_vertices[self.start]
 
     @cached_property
     def areas(self) -> FloatArray:
@@ -118,9 +121,14 @@ class EdgeTree:
     def __init__(self, edges: Edges, rows: IntArray) -> None:
         """Make runs of the edges ``rows`` (n,), in rising order."""
         self.rows = rows
-        a, b = (edges.a, edges.b) if len(rows) == len(edges) else (edges.a[rows], edges.b[rows])
-        self.low, self.high = np.minimum(a, b).T.copy(), np.maximum(a, b).T.copy()
-        self.first, self.goes_on = self._runs(b - a, edges.stop[rows[:-1]] == edges.start[rows[1:]])
+        a, b, start, stop = edges.a, edges.b, edges.start, edges.stop
+        if len(rows) < len(edges):
+            a, b, start, stop = a[rows], b[rows], start[rows], stop[rows]
+        self.low, self.high = np.empty((2, len(rows))), np.empty((2, len(rows)))
+        for k in (0, 1):
+            np.minimum(a[:, k], b[:, k], out=self.low[k])
+            np.maximum(a[:, k], b[:, k], out=self.high[k])
+        self.first, self.goes_on = self._runs(a, b, stop[:-1] == start[1:])
         self.run_low, self.run_high = self._boxes()
         if not self._pay():
             self.first, self.goes_on = np.arange(len(rows)), np.zeros(len(rows), dtype=np.bool_)
@@ -149,17 +157,23 @@ class EdgeTree:
         return 4 * runs * covered < area * (count / _RUN)
 
     @staticmethod
-    def _runs(step: FloatArray, follows: NDArray[np.bool_]) -> tuple[IntArray, NDArray[np.bool_]]:
+    def _runs(a: FloatArray, b: FloatArray, follows: NDArray[np.bool_]) -> tuple[IntArray, NDArray[np.bool_]]:
         """Give the first edge of each run, and whether it goes on as the run before it, which was full."""
-        way = np.where((step[:, 0] == 0) & (step[:, 1] == 0), -1, 2 * (step[:, 0] < 0) + (step[:, 1] < 0))
+        way = 2 * (b[:, 0] < a[:, 0]).astype(np.int8) + (b[:, 1] < a[:, 1])
+        way[(a == b).all(axis=1)] = -1
         turns = np.ones(len(way), dtype=np.bool_)
         turns[1:] = ~follows | (way[1:] != way[:-1]) | (way[1:] < 0)
-        rank = numbered(np.diff(np.flatnonzero(turns), append=len(way)))[1]
-        first = np.flatnonzero(rank % _RUN == 0)
+        straight = np.flatnonzero(turns)
+        rank = np.arange(len(way))
+        rank -= np.repeat(straight, np.diff(straight, append=len(way)))
+        rank %= _RUN
+        first = np.flatnonzero(rank == 0)
         return first, ~turns[first]
 
     def query(self, boxes: Any) -> tuple[IntArray, IntArray]:
         """Pairs of a shapely geometry, one of (m,), and an edge whose boxes meet: number of each, geometries rising."""
+        import shapely
+
         x0, y0, x1, y1 = shapely.bounds(boxes).T
         return self.meeting(np.stack([x0, y0]), np.stack([x1, y1]))
 

@@ -16,7 +16,7 @@ from typing import Any, Literal, NamedTuple, TypedDict
 from importers.limits import MAX_COORDINATE
 from importers.page_choice import PageChoice
 from wallkit import arguments
-from wallkit.walls.repairing.passes import Repairs
+from wallkit.walls.repairing.repairs import Repairs
 from wallkit.walls.walls import Sides, WallsError
 
 Curves = Literal["lines", "arcs"]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from wallkit.walls.walls import Walls
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class MetLines:
     """Straight edges, and what follows from where they meet, each looked for when it is first asked for.
 

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Literal, cast
+from typing import Literal, NamedTuple, cast
 
 from importers.drawing import DrawnPath, Level
 from importers.problems import Problem
@@ -28,8 +27,7 @@ _NOTE = "note"
 _KEPT_BACK = (_NOTE, "text")  # what readers put among the tags of a path that is no word of its author
 
 
-@dataclass(frozen=True, slots=True)
-class Said:
+class Said(NamedTuple):
     """What is said about one path.
 
     Attributes:

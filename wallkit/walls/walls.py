@@ -27,7 +27,7 @@ ARRAYS = ("vertices", "offsets", "closed", "bulges", "depth", "sides", "material
 """What there is of each vertex or wall, and not of all walls together."""
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
 class Wall:
     """One wall, as a view into Walls; see there for what the arrays mean."""
 

@@ -35,7 +35,7 @@ ROUNDING_OF_ARCS = 2.0**-25
 half an ellipse, where it loses more, are cut by the readers."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Audit:
     """What came of it, in the walls' units.
 

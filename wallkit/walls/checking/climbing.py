@@ -21,7 +21,7 @@ _PAIRS = np.array([*combinations(range(_KEPT), 2)])
 _TRIPLES = np.array([*combinations(range(_KEPT), 3)])
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Segments:
     """Walls with a tree: ``p`` and ``q``, (n, 2) ends of each, and the diagonal of the box around them."""
 

@@ -68,7 +68,7 @@ class Gap:
     path: FloatArray
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class FreeSpace:
     """Rooms and gaps of walls.
 
@@ -200,7 +200,7 @@ def reached(walls: Walls, radius: float, starts: FloatArray, places: FloatArray)
     return result
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class _Circles:
     """Circles in triangles: walls with their tree, (T,) radii and (T, 2) centres."""
 

@@ -7,20 +7,20 @@ end to the nearest wall. What would cross a wall on its way is left alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 import numpy as np
-import shapely
 
 from importers.limits import limit_error
 from wallkit.geometry.arrays import FloatArray, IntArray, distinct
+from wallkit.geometry.box_tree import BoxTree
 from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
 from wallkit.walls.checking.meetings import meetings, on_edge
 from wallkit.walls.checking.open_ends import OWN, BoolArray, OpenEnds, Surroundings, in_the_way, portions, put_on
 from wallkit.walls.checking.overshoots import Overshoots, overshoots
+from wallkit.walls.near_boxes import NearBoxes
 from wallkit.walls.walls import Walls
 
 EndKind = Literal["corner", "middle", "bridge", "extend", "foot", "trim"]
@@ -31,8 +31,7 @@ _AT_ONCE = 512  # ends that are asked about: bounds the memory
 _ASKEW = 3.0  # a move along the own line is taken up to so many times the distance, else an edge is added
 
 
-@dataclass(frozen=True, slots=True)
-class LooseEnd:
+class LooseEnd(NamedTuple):
     """A loose end, or two, and what mends it.
 
     Attributes:
@@ -62,7 +61,7 @@ class LooseEnd:
     back: complex | None = None
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class _Near:
     """Pairs of an end (its row) and an edge within reach of it."""
 
@@ -100,7 +99,7 @@ def landed(walls: Walls, found: list[LooseEnd]) -> list[LooseEnd]:
     """The same with ``at`` to the bit: on the edge that the end is led to, and not beyond it."""
     scene = Surroundings.of(walls)
     return [
-        loose if loose.edge < 0 else replace(loose, at=put_on(scene, loose.edge, loose.at, loose.before, loose.tip))
+        loose if loose.edge < 0 else loose._replace(at=put_on(scene, loose.edge, loose.at, loose.before, loose.tip))
         for loose in found
     ]
 
@@ -126,12 +125,7 @@ def _chosen(found: list[tuple[int, LooseEnd]]) -> list[LooseEnd]:
 
 
 def _near(scene: Surroundings, ends: OpenEnds, reach: float) -> _Near:
-    x, y = ends.at.real, ends.at.imag
-
-    def boxes(at: slice) -> Any:
-        return shapely.box(x[at] - reach, y[at] - reach, x[at] + reach, y[at] + reach)
-
-    end, edge = _bounded(scene.tree, len(x), boxes)
+    end, edge = _bounded(scene.tree, _points(ends.at), reach)
     parts = [_near_among(scene, ends, end[at], edge[at], reach) for at in portions(len(end))]
     return _Near(
         np.concatenate([part.end for part in parts]),
@@ -152,16 +146,26 @@ def _near_among(scene: Surroundings, ends: OpenEnds, end: IntArray, edge: IntArr
     return _Near(end[keep], edge[keep], distance[keep], foot[keep])
 
 
-def _bounded(tree: shapely.STRtree, asked: int, made: Callable[[slice], Any], **how: Any) -> IntArray:
-    """Ask a tree, some geometries at a time, made then, until there are more answers than MOST_NEAR: (2, n)."""
+def _points(at: ComplexArray) -> FloatArray:
+    """(2, n) coordinates."""
+    return np.stack([at.real, at.imag])
+
+
+def _bounded(tree: BoxTree, points: FloatArray, reach: float) -> IntArray:
+    """Pairs of a point, one of (2, m), and a box that comes that near in x and in y: (2, n).
+
+    Raises:
+        LimitError: more than MOST_NEAR.
+    """
     found, count = [np.empty((2, 0), dtype=np.int64)], 0
-    for start in range(0, asked, _AT_ONCE):
-        answer = tree.query(made(slice(start, start + _AT_ONCE)), **how)
-        count += answer.shape[1]
+    for start in range(0, points.shape[1], _AT_ONCE):
+        some = points[:, start : start + _AT_ONCE]
+        point, box = tree.query(some - reach, some + reach)
+        count += len(point)
         if count > MOST_NEAR:
             fix = "give a smaller reach (--snap), or take fewer layers"
             raise limit_error("pairs of an open end and what is near it", f"{MOST_NEAR:,}", fix=fix)
-        found.append(np.stack([answer[0] + start, answer[1]]))
+        found.append(np.stack([point + start, box]))
     return np.concatenate(found, axis=1)
 
 
@@ -178,9 +182,11 @@ def _pairs(
     scene: Surroundings, ends: OpenEnds, loose: IntArray, near: _Near, reach: float
 ) -> list[tuple[int, LooseEnd]]:
     """What mends two ends: a corner where both lines cross near by, the middle on one line, an edge else."""
-    points = shapely.points(ends.at.real[loose], ends.at.imag[loose])
-    pair = _bounded(shapely.STRtree(points), len(points), points.__getitem__, predicate="dwithin", distance=2 * reach)
+    points = _points(ends.at[loose])
+    pair = _bounded(NearBoxes(points, points), points, 2 * reach)
     i, j = loose[pair[:, pair[0] < pair[1]]]
+    near_by = np.abs(ends.at[i] - ends.at[j]) <= 2 * reach
+    i, j = i[near_by], j[near_by]
     beside = _two_nearest(near, len(ends.at))
     parts = (_pairs_among(scene, ends, i[at], j[at], beside, reach) for at in portions(len(i)))
     return [mended for part in parts for mended in part]

@@ -15,7 +15,7 @@ from wallkit.walls.walls import Walls
 _PAIRS = 4_000_000  # of points and edges, looked at together
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Solids:
     """Closed walls as solids (counter-clockwise) and rooms or holes (clockwise), as the contract of Walls says.
 

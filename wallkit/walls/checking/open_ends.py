@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
@@ -13,6 +12,7 @@ from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
 from wallkit.walls.checking.exact_widths import exact_edges
 from wallkit.walls.checking.meetings import meetings, on_edge
+from wallkit.walls.near_boxes import NearBoxes
 from wallkit.walls.walls import Walls
 
 BoolArray = NDArray[np.bool_]
@@ -27,7 +27,7 @@ def portions(count: int) -> list[slice]:
     return [slice(begin, begin + _AT_ONCE) for begin in range(0, max(count, 1), _AT_ONCE)]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class OpenEnds:
     """Open ends: vertex, the vertex before, wall, edge, and the line that leads to them."""
 
@@ -52,7 +52,7 @@ class OpenEnds:
         )  # fmt: skip
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Surroundings:
     """Walls with what the search asks of them again and again."""
 
@@ -63,7 +63,7 @@ class Surroundings:
     stops: IntArray
     low: FloatArray  # (E, 2) lowest corner of the box around each edge
     high: FloatArray
-    tree: shapely.STRtree
+    tree: NearBoxes
     along: FloatArray  # (V,) way along its wall to each vertex
     total: FloatArray  # (W,) length of each wall
     there: float
@@ -76,7 +76,6 @@ class Surroundings:
         bow = np.abs(np.tan(edges.angle / 4)) * np.abs(edges.b - edges.a) / 2
         a, b = walls.vertices[walls.edge_starts], walls.vertices[walls.edge_ends]
         low, high = np.minimum(a, b) - bow[:, None], np.maximum(a, b) + bow[:, None]
-        boxes = shapely.box(low[:, 0], low[:, 1], high[:, 0], high[:, 1])
         wall_of = np.repeat(np.arange(len(walls)), np.diff(walls.offsets))
         step = np.zeros(len(walls.vertices))
         step[walls.edge_starts] = length
@@ -86,7 +85,7 @@ class Surroundings:
         there = ROUNDING * float(np.abs(walls.vertices).max(initial=0.0))
         total = np.bincount(edge_wall, length, len(walls)).astype(np.float64)
         starts, stops = walls.edge_starts, walls.edge_ends
-        return cls(walls, edges, edge_wall, starts, stops, low, high, shapely.STRtree(boxes), along, total, there)
+        return cls(walls, edges, edge_wall, starts, stops, low, high, NearBoxes(low.T, high.T), along, total, there)
 
     def ends(self) -> OpenEnds:
         """All open ends."""
@@ -144,9 +143,8 @@ def put_on(scene: Surroundings, edge: int, at: complex, before: complex, end: co
 def in_the_way(scene: Surroundings, start: ComplexArray, stop: ComplexArray) -> BoolArray:
     """Whether a wall is in the way from start to stop: met farther from both than rounding."""
     zero = np.zeros(len(start))
-    low_x, high_x = np.minimum(start.real, stop.real), np.maximum(start.real, stop.real)
-    low_y, high_y = np.minimum(start.imag, stop.imag), np.maximum(start.imag, stop.imag)
-    piece, edge = scene.tree.query(shapely.box(low_x, low_y, high_x, high_y))
+    ends = np.stack([[start.real, stop.real], [start.imag, stop.imag]])
+    piece, edge = scene.tree.query(ends.min(axis=1), ends.max(axis=1))
     way = ExactEdges(start[piece], stop[piece], zero.astype(np.complex128)[piece], zero[piece], zero[piece])
     f = scene.edges.take(edge)
     result = np.zeros(len(start), dtype=np.bool_)

@@ -15,7 +15,7 @@ _SECTIONS = 8  # edges at the end of a wall that are looked at for what sticks o
 _PART = 0.25  # of a wall: what is beyond another wall by more does not stick out, but crosses
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Overshoots:
     """For each open end how far it sticks out (along the wall; 0 where it does not), and of what.
 

@@ -11,7 +11,7 @@ from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.checking.room_circles import joined, triangles_at
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Parts:
     """The parts that triangles make where no wall is between them.
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from importers.errors import LimitError
@@ -16,7 +15,6 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.walls.as_shapely import check_tolerance, straightened
 from wallkit.walls.checking.loose_ends import LooseEnd, loose_ends, settled_places
 from wallkit.walls.checking.open_ends import Surroundings
-from wallkit.walls.checking.widths import is_thin
 from wallkit.walls.copies import copies
 from wallkit.walls.crossings import Touches, find_touches
 from wallkit.walls.edge_tree import Edges
@@ -27,7 +25,7 @@ _SHORTER = 8  # times a reach for gaps is tried, each a quarter of the one befor
 _NEAR = 0.02  # ends farther apart than this part of the drawing's diagonal are no gap but two ends
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Findings:
     """Problems in the making, at most MOST_PLACES of a code, the rest counted."""
 
@@ -106,7 +104,7 @@ def straight_edges(walls: Walls) -> Edges:
 
 def diagonal(vertices: FloatArray) -> float:
     """The diagonal of the points' box; 0 without any."""
-    return float(np.hypot(*(vertices.max(axis=0) - vertices.min(axis=0)))) if len(vertices) else 0.0
+    return float(np.hypot(*(column.max() - column.min() for column in vertices.T))) if len(vertices) else 0.0
 
 
 def _loose_ends(findings: Findings, reach: float) -> list[LooseEnd]:
@@ -138,6 +136,8 @@ def _at_ends(walls: Walls, touches: Touches, loose: Sequence[LooseEnd]) -> NDArr
     result = np.zeros(len(touches.crossing_at), dtype=np.bool_)
     if len(places) and len(result):
         size = float(np.abs(walls.vertices).max())
+        import shapely
+
         within = 1e-9 * size + (walls.tolerance / 5 if walls.has_arcs else 0.0)
         across = np.sort(places.real)
         x = touches.crossing_at[:, 0]
@@ -212,7 +212,12 @@ def _slivers(findings: Findings, edges: Edges) -> None:
     perimeter = np.bincount(edges.wall, np.hypot(*(edges.b - edges.a).T), len(edges.closed))
     width = 2 * area / np.where(perimeter > 0, perimeter, 1.0)
     limit = findings.walls.tolerance or 1e-6 * diagonal(edges.vertices)
-    for wall in np.flatnonzero(edges.closed & (width < limit)).tolist():
+    narrow = np.flatnonzero(edges.closed & (width < limit)).tolist()
+    if not narrow:
+        return
+    from wallkit.walls.checking.widths import is_thin
+
+    for wall in narrow:
         if not is_thin(edges.vertices[edges.offsets[wall] : edges.offsets[wall + 1]], limit):
             continue
         message = f"{findings.called(wall)} is a sliver about {width[wall]:.3g} wide"

@@ -33,7 +33,7 @@ class Room(NamedTuple):
     outside: bool
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Ways:
     """Ways between nodes: triangles by number, and (number of triangles + triangle) the circles in them.
 

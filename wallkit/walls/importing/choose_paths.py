@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from importers.drawing import Drawing, DrawnPath
 from importers.limits import Work
@@ -30,8 +30,7 @@ _ELSEWHERE = {"ball": "balls", "ignore": "ignored"}
 _TAGGED = ("sensor", "target", "spawn")
 
 
-@dataclass(frozen=True, slots=True)
-class Chosen:
+class Chosen(NamedTuple):
     """Which paths become what, each in the file's order.
 
     Attributes:

@@ -35,7 +35,7 @@ does that and NumPy goes on."""
 _BLOCK = 4096  # cubics at once: what is made of them stays in the cache
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Pieces:
     """Edges of many segments: segment ``i`` has ``counts[i]`` edges; none where those of a later one cover it.
 
@@ -105,7 +105,7 @@ def place(counts: IntArray, ends: FloatArray, *inner: tuple[IntArray, IntArray, 
     return out
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class _Chords:
     """Chords of cubics: (n,) how many cuts each has, (m, 2) the points there, and how far they are off at most."""
 

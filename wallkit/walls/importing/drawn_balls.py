@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,8 +19,7 @@ _MARKER = 2.0  # radii of the ball: a ball that has less than its own radius of 
 _CENTRED = 0.25  # radii of the ball
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnBall:
+class DrawnBall(NamedTuple):
     """A circle whose role is a ball; ``velocity`` is None where no line starts in it."""
 
     x: float

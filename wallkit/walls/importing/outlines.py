@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ from wallkit.walls.roles import is_one_way, material_of, said_of, sides_of
 from wallkit.walls.walls import Material, Sides, Walls
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Outlines:
     """Polylines on their way to walls; arrays as in Walls (a closed one does not repeat its first vertex).
 
@@ -98,8 +99,7 @@ class Outlines:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class _Told:
+class _Told(NamedTuple):
     """What all walls of one path share."""
 
     name: str

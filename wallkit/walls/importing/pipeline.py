@@ -27,10 +27,8 @@ from wallkit.walls.importing.segments import Segments, default_tolerance, gather
 from wallkit.walls.met_lines import MetLines
 from wallkit.walls.nesting import depths
 from wallkit.walls.orient import turned_to
-from wallkit.walls.repairing.passes import repair
 from wallkit.walls.solid import Nested, decide
 from wallkit.walls.walls import Walls, WallsError
-from wallkit.walls.walls_json import sensors_like
 
 Source = str | Path | IO[bytes] | IO[str] | Drawing | Sequence[Any]
 
@@ -107,7 +105,11 @@ def walls_and_lines(
         problems=found + walls.problems + doubtful,
         markers=markers,
     )
-    return (walls if sensors is None else replace(walls, sensors=sensors_like(walls, sensors))), met
+    if sensors is not None:
+        from wallkit.walls.walls_json import sensors_like
+
+        walls = replace(walls, sensors=sensors_like(walls, sensors))
+    return walls, met
 
 
 def _pieces(segments: Segments, within: float, options: ImportOptions) -> Pieces:
@@ -203,6 +205,8 @@ def nested(
     solid = decide(Nested(met.edges, depth, parent, owners), options, balls)
     repairs = options.repairs
     if repairs is not None:
+        from wallkit.walls.repairing.passes import repair
+
         even_odd = [path.fill is not None and path.fill_rule == "evenodd" for path in owners]
         done = repair(plain, repairs, arena=solid.room, even_odd=even_odd, file_lines=lines)
         problems = problems + [change.to_problem() for change in done.changes] + done.violations

@@ -11,7 +11,6 @@ from importers.limits import MAX_COORDINATE
 from importers.page_choice import keep_artboard
 from importers.problems import Problem
 from wallkit.walls.import_options import INCH, ImportOptions, point_of, scale_of
-from wallkit.walls.importing.clips import clipped
 from wallkit.walls.importing.segments import default_tolerance, gather
 from wallkit.walls.walls import WallsError
 
@@ -41,6 +40,8 @@ def placed(drawing: Drawing, options: ImportOptions) -> Drawing:
         drawing = replace(drawing, problems=[*drawing.problems, _several(drawing)])
     units, a, b = _ratio(drawing, options)
     if options.apply_clips:
+        from wallkit.walls.importing.clips import clipped
+
         drawing = clipped(drawing, _nearness(drawing, options, a / b))
     if units == drawing.units and a == b and not options.origin:
         return _reachable(drawing, options)

@@ -20,7 +20,7 @@ from wallkit.geometry.ellipse_arcs import Arcs, centre_form
 KIND_LINE, KIND_CUBIC, KIND_ARC = 0, 1, 2
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Segments:
     """Subpaths as arrays: subpath ``s`` has the segments ``offsets[s]`` to ``offsets[s + 1]``.
 

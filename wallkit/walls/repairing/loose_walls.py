@@ -14,7 +14,7 @@ from wallkit.walls.origins import NOWHERE, Origin
 from wallkit.walls.walls import ARRAYS, Material, Sides, Walls
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class LooseWall:
     """One wall on its own; arrays as in Walls.
 

@@ -50,7 +50,7 @@ STRAIGHT = 1e-12
 _LARGEST_TURN = math.tan(0.5 / 2)  # of half the angle, as turns are measured
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Spans:
     """Pieces of chains, all arrays of one length; points relative to the first point of their chain.
 
@@ -105,7 +105,7 @@ class Spans:
         return result
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Biarcs:
     """The arcs of spans, arrays of one length.
 
@@ -196,7 +196,7 @@ def _rounded(bulge: FloatArray) -> FloatArray:
     return np.where(np.abs(bulge) < STRAIGHT, 0.0, bulge)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Fit:
     """How arcs fit their spans.
 
@@ -286,7 +286,7 @@ def deviations(
     return distance, part, np.sqrt(square)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Ruler:
     """Measures sections of curves against their arcs, (n,) each.
 

@@ -29,7 +29,7 @@ ROUNDING = 1e-14
 _FLAT = 1e-8  # half axes in this ratio make an ellipse a line: what its tips turn in is the square of it, 1e-16
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Cusps:
     """Places inside of curves where these come to a stop, arrays of one length.
 
@@ -157,7 +157,7 @@ def as_complex(points: FloatArray) -> ComplexArray:
     return result
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Cubics:
     """Cubic Bezier curves, as polynomials c t + b t^2 + a t^3 from their first points.
 
@@ -317,7 +317,7 @@ def _roots(a: FloatArray, b: FloatArray, c: FloatArray) -> list[FloatArray]:
         return [q / a, c / q]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Ellipses:
     """Arcs of ellipses.
 

@@ -62,7 +62,7 @@ does that and NumPy goes on."""
 _SAME_RADII = 1e-9  # relative; a circle after a turn and a scale differs by rounding, 1e-15
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class _Edges:
     """Edges of one kind of segments: segment (rising), end point and bulge of each, and the largest errors."""
 

@@ -58,7 +58,7 @@ def looked_at(
     return distance, turn, sound
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class CloseLook:
     """What a close look at spans found, by section, see ``fitting.cubic_chains.look_closely``.
 

@@ -25,7 +25,7 @@ class Moved(Protocol):
         ...
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class MovedCubics:
     """Cubics in axes of their own.
 
@@ -75,7 +75,7 @@ def _cubic(column: FloatArray, t: FloatArray) -> FloatArray:
     return sum_
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class MovedEllipses:
     """Arcs in axes of their own: first point, conjugate half axes p and q, turn; (n,) each."""
 

@@ -22,7 +22,7 @@ from wallkit.walls.importing.segments import Segments
 _SMOOTH = 3e-3
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Sections:
     """Parts of spans that lie in one curve each, arrays of one length, span by span.
 
@@ -46,7 +46,7 @@ class Sections:
         return len(self.rows)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, repr=False)
 class Chains:
     """Many chains of curves of one kind.
 
