@@ -71,7 +71,7 @@ def read(data):
 
 
 @given(st.lists(elements(), max_size=4), st.dictionaries(st.sampled_from(NAMES), TEXTS, max_size=3))
-@settings(max_examples=80)
+@settings(max_examples=50)
 def test_a_soup_of_elements_and_attributes(parts, attributes):
     written = "".join(f' {name}="{escape(value)}"' for name, value in attributes.items())
     read(f'<svg xmlns="http://www.w3.org/2000/svg"{written}>{"".join(parts)}</svg>'.encode())

@@ -77,7 +77,7 @@ def test_points_and_discs_aimed_at_vertices_of_one_sided_walls(radius):
     assert_same(Scene(walls, Balls(position, velocity, radius), rolling_friction=0.5), until=20.0)
 
 
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(
     st.integers(0, 2**32 - 1),
     st.sampled_from([1e-6, 1.0, 1e9]),

@@ -36,7 +36,7 @@ def fit(segments, tol):
     return np.vstack([segments[0][1:3], pieces.ends]), pieces.bulges, pieces
 
 
-@settings(max_examples=100)
+@settings(max_examples=60)
 @given(point, point, point, point, tolerance)
 @example((0.0, 0.0), (100.0, 100.0), (0.0, 100.0), (100.0, 0.0), 1e-3)  # a true cusp
 @example((0.0, 0.0), (100.0, 100.000001), (0.0, 100.0), (100.0, 0.0), 1e-3)  # nearly one
@@ -76,7 +76,7 @@ short = st.integers(-120, -10).map(lambda tenths: 10 ** (tenths / 10))  # from 1
 angle = st.floats(0, 2 * math.pi)
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(point, angle, st.floats(-300, 300), st.floats(-0.2, 1.2), st.just(0.0) | short, st.integers(5, 16), tolerance)
 @example((-90.103243, 36.287691), 2.76, -50.0, 0.79, 0.0, 11, 1e-2)  # stops and goes on
 @example((-77.365168, -6.813352), 0.58, 79.0, 0.66, 6.30957344480193e-06, 15, 1e-3)
@@ -92,7 +92,7 @@ def test_every_cubic_to_and_fro_on_a_line_stays_within_the_tolerance(start, turn
     check_cubic(np.round(control, digits - 2), tol)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(point, angle, short, angle, short, point, tolerance)
 @example((-13.75465, 73.464101), 3.97, 7.943282347242821e-12, 2.15, 7.943282347242813e-4, (8.733858, -60.740623), 1e-3)
 @example((-84.957778, 92.572916), 3.39, 5e-10, 4.86, 5e-12, (22.315946, -93.22155), 1e-2)
@@ -103,7 +103,7 @@ def test_every_cubic_with_short_arms_stays_within_the_tolerance(p0, turn0, arm0,
     check_cubic([p3, p2, p1, p0], tol)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(point, point, point, tolerance)
 def test_every_quadratic_stays_within_the_tolerance(p0, p1, p2, tol):
     vertices, bulges, pieces = fit([("M", *p0), ("Q", *p1, *p2)], tol)
@@ -126,7 +126,7 @@ def as_segment(points, turn, rx, ry, rotation):
     ]
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(
     st.floats(0, 360),
     st.floats(5, 350),
