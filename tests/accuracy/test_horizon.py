@@ -7,7 +7,7 @@ import pytest
 
 from wallkit import simulate
 from wallkit.accuracy import scenes
-from wallkit.accuracy.contact_scenes import contact_scene, rolling_scene
+from wallkit.accuracy.contact_scenes import contact_scene, hard_scene, rolling_scene
 from wallkit.accuracy.reference import Reference, sure_events
 from wallkit.accuracy.reference_contact import ContactReference
 from wallkit.kernels.flight.error_growth import JOINS, stretch
@@ -44,11 +44,36 @@ def places(events):
 @pytest.mark.parametrize(("built_in", "radius"), CASES, ids=[f"{s.name}-{r:g}" for s, r in CASES])
 def test_the_promise_holds_and_is_not_shy(built_in, radius):
     scene = built_in.scene(radius=radius)
-    true = sure_events(scene, BOUNCES)
-    error = np.hypot(*(places(in_doubles(scene, BOUNCES)) - places(true)).T)
+    rounded = in_doubles(scene, BOUNCES)
+    error = np.hypot(*(places(rounded) - places(sure_events(scene, BOUNCES))).T)
     real = next((k for k, e in enumerate(error) if e > 1e-6), BOUNCES)
-    promised = horizon.trusted_until(scene, as_contacts(scene, true)).bounces
-    assert promised <= real <= 1.3 * promised
+    promised = horizon.trusted_until(scene, as_contacts(scene, rounded)).bounces
+    assert promised <= real <= promised + 1  # twice the error is promised, and it grows by two and more at a bounce
+
+
+@pytest.mark.parametrize("seed", [seed for seed in range(3000, 3040) if seed != 3013])  # which starts in a wall
+def test_what_a_run_is_off_is_known_from_its_contacts(seed):
+    # The judge's places are rounded, and so are the derivatives, which a near graze or a near parallel multiplies.
+    _kind, scene, until = hard_scene(seed)
+    run = simulate(scene, until=until)
+    true = [change for change in ContactReference(scene).run(until) if change.kind == "bounce"]
+    own = run.contacts[run.contacts["kind"] <= 1]
+    count = min(len(own), len(true))
+    same = [(a["wall"], a["edge"]) == (b.wall, b.edge) for a, b in zip(own, true, strict=False)]
+    count = same.index(False) if False in same else count
+    off = np.hypot(*(np.stack([own["x"], own["y"]], axis=1)[:count] - places(true[:count])).T)
+    if scene.walls.materials[0].restitution == 1.0:  # nothing is held by a wall
+        expected, _worst = horizon.predicted_errors(scene, own)
+        judged = (off > 2e-14) & (off < 1e-7)
+        np.testing.assert_allclose(expected[:count][judged], off[judged], rtol=0.2)
+
+
+def test_a_long_run_s_horizon_is_compiled_to_the_same_bits(monkeypatch):
+    scene = Scene(scenes.star(), Balls([(3.0, -7.0)], [(40.0, 25.0)], 5.0), gravity=(0.0, -1.0))
+    own = simulate(scene, bounces=40).contacts
+    interpreted = horizon.predicted_errors(scene, own)
+    monkeypatch.setattr(horizon, "COMPILED_FROM", 0)
+    np.testing.assert_array_equal(horizon.predicted_errors(scene, own), interpreted)
 
 
 def test_a_small_error_grows_as_two_runs_part():
@@ -245,16 +270,17 @@ def test_a_parabola_that_turns_round_just_below_a_ceiling_is_noticed():
 @pytest.mark.parametrize("acts", [{"rolling_friction": 0.04}, {"drag": 1e-3}], ids=str)
 def test_what_slows_a_ball_down_leaves_its_errors_as_they_are(acts):
     walls = Walls.from_polylines([scenes.star().vertices], material=Material(0.99, 0.98))
+    walls.measured_error = 1e-9  # of roundings those of a flight that nothing slows down are known, the others not
     balls = Balls([(3.0, -7.0)], [(40.0, 25.0)], 5.0)
     plain = simulate(Scene(walls, balls), bounces=40)
     run = simulate(Scene(walls, balls, **acts), bounces=40)
     assert len(run.contacts) == 40
     assert np.hypot(run.final["vx"], run.final["vy"]) < 0.95 * np.hypot(plain.final["vx"], plain.final["vy"])
-    expected, _worst = horizon.predicted_errors(plain.scene, plain.contacts)
-    found, _worst = horizon.predicted_errors(run.scene, run.contacts)
+    expected, _worst = horizon.predicted_errors(plain.scene, plain.contacts, source="drawing")
+    found, _worst = horizon.predicted_errors(run.scene, run.contacts, source="drawing")
     np.testing.assert_allclose(found, expected, rtol=1e-3)
-    assert run.trusted_until(1e-12)[0].bounces == plain.trusted_until(1e-12)[0].bounces < 40
-    assert run.trusted_until(1e-12)[0].reason == plain.trusted_until(1e-12)[0].reason
+    said = [each.trusted_until(1e-6, source="drawing")[0].bounces for each in (run, plain)]
+    assert said[0] == said[1] < 40
 
 
 def test_a_small_error_grows_as_two_runs_with_drag_under_gravity_part():

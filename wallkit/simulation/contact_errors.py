@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.flight.ball_state import FALLING_TOLERANCE
@@ -18,8 +19,10 @@ RMS_ROUNDING = 0.6 * 2.0**-53
 SURE = 3.0  # promised is this many times the root mean square
 
 
-def roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
-    """(n, 4) what the arithmetic of each contact adds: see :func:`wallkit.kernels.flight.error_growth.carry`.
+def roundings(scene: Scene, own: Any, course: Course, ball: int) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """(n, 4) what the arithmetic of each contact may add: see :func:`wallkit.kernels.flight.error_growth.carry`.
+
+    And (n,) where that is more than roundings, in the tip of a corner.
 
     A rounding is at most EPS = 2^-53 of the number, and some 0.6 of that as a root mean square. Places are as
     large as the distance from the local origin; the normal about a corner or on an arc is taken from the place,
@@ -42,11 +45,13 @@ def roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
         [own["x"], own["y"]], axis=1
     )
     wall = np.hypot(place, np.where(own["edge"] < 0, 0.0, RMS_ROUNDING * np.hypot(*d.T)))
+    in_corner = np.zeros(len(own), dtype=np.bool_)
     if scene.gravity is not None:
         near = FALLING_TOLERANCE * float(np.abs(scene.walls.vertices - origin).max(initial=0.0))
         there, quick = _doubts_in_corners(course, np.asarray(scene.gravity, dtype=np.float64), near)
         place, speed = np.hypot(place, there / SURE), np.hypot(speed, quick / SURE)
-    return np.stack([wall, turn, place, speed], axis=1)
+        in_corner = (there > 0.0) | (quick > 0.0)
+    return np.stack([wall, turn, place, speed], axis=1), in_corner
 
 
 def _falling_roundings(course: Course, places: FloatArray) -> tuple[FloatArray, FloatArray]:

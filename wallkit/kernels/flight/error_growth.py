@@ -255,8 +255,54 @@ def _wall_moved(d: float, wx: float, wy: float, across: float, nx: float, ny: fl
 
 
 @kernel
+def _one_flown(error: Any, t: float, left: float, g: Any) -> Any:
+    """Carry one error (dx, dv) to the next contact: as ``_flown``, or along a circle as ``_glided``."""
+    x, y, p, q = error
+    if g[0] != g[0]:
+        return x + p * t, y + q * t, p * left, q * left
+    px, py, tx, ty = g[4], g[5], g[6], g[7]
+    xi, eta = x * px + y * py, p * px + q * py
+    xi, eta = g[8] * xi + g[9] * eta, g[10] * xi + g[11] * eta
+    k = g[12] * xi
+    return xi * tx, xi * ty, eta * tx + k * ty, eta * ty - k * tx
+
+
+@kernel
+def _one_met(error: Any, A: Any, B: Any, M: Any) -> Any:
+    """Carry one error through a contact, as ``_met``."""
+    x, y, p, q = error
+    return (
+        A[0] * x + A[1] * y,
+        A[2] * x + A[3] * y,
+        B[0] * x + B[1] * y + M[0] * p + M[1] * q,
+        B[2] * x + B[3] * y + M[2] * p + M[3] * q,
+    )
+
+
+@kernel
+def _with_made(made: Any, sums: Any, error: Any, S: Any, A: Any, B: Any, M: Any, i: int) -> Any:
+    """Carry the known error through a contact and add what is made there; note its sizes, place and velocity."""
+    x, y, _p, _q = error
+    wx, wy = S[0] * x + S[1] * y + made[i, 0], S[2] * x + S[3] * y + made[i, 1]
+    x, y, p, q = _one_met(error, A, B, M)
+    x, y, p, q = x + made[i, 2], y + made[i, 3], p + made[i, 4], q + made[i, 5]
+    sums[i, 0], sums[i, 1] = math.sqrt(wx * wx + wy * wy), math.sqrt(p * p + q * q)
+    return x, y, p, q
+
+
+@kernel
 def carry(
-    start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, glides: Any, fresh: Any, variance: Any
+    start: Any,
+    path: Any,
+    bend: Any,
+    keep: Any,
+    pull: Any,
+    drag: float,
+    glides: Any,
+    fresh: Any,
+    made: Any,
+    variance: Any,
+    sums: Any,
 ) -> None:
     """Fill ``variance`` with that of the place of each contact, and of the velocity after it before it is rounded.
 
@@ -269,10 +315,13 @@ def carry(
         drag: rate under gravity, or 0.
         glides: (n, 13) of ``wallkit.simulation.glide_errors``, of not-a-number where the ball came no circle along.
         fresh: (n, 4) new at each contact: displacement of the wall, turn of its normal, rounding of the place,
-            and of the velocity relative to the speed.
+            and of the velocity relative to the speed; 0 where it is known.
+        made: (n, 6) known errors of each contact, see ``wallkit.simulation.made_errors``, or None.
         variance: (n, 2), filled; left as it is after the first place of more than 1e300.
+        sums: (n, 2) filled likewise with what known errors add up to, of the same two.
     """
     ux, uy = start[0], start[1]
+    error = (0.0, 0.0, 0.0, 0.0)
     # covariances of position, of position with velocity, of velocity; the start is exact: it is what was asked for
     xx = xv = vv = (0.0, 0.0, 0.0, 0.0)
     now = 0.0
@@ -282,6 +331,8 @@ def carry(
         left, t = _eased(drag, _lasts(path, keep, t, i))
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ax, ay = pull[i, 0] - drag * vx, pull[i, 1] - drag * vy
+        if made is not None:
+            error = _one_flown(error, t, left, glides[i])
         if glides[i, 0] == glides[i, 0]:
             xx, xv, vv = _glided(xx, xv, vv, glides[i])
             vx, vy, ax, ay = glides[i, 0], glides[i, 1], glides[i, 2], glides[i, 3]
@@ -299,6 +350,10 @@ def carry(
             variance[i, 0] += fresh[i, 0] * fresh[i, 0] * (vx * vx + vy * vy) / (across * across)
         if not variance[i, 0] < 1e300:
             break
+        if made is not None:
+            error = _with_made(made, sums, error, S, A, B, M, i)
+            if not sums[i, 0] < 1e150:
+                break
         xx, xv, vv = _met(xx, xv, vv, A, B, M)
         variance[i, 1] = vv[0] + vv[3]
         rounded = fresh[i, 2] * fresh[i, 2]
@@ -324,7 +379,7 @@ def stretch(
 ) -> None:
     """Carry one small error (dx, dv) along and fill ``logs`` with the logarithm of its growth at each bounce."""
     ux, uy = start[0], start[1]
-    x, y, vx_, vy_ = error[0], error[1], error[2], error[3]
+    carried = (error[0], error[1], error[2], error[3])
     now = 0.0
     for i in range(len(path)):
         t = path[i, 0] - now
@@ -332,24 +387,13 @@ def stretch(
         left, t = _eased(drag, _lasts(path, keep, t, i))
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ax, ay = pull[i, 0] - drag * vx, pull[i, 1] - drag * vy
+        carried = _one_flown(carried, t, left, glides[i])
         if glides[i, 0] == glides[i, 0]:
             vx, vy, ax, ay = glides[i, 0], glides[i, 1], glides[i, 2], glides[i, 3]
-            px, py, tx, ty = glides[i, 4], glides[i, 5], glides[i, 6], glides[i, 7]
-            xi, eta = x * px + y * py, vx_ * px + vy_ * py
-            xi, eta = glides[i, 8] * xi + glides[i, 9] * eta, glides[i, 10] * xi + glides[i, 11] * eta
-            k = glides[i, 12] * xi
-            x, y, vx_, vy_ = xi * tx, xi * ty, eta * tx + k * ty, eta * ty - k * tx
-        else:
-            x, y, vx_, vy_ = x + vx_ * t, y + vy_ * t, vx_ * left, vy_ * left
         ux, uy = path[i, 1], path[i, 2]
         _, A, B, M = contact(vx, vy, ax, ay, path, bend, keep, pull, drag, i)
-        vx_, vy_, x, y = (
-            B[0] * x + B[1] * y + M[0] * vx_ + M[1] * vy_,
-            B[2] * x + B[3] * y + M[2] * vx_ + M[3] * vy_,
-            A[0] * x + A[1] * y,
-            A[2] * x + A[3] * y,
-        )
+        x, y, p, q = _one_met(carried, A, B, M)
         # Scaled back to 1 at each bounce, as Benettin et al. (1980) do for Lyapunov exponents.
-        size = math.sqrt(x * x + y * y + vx_ * vx_ + vy_ * vy_)
+        size = math.sqrt(x * x + y * y + p * p + q * q)
         logs[i] = math.log(size)
-        x, y, vx_, vy_ = x / size, y / size, vx_ / size, vy_ / size
+        carried = (x / size, y / size, p / size, q / size)
