@@ -68,6 +68,16 @@ def test_what_a_run_is_off_is_known_from_its_contacts(seed):
         np.testing.assert_allclose(expected[:count][judged], off[judged], rtol=0.2)
 
 
+def test_a_long_run_that_chaos_ends_is_asked_for_its_beginning_alone(monkeypatch):
+    walls = Walls.from_polylines([[(-4, -3), (-4, 3), (4, 3), (4, -3)]], bulges=[[-1.0, 0.0, -1.0, 0.0]])
+    scene = Scene(walls, Balls([(0.3, 0.2)], [(2.0, 1.0)]))
+    own = simulate(scene, bounces=2500).contacts
+    whole = horizon.predicted_errors(scene, own)
+    assert not np.isfinite(whole[0][-1])
+    monkeypatch.setattr(horizon, "FIRST", 1200)
+    np.testing.assert_array_equal(horizon.predicted_errors(scene, own), whole)
+
+
 def test_a_long_run_s_horizon_is_compiled_to_the_same_bits(monkeypatch):
     scene = Scene(scenes.star(), Balls([(3.0, -7.0)], [(40.0, 25.0)], 5.0), gravity=(0.0, -1.0))
     own = simulate(scene, bounces=40).contacts
