@@ -14,7 +14,7 @@ from wallkit.kernels.flight.error_growth import JOINS, stretch
 from wallkit.scene.scene import Balls, Scene
 from wallkit.simulation import horizon
 from wallkit.simulation.near_misses import NEAR_CORNER, NEAR_GRAZE, near_misses
-from wallkit.simulation.run import CONTACT
+from wallkit.simulation.run import CONTACT, Ending
 from wallkit.walls import Material, Walls
 
 BOUNCES = 160
@@ -248,6 +248,18 @@ def test_a_ball_that_comes_to_rest_is_good_throughout():
     run = simulate(scene, until=20.0)
     (said,) = run.trusted_until(1e-9)
     assert said.whole
+
+
+def test_a_run_that_ends_at_rest_in_a_tip_says_how_far_off_that_may_be():
+    # it stops where it hits the tip within the tolerance, 2^-41 of the walls' size, while it is to come to rest in it
+    _kind, scene, until = contact_scene(15389)
+    run = simulate(scene, until=until)
+    tip = scene.walls.vertices - np.array([run.final["x"][0], run.final["y"][0]])
+    off = np.hypot(*tip.T).min()
+    assert run.ending[0] == Ending.AT_REST
+    assert 1e-11 < off < 1e-10
+    assert not run.trusted_until(off / 2)[0].whole
+    assert run.trusted_until(10 * off)[0].whole
 
 
 @pytest.mark.parametrize("gravity", [None, (0.0, -9.81)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.flight.ball_state import FALLING_TOLERANCE
-from wallkit.kernels.flight.error_growth import BOUNCES, SLIDES, SLOWS, STOPS
+from wallkit.kernels.flight.error_growth import BOUNCES, ENDS, SLIDES, SLOWS, STOPS
 from wallkit.scene.scene import Scene
 from wallkit.simulation.gliding import edges_of
 
@@ -97,7 +98,22 @@ def _doubts_in_corners(course: Course, gravity: FloatArray, near: float) -> tupl
     found = np.flatnonzero(early & (sine > 0.0) & (speed > 0.0))
     there[found + 2] = near / sine[found]
     quick[found + 2] = across[found] / speed[found]
+    there[-1] = max(there[-1], _at_rest_in_corner(path, near))
     return there, quick
+
+
+def _at_rest_in_corner(path: FloatArray, near: float) -> float:
+    """By how much a ball may be off that ends at rest just after a bounce: in a tip, or wedged between two walls.
+
+    It is no farther than the tolerance from either, at the angle a with one another, and so by up to twice that over
+    sin a from where it would come to rest; over sqrt 2, for it counts for each component of its place.
+    """
+    first, second, end = path[-3:]
+    bounced = second[5] == BOUNCES and second[1:3].any()
+    if not bounced or end[5] != ENDS or end[1:3].any() or end[0] != second[0]:
+        return 0.0
+    sine = abs(float(first[3] * second[4] - first[4] * second[3]))
+    return math.sqrt(2.0) * near / sine if sine > 0.0 else math.inf
 
 
 def drawing_errors(scene: Scene, own: Any) -> FloatArray:

@@ -205,10 +205,10 @@ def _errors(scene: Scene, own: Any, ball: int, source: ErrorSource) -> tuple[Flo
         table[~(table >= 0.0)] = np.inf  # overflown on the way: beyond any promise
     # a ball that stands is exactly still; one that damping slowed down has lost as much of its error as of its speed
     now, free = np.hypot(own["vx"], own["vy"]), np.hypot(*carried[1][:, 1:3].T)
-    part = np.where(now > 0.0, np.divide(now, free, out=np.ones(len(own)), where=free > 0.0), 0.0)
+    part = np.divide(now, free, out=np.ones(len(own)), where=free > 0.0)
     known, rms = sums.T, np.sqrt(variance).T
     for errors in (known, rms):
-        errors[1] = np.where(part > 0.0, part * errors[1], 0.0)
+        errors[1] = np.multiply(part, errors[1], out=np.zeros(len(own)), where=now > 0.0)
     return known, rms
 
 
