@@ -218,6 +218,23 @@ def test_a_point_hops_on_for_ever_between_walls_that_it_meets_square(right, left
         assert end["x"] == pytest.approx(last["x"] + last["vx"] * time, rel=1e-9)
 
 
+def test_the_order_of_bounces_in_a_tip_decides_whether_speed_is_lost_or_a_hop_is_for_ever():
+    # Two points that meet one or the other wall first, 1e-7 from a tip, with the same velocity: no continuation of
+    # a hit of the tip itself is the limit of both.
+    valley, speed, angle, time = _valley(1.437, 0.297, Material(1.0, 0.6)), 5.0, 2.046, 2e-3
+    there = -speed * np.array([math.cos(angle), math.sin(angle)])
+    pull = np.array([0.0, -30.0])
+    aside = 1e-7 * np.array([math.sin(angle), -math.cos(angle)])
+    places = [side * aside - there * time + pull * time**2 / 2 for side in (1.0, -1.0)]
+    run = simulate(Scene(valley, Balls(places, [there - pull * time] * 2), gravity=tuple(pull)), until=60.0)
+    assert [run.contacts[run.contacts["ball"] == ball]["edge"][0] for ball in (0, 1)] == [0, 2]
+    speed = np.hypot(run.final["vx"], run.final["vy"])
+    assert run.ending[0] == Ending.TIME_REACHED
+    assert speed[0] > 0.1
+    assert speed[1] < 1e-3  # the other has next to nothing left where it hits the tip itself
+    assert math.hypot(run.final["x"][1], run.final["y"][1]) < 1e-9
+
+
 def _valley(right, left, material):
     """Walls of length 100 that rise from (0, 0) at two angles, closed above."""
     ends = [(100 * math.cos(right), 100 * math.sin(right)), (-100 * math.cos(left), 100 * math.sin(left))]
