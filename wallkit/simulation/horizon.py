@@ -24,7 +24,8 @@ met sqrt(2 rho) (sqrt D - sqrt(D - d)) along it, and e is that with d / 2 D for 
 *What is not known is taken as chance*: roundings where a ball keeps to a wall, where drag acts, and in the tip of a
 corner; and what walls are off as drawn. The covariance of these is carried (new errors count as independent), which
 gives the root mean square; promised is three times that. A place's rounding counts in full for each of its two
-components, which is twice what it is: for roundings are no independent draws there, ever the same place is rounded.
+components. All of it is in one of them where the place is far along that, so that less would be too little in some
+direction; counted by half for each, no more of 4,557 runs were told to the bounce.
 
 Without gravity rolling friction and drag leave the path as it is: the errors are those of the same ball without them.
 Under gravity drag k takes t to the free time f = (1 - e^(-k t)) / k, and dv to dv e^(-k t); what is g above is g - k v.
