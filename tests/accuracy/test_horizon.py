@@ -250,6 +250,18 @@ def test_a_ball_that_comes_to_rest_is_good_throughout():
     assert said.whole
 
 
+@pytest.mark.parametrize("seed", [18483, 18525])
+def test_the_end_of_a_slide_after_endless_bounces_on_an_arc_is_off_by_what_is_known(seed):
+    # Bounces that take speed along the arc change what presses the ball on it, and its normal turns on their way.
+    _kind, scene, until = contact_scene(seed)
+    run, true = simulate(scene, until=until), ContactReference(scene).run(until)
+    row, slide = np.flatnonzero(run.contacts["kind"] == 2)[0], next(c for c in true if c.kind == "slide")
+    own = run.contacts[row]
+    off = math.hypot(own["x"] - float(slide.position[0]), own["y"] - float(slide.position[1]))
+    assert off == pytest.approx(horizon.predicted_errors(scene, run.contacts)[0][row], rel=0.05)
+    assert own["time"] == pytest.approx(float(slide.time), abs=1e-13)
+
+
 def test_a_run_that_ends_at_rest_in_a_tip_says_how_far_off_that_may_be():
     # it stops where it hits the tip within the tolerance, 2^-41 of the walls' size, while it is to come to rest in it
     _kind, scene, until = contact_scene(15389)

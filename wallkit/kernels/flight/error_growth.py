@@ -14,6 +14,10 @@ they have taken its speed, or left it what it has along the wall, so that rollin
 round on a wall is slowed down on it: from there on what slows it down acts the other way. Where a run ends nothing is
 turned. Who joins a hollow comes to it along its tangent, to rounding, and goes on along it."""
 
+BOUNCES_IN_SERIES = 4096
+LEFT_IN_SERIES = 2.0**-40
+"""Of the first of endless bounces: what is left then adds no digit that an error needs."""
+
 
 @kernel
 def derivative(
@@ -95,7 +99,7 @@ def contact(
         keeps = max(hx * ax + hy * ay, 0.0) / square if square > 0.0 else 1.0
         return along, along, none, _scaled(along, keeps)
     if path[i, 5] == STOPS or path[i, 5] == SLOWS:
-        return _after_last_bounces(along, path, keep, hx, hy, ax, ay, i)
+        return _after_last_bounces(along, path, bend, keep, pull, hx, hy, ax, ay, i)
     return along, along, none, along
 
 
@@ -106,51 +110,74 @@ def _along(nx: float, ny: float) -> Any:
 
 
 @kernel
-def _after_last_bounces(along: Any, path: Any, keep: Any, hx: float, hy: float, ax: float, ay: float, i: int) -> Any:
+def _after_last_bounces(
+    along: Any, path: Any, bend: Any, keep: Any, pull: Any, hx: float, hy: float, ax: float, ay: float, i: int
+) -> Any:
     """Give S, A, B and M where endless bounces end that stop a ball, or after which friction slows it down.
 
-    The last bounce that is told leaves at w, dt = -dx.n / w late and faster by dw = dv.n - p dt; its series takes
-    T = 2 w / p (1 - e), so dT = dt + T dw / w. Where restitution f along the wall stops it, after the way
-    2 w u / p (1 - e f), it stops farther by u dt and by that way times dw / w: by u (1 - 2 / (1 - e f)) dt, at the
-    time of ``_lasts``.
+    The last bounce that is told leaves at w, dt = -dx.n / w late and faster by dw = dv.n - p dt + k u dx.t, for along a
+    curve n turns; its series takes a time T in proportion to w, so dT = dt + T dw / w. Where restitution f along the
+    wall stops it, after the way c u, it stops farther by u dt and by that way times dw / w: for the first two parts of
+    dw by u (1 - c p / w) dt, at the time of ``_lasts``.
     """
-    T, e, f = path[i, 0] - path[i - 1, 0], keep[i, 1], keep[i, 0]
+    T, k = path[i, 0] - path[i - 1, 0], bend[i - 1]
     nx, ny = path[i - 1, 3], path[i - 1, 4]  # of that bounce: on an arc it turns from there by more than w / v
-    w = path[i - 1, 1] * nx + path[i - 1, 2] * ny
-    part = 1.0 - 2.0 / (1.0 - e)
+    w, c, p = _series(path, bend, keep, pull, i)
+    part = 1.0 - T * p / w
     # Here, `since` later, dx.n has `since` dv.n more.
-    since = _lasts(path, keep, T, i)
+    since = _lasts(path, bend, keep, pull, T, i)
     d, m = -part / w, (T + part * since) / w
     keeps = 1.0 if path[i, 5] == SLOWS else 0.0  # of what it had until then
     jx, jy = hx - keeps * ax, hy - keeps * ay
     px, py = along[0] * jx + along[1] * jy, along[2] * jx + along[3] * jy
     late = (-px * m * nx, -px * m * ny, -py * m * nx, -py * m * ny)
+    # u as a vector along the wall, there.
+    across = path[i - 1, 1] * nx + path[i - 1, 2] * ny
+    ux, uy = path[i - 1, 1] - across * nx, path[i - 1, 2] - across * ny
+    lx, ly = d * nx + T * k / w * ux, d * ny + T * k / w * uy
     place = along
     if path[i, 5] == STOPS:
-        # u as a vector along the wall, times -(1 - 2 / (1 - e f)) / w.
-        far = (2.0 / (1.0 - e * f) - 1.0) / w
-        sx = far * (along[0] * path[i - 1, 1] + along[1] * path[i - 1, 2])
-        sy = far * (along[2] * path[i - 1, 1] + along[3] * path[i - 1, 2])
-        place = _plus(along, (sx * nx, sx * ny, sy * nx, sy * ny))
+        far = (c * p / w - 1.0) / w
+        fx, fy = far * nx + c * k / w * ux, far * ny + c * k / w * uy
+        place = _plus(along, (ux * fx, ux * fy, uy * fx, uy * fy))
     return (
         place,
         place,
-        (-px * d * nx, -px * d * ny, -py * d * nx, -py * d * ny),
+        (-px * lx, -px * ly, -py * lx, -py * ly),
         _plus(_scaled(along, keeps), late),
     )
 
 
 @kernel
-def _lasts(path: Any, keep: Any, t: float, i: int) -> float:
+def _series(path: Any, bend: Any, keep: Any, pull: Any, i: int) -> Any:
+    """Endless bounces that end at i: (w at first, their way over the speed u along the wall at first, p at first).
+
+    Each takes 2 w / p, and leaves the parts e of w and f of u; what presses the ball, p = -g.n - k u^2, changes with u.
+    """
+    nx, ny, vx, vy = path[i - 1, 3], path[i - 1, 4], path[i - 1, 1], path[i - 1, 2]
+    w, u = vx * nx + vy * ny, vy * nx - vx * ny
+    flat, square = -(pull[i, 0] * nx + pull[i, 1] * ny), -bend[i - 1] * u * u
+    first = flat + square
+    time, left, total = 2.0 * w, 1.0, 0.0
+    for _bounce in range(BOUNCES_IN_SERIES):
+        total += left * time / (flat + left * left * square)
+        time, left = keep[i, 1] * time, keep[i, 0] * left
+        if time * left < LEFT_IN_SERIES * w:
+            break
+    return w, total, first
+
+
+@kernel
+def _lasts(path: Any, bend: Any, keep: Any, pull: Any, t: float, i: int) -> float:
     """Time for which an error is carried from contact to contact: t, but where endless bounces stop a ball.
 
-    With the time a = 2 w / p of the first of them, dw / w = (dv.n - p dt) / w adds a u / (1 - e f) w for dv.n to what
-    is above for dx.n: both are one for dx.n + dv.n a / (1 + e f), which is dx.n at that time.
+    dw / w = (dv.n - p dt) / w adds c u dv.n / w to what is above for dx.n: both are one for dx.n + dv.n c / (c p / w -
+    1) there, which is dx.n at that time.
     """
     if path[i, 5] != STOPS:
         return t
-    e, f = keep[i, 1], keep[i, 0]
-    lasting: float = t * (1.0 - e) / (1.0 + e * f)
+    w, c, p = _series(path, bend, keep, pull, i)
+    lasting: float = c / (c * p / w - 1.0)
     return lasting
 
 
@@ -328,7 +355,7 @@ def carry(
     for i in range(len(path)):
         t = path[i, 0] - now
         now = path[i, 0]
-        left, t = _eased(drag, _lasts(path, keep, t, i))
+        left, t = _eased(drag, _lasts(path, bend, keep, pull, t, i))
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ax, ay = pull[i, 0] - drag * vx, pull[i, 1] - drag * vy
         if made is not None:
@@ -384,7 +411,7 @@ def stretch(
     for i in range(len(path)):
         t = path[i, 0] - now
         now = path[i, 0]
-        left, t = _eased(drag, _lasts(path, keep, t, i))
+        left, t = _eased(drag, _lasts(path, bend, keep, pull, t, i))
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ax, ay = pull[i, 0] - drag * vx, pull[i, 1] - drag * vy
         carried = _one_flown(carried, t, left, glides[i])
