@@ -271,9 +271,7 @@ class ContactReference:
             t = 2 * w / pressed
             time, way = time + t, way + t * (u + pull * t / 2)
             u, w = f * (u + pull * t), e * w
-            pressed = barrier.press(
-                mp, self.gravity, self.position, (u * ahead[0], u * ahead[1])
-            )  # by u, too
+            pressed = barrier.press(mp, self.gravity, self.position, (u * ahead[0], u * ahead[1]))  # by u, too
         place = self.position[0] + way * ahead[0], self.position[1] + way * ahead[1]
         if self._meets_before(barrier, place):
             return
