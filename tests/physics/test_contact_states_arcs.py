@@ -187,3 +187,61 @@ def test_a_point_that_settles_in_the_tip_of_a_valley_rests_there(restitution, bu
     assert np.abs(totals.position).max() < 1e-9
     assert not totals.velocity.any()
     assert totals.time.max() < 1e3
+
+
+@pytest.mark.parametrize(("right", "left", "along"), [(0.697, 0.512, 0.6), (0.618, 0.322, 0.3), (0.205, 0.202, 0.3)])
+def test_a_point_that_loses_speed_along_the_walls_of_a_valley_alone_rests_in_its_tip(right, left, along):
+    # No hop between these walls that meets both square is stable; a hundred of 200 hit the tip before they are caught.
+    valley = _valley(right, left, Material(1.0, along))
+    scene = Scene(valley, Balls(*_thrown_into(valley, 200)), gravity=(0.0, -30.0))
+    totals = survey(scene, until=1e3)
+    assert set(totals.ending) == {Ending.AT_REST}
+    assert np.abs(totals.position).max() < 1e-9
+
+
+@pytest.mark.parametrize(("right", "left", "along"), [(0.92, 1.106, 0.3), (1.036, 1.281, 0.6)])
+def test_a_point_hops_on_for_ever_between_walls_that_it_meets_square(right, left, along):
+    # Square to both walls it loses nothing, e = 1; across gravity its speed stays, and the flight's middle is its top.
+    valley = _valley(right, left, Material(1.0, along))
+    scene = Scene(valley, Balls(*_thrown_into(valley, 50)), gravity=(0.0, -30.0))
+    run = simulate(scene, until=300.0)
+    for ball in range(50):
+        last, end = run.contacts[run.contacts["ball"] == ball][-2:]
+        for contact in (last, end):
+            across = contact["vx"] * contact["nx"] + contact["vy"] * contact["ny"]
+            assert across == pytest.approx(math.hypot(contact["vx"], contact["vy"]), rel=1e-12)
+        assert {last["edge"], end["edge"]} == {0, 2}
+        time = end["time"] - last["time"]
+        # -w2 n2 = w1 n1 + g T, and b t2 = a t1 + w1 n1 T + g T^2 / 2
+        assert -end["vx"] == pytest.approx(last["vx"], rel=1e-9)
+        assert -end["vy"] == pytest.approx(last["vy"] - 30.0 * time, rel=1e-9)
+        assert end["x"] == pytest.approx(last["x"] + last["vx"] * time, rel=1e-9)
+
+
+def test_the_order_of_bounces_in_a_tip_decides_whether_speed_is_lost_or_a_hop_is_for_ever():
+    # Two points that meet one or the other wall first, 1e-7 from a tip, with the same velocity: no continuation of
+    # a hit of the tip itself is the limit of both.
+    valley, speed, angle, time = _valley(1.437, 0.297, Material(1.0, 0.6)), 5.0, 2.046, 2e-3
+    there = -speed * np.array([math.cos(angle), math.sin(angle)])
+    pull = np.array([0.0, -30.0])
+    aside = 1e-7 * np.array([math.sin(angle), -math.cos(angle)])
+    places = [side * aside - there * time + pull * time**2 / 2 for side in (1.0, -1.0)]
+    run = simulate(Scene(valley, Balls(places, [there - pull * time] * 2), gravity=tuple(pull)), until=60.0)
+    assert [run.contacts[run.contacts["ball"] == ball]["edge"][0] for ball in (0, 1)] == [0, 2]
+    speed = np.hypot(run.final["vx"], run.final["vy"])
+    assert run.ending[0] == Ending.TIME_REACHED
+    assert speed[0] > 0.1
+    assert speed[1] < 1e-3  # the other has next to nothing left where it hits the tip itself
+    assert math.hypot(run.final["x"][1], run.final["y"][1]) < 1e-9
+
+
+def _valley(right, left, material):
+    """Walls of length 100 that rise from (0, 0) at two angles, closed above."""
+    ends = [(100 * math.cos(right), 100 * math.sin(right)), (-100 * math.cos(left), 100 * math.sin(left))]
+    return Walls.from_polylines([[(0.0, 0.0), *ends]], material=material)
+
+
+def _thrown_into(valley, count):
+    rng = np.random.default_rng(3)
+    inside = rng.dirichlet((1, 1, 1), count) @ valley.vertices
+    return 0.8 * inside + 0.2 * valley.vertices.mean(axis=0), rng.normal(0.0, 10.0, (count, 2))

@@ -91,6 +91,7 @@ class ContactReference:
         self.sides: dict[int, Barrier] = {}  # of obstacles off which the ball has bounced
         self.now = mp.mpf(0)
         self.held: Barrier | None = None
+        self.left: tuple[Barrier, Vector] | None = None  # a wall along gravity that a point has run up, and its end
         self.rests = False
         self.changes: list[Change] = []
 
@@ -144,7 +145,15 @@ class ContactReference:
     # -- flight
 
     def _fly(self, end: Real) -> None:
-        hit = self.search.first(self.position, self.velocity, self.touching, end - self.now)
+        back = self._time_back()
+        if back is not None and self.now + back < end:
+            hit = self.search.first(self.position, self.velocity, self.touching, back * (1 - self.tiny))
+            if hit is None:
+                self._fall_back(back)
+                return
+        else:
+            hit = self.search.first(self.position, self.velocity, self.touching, end - self.now)
+        self.left = None
         time = end - self.now if hit is None else hit[0]
         before = self.position
         left, free, second = (1, time, time * time / 2) if self.drag is None else eased(self.mp, self.drag, time)
@@ -162,6 +171,32 @@ class ContactReference:
             self.touching = {}
         self.touching[hit[1].number] = hit[1]
         self._settle(hit[1])
+
+    def _time_back(self) -> Real | None:
+        """Time after which a point that has run up over the end of a wall along gravity falls back on it, or None."""
+        if self.left is None:
+            return None
+        speed = self.mp.sqrt(_dot(self.velocity, self.velocity))
+        time = 2 * speed / self.pull
+        if self.drag is None:
+            return time
+
+        def height(time: Real) -> Real:
+            _left, free, second = eased(self.mp, self.drag, time)
+            return speed * free - self.pull * second
+
+        return self.mp.findroot(height, (time / 2, time), solver="anderson")  # below 0 there, without drag it is 0
+
+    def _fall_back(self, time: Real) -> None:
+        """A point falls back as a disc does however small: on the side of the wall on which it was."""
+        assert self.left is not None
+        barrier, place = self.left
+        left, free = (1, time) if self.drag is None else eased(self.mp, self.drag, time)[:2]
+        (u, v), (gx, gy) = self.velocity, self.gravity
+        self.position, self.velocity, self.left = place, (u * left + gx * free, v * left + gy * free), None
+        self.now += time
+        self.held, self.touching = barrier, {barrier.number: barrier}
+        self._note("slide", barrier)
 
     # -- what touches the ball
 
@@ -236,6 +271,7 @@ class ContactReference:
             t = 2 * w / pressed
             time, way = time + t, way + t * (u + pull * t / 2)
             u, w = f * (u + pull * t), e * w
+            pressed = barrier.press(mp, self.gravity, self.position, (u * ahead[0], u * ahead[1]))  # by u, too
         place = self.position[0] + way * ahead[0], self.position[1] + way * ahead[1]
         if self._meets_before(barrier, place):
             return
@@ -342,6 +378,7 @@ class ContactReference:
 
     def _pass_on(self, held: Barrier, ahead: Vector) -> None:
         """At the end of an edge, or of the fan of a vertex."""
+        mp = self.mp
         joint = self.joints.next(held, self.position, ahead)
         if joint.kind == "hollow":
             assert joint.barrier is not None
@@ -362,6 +399,10 @@ class ContactReference:
                 return
         self._note("leave", held)
         self.held = None
+        pressed = _dot(self.gravity, held.normal_at(mp, self.position))
+        along = held.bend == 0 and abs(pressed) <= self.tiny * self.pull
+        if self.radius == 0 and along and _dot(self.velocity, self.gravity) < 0:
+            self.left = held, self.position
 
     def _turn_along(self, barrier: Barrier) -> None:
         """A smooth joint keeps the speed; walls drawn in doubles turn there by their rounding."""

@@ -9,18 +9,16 @@ into two floats without error, and ``math.fsum`` rounds their sum only once.
 from __future__ import annotations
 
 import math
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.double_double import two_difference, two_product
 
 _BOUND = (3 + 16 * 2.0**-53) * 2.0**-53
 """Of |l| + |r|: a determinant l - r that is beyond has the right sign."""
 _CIRCLE_BOUND = (10 + 96 * 2.0**-53) * 2.0**-53
-_SPLITTER = 2.0**27 + 1
-_Number = TypeVar("_Number", float, FloatArray)
 _Place = tuple[float, float]
 
 
@@ -67,19 +65,19 @@ def in_circle(a: _Place, b: _Place, c: _Place, d: _Place) -> int:
 
 
 def _exact_side(a: _Place, b: _Place, c: _Place) -> int:
-    ax, ay = _difference(a[0], c[0]), _difference(a[1], c[1])
-    bx, by = _difference(b[0], c[0]), _difference(b[1], c[1])
-    terms = [part for p in ax for q in by for part in _product(p, q)]
-    total = math.fsum(terms + [-part for p in ay for q in bx for part in _product(p, q)])
+    ax, ay = two_difference(a[0], c[0]), two_difference(a[1], c[1])
+    bx, by = two_difference(b[0], c[0]), two_difference(b[1], c[1])
+    terms = [part for p in ax for q in by for part in two_product(p, q)]
+    total = math.fsum(terms + [-part for p in ay for q in bx for part in two_product(p, q)])
     return (total > 0) - (total < 0)
 
 
 def _closer(a: FloatArray, b: FloatArray, c: FloatArray) -> NDArray[np.int8]:
     """Exact with two floats a number where that is enough (whole numbers, tidy drawings), else by the full sum."""
-    ax, ay = _difference(a[:, 0], c[:, 0]), _difference(a[:, 1], c[:, 1])
-    bx, by = _difference(b[:, 0], c[:, 0]), _difference(b[:, 1], c[:, 1])
-    left, right = _product(ax[0], by[0]), _product(ay[0], bx[0])
-    high, low = _difference(left[0], right[0]), _difference(left[1], right[1])
+    ax, ay = two_difference(a[:, 0], c[:, 0]), two_difference(a[:, 1], c[:, 1])
+    bx, by = two_difference(b[:, 0], c[:, 0]), two_difference(b[:, 1], c[:, 1])
+    left, right = two_product(ax[0], by[0]), two_product(ay[0], bx[0])
+    high, low = two_difference(left[0], right[0]), two_difference(left[1], right[1])
     sign = np.sign(high[0] + low[0]).astype(np.int8)
     lost = (ax[1] != 0) | (ay[1] != 0) | (bx[1] != 0) | (by[1] != 0) | (high[1] != 0) | (low[1] != 0)
     rest = np.flatnonzero(lost)
@@ -89,25 +87,9 @@ def _closer(a: FloatArray, b: FloatArray, c: FloatArray) -> NDArray[np.int8]:
 
 
 def _exact(a: FloatArray, b: FloatArray, c: FloatArray) -> NDArray[np.int8]:
-    ax, ay = _difference(a[:, 0], c[:, 0]), _difference(a[:, 1], c[:, 1])
-    bx, by = _difference(b[:, 0], c[:, 0]), _difference(b[:, 1], c[:, 1])
-    terms = [part for p in ax for q in by for part in _product(p, q)]
-    terms += [-part for p in ay for q in bx for part in _product(p, q)]
+    ax, ay = two_difference(a[:, 0], c[:, 0]), two_difference(a[:, 1], c[:, 1])
+    bx, by = two_difference(b[:, 0], c[:, 0]), two_difference(b[:, 1], c[:, 1])
+    terms = [part for p in ax for q in by for part in two_product(p, q)]
+    terms += [-part for p in ay for q in bx for part in two_product(p, q)]
     rows = np.stack(terms, axis=1).tolist()
     return np.array([math.copysign(1, total) if (total := math.fsum(row)) else 0 for row in rows], dtype=np.int8)
-
-
-def _difference(x: _Number, y: _Number) -> tuple[_Number, _Number]:
-    """X - y as a rounded difference and its error (Knuth)."""
-    d = x - y
-    back = d - x
-    return d, (x - (d - back)) - (y + back)
-
-
-def _product(x: _Number, y: _Number) -> tuple[_Number, _Number]:
-    """X y as a rounded product and its error (Dekker, Veltkamp)."""
-    p = x * y
-    xh = x * _SPLITTER - (x * _SPLITTER - x)
-    yh = y * _SPLITTER - (y * _SPLITTER - y)
-    xl, yl = x - xh, y - yh
-    return p, xl * yl - (((p - xh * yh) - xl * yh) - xh * yl)

@@ -91,6 +91,8 @@ COLLAPSES = -(2**60)
 """In place of a feature: an exact corner hit that the ball does not get out of."""
 AMBIGUOUS = -(2**62)
 """In place of a feature: an exact corner hit whose outcome depends on which wall comes first."""
+FALLS_BACK = -(2**62) - 1
+"""In place of a feature: a point falls back along a wall to its upper end, see ``falling_back``."""
 
 RUNNING = -1
 NO_ROW = -1

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
 from wallkit.kernels.flight.ball_state import FALLING_TOLERANCE
-from wallkit.kernels.flight.error_growth import BOUNCES, SLIDES, SLOWS, STOPS
+from wallkit.kernels.flight.error_growth import BOUNCES, ENDS, SLIDES, SLOWS, STOPS
 from wallkit.scene.scene import Scene
 from wallkit.simulation.gliding import edges_of
 
@@ -18,8 +20,10 @@ RMS_ROUNDING = 0.6 * 2.0**-53
 SURE = 3.0  # promised is this many times the root mean square
 
 
-def roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
-    """(n, 4) what the arithmetic of each contact adds: see :func:`wallkit.kernels.flight.error_growth.carry`.
+def roundings(scene: Scene, own: Any, course: Course, ball: int) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """(n, 4) what the arithmetic of each contact may add: see :func:`wallkit.kernels.flight.error_growth.carry`.
+
+    And (n,) where that is more than roundings, in the tip of a corner.
 
     A rounding is at most EPS = 2^-53 of the number, and some 0.6 of that as a root mean square. Places are as
     large as the distance from the local origin; the normal about a corner or on an arc is taken from the place,
@@ -42,11 +46,13 @@ def roundings(scene: Scene, own: Any, course: Course, ball: int) -> FloatArray:
         [own["x"], own["y"]], axis=1
     )
     wall = np.hypot(place, np.where(own["edge"] < 0, 0.0, RMS_ROUNDING * np.hypot(*d.T)))
+    in_corner = np.zeros(len(own), dtype=np.bool_)
     if scene.gravity is not None:
         near = FALLING_TOLERANCE * float(np.abs(scene.walls.vertices - origin).max(initial=0.0))
         there, quick = _doubts_in_corners(course, np.asarray(scene.gravity, dtype=np.float64), near)
         place, speed = np.hypot(place, there / SURE), np.hypot(speed, quick / SURE)
-    return np.stack([wall, turn, place, speed], axis=1)
+        in_corner = (there > 0.0) | (quick > 0.0)
+    return np.stack([wall, turn, place, speed], axis=1), in_corner
 
 
 def _falling_roundings(course: Course, places: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -92,7 +98,22 @@ def _doubts_in_corners(course: Course, gravity: FloatArray, near: float) -> tupl
     found = np.flatnonzero(early & (sine > 0.0) & (speed > 0.0))
     there[found + 2] = near / sine[found]
     quick[found + 2] = across[found] / speed[found]
+    there[-1] = max(there[-1], _at_rest_in_corner(path, near))
     return there, quick
+
+
+def _at_rest_in_corner(path: FloatArray, near: float) -> float:
+    """By how much a ball may be off that ends at rest just after a bounce: in a tip, or wedged between two walls.
+
+    It is no farther than the tolerance from either, at the angle a with one another, and so by up to twice that over
+    sin a from where it would come to rest; over sqrt 2, for it counts for each component of its place.
+    """
+    first, second, end = path[-3:]
+    bounced = second[5] == BOUNCES and second[1:3].any()
+    if not bounced or end[5] != ENDS or end[1:3].any() or end[0] != second[0]:
+        return 0.0
+    sine = abs(float(first[3] * second[4] - first[4] * second[3]))
+    return math.sqrt(2.0) * near / sine if sine > 0.0 else math.inf
 
 
 def drawing_errors(scene: Scene, own: Any) -> FloatArray:

@@ -14,6 +14,10 @@ they have taken its speed, or left it what it has along the wall, so that rollin
 round on a wall is slowed down on it: from there on what slows it down acts the other way. Where a run ends nothing is
 turned. Who joins a hollow comes to it along its tangent, to rounding, and goes on along it."""
 
+BOUNCES_IN_SERIES = 4096
+LEFT_IN_SERIES = 2.0**-40
+"""Of the first of endless bounces: what is left then adds no digit that an error needs."""
+
 
 @kernel
 def derivative(
@@ -95,7 +99,7 @@ def contact(
         keeps = max(hx * ax + hy * ay, 0.0) / square if square > 0.0 else 1.0
         return along, along, none, _scaled(along, keeps)
     if path[i, 5] == STOPS or path[i, 5] == SLOWS:
-        return _after_last_bounces(along, path, keep, hx, hy, ax, ay, i)
+        return _after_last_bounces(along, path, bend, keep, pull, hx, hy, ax, ay, i)
     return along, along, none, along
 
 
@@ -106,51 +110,74 @@ def _along(nx: float, ny: float) -> Any:
 
 
 @kernel
-def _after_last_bounces(along: Any, path: Any, keep: Any, hx: float, hy: float, ax: float, ay: float, i: int) -> Any:
+def _after_last_bounces(
+    along: Any, path: Any, bend: Any, keep: Any, pull: Any, hx: float, hy: float, ax: float, ay: float, i: int
+) -> Any:
     """Give S, A, B and M where endless bounces end that stop a ball, or after which friction slows it down.
 
-    The last bounce that is told leaves at w, dt = -dx.n / w late and faster by dw = dv.n - p dt; its series takes
-    T = 2 w / p (1 - e), so dT = dt + T dw / w. Where restitution f along the wall stops it, after the way
-    2 w u / p (1 - e f), it stops farther by u dt and by that way times dw / w: by u (1 - 2 / (1 - e f)) dt, at the
-    time of ``_lasts``.
+    The last bounce that is told leaves at w, dt = -dx.n / w late and faster by dw = dv.n - p dt + k u dx.t, for along a
+    curve n turns; its series takes a time T in proportion to w, so dT = dt + T dw / w. Where restitution f along the
+    wall stops it, after the way c u, it stops farther by u dt and by that way times dw / w: for the first two parts of
+    dw by u (1 - c p / w) dt, at the time of ``_lasts``.
     """
-    T, e, f = path[i, 0] - path[i - 1, 0], keep[i, 1], keep[i, 0]
+    T, k = path[i, 0] - path[i - 1, 0], bend[i - 1]
     nx, ny = path[i - 1, 3], path[i - 1, 4]  # of that bounce: on an arc it turns from there by more than w / v
-    w = path[i - 1, 1] * nx + path[i - 1, 2] * ny
-    part = 1.0 - 2.0 / (1.0 - e)
+    w, c, p = _series(path, bend, keep, pull, i)
+    part = 1.0 - T * p / w
     # Here, `since` later, dx.n has `since` dv.n more.
-    since = _lasts(path, keep, T, i)
+    since = _lasts(path, bend, keep, pull, T, i)
     d, m = -part / w, (T + part * since) / w
     keeps = 1.0 if path[i, 5] == SLOWS else 0.0  # of what it had until then
     jx, jy = hx - keeps * ax, hy - keeps * ay
     px, py = along[0] * jx + along[1] * jy, along[2] * jx + along[3] * jy
     late = (-px * m * nx, -px * m * ny, -py * m * nx, -py * m * ny)
+    # u as a vector along the wall, there.
+    across = path[i - 1, 1] * nx + path[i - 1, 2] * ny
+    ux, uy = path[i - 1, 1] - across * nx, path[i - 1, 2] - across * ny
+    lx, ly = d * nx + T * k / w * ux, d * ny + T * k / w * uy
     place = along
     if path[i, 5] == STOPS:
-        # u as a vector along the wall, times -(1 - 2 / (1 - e f)) / w.
-        far = (2.0 / (1.0 - e * f) - 1.0) / w
-        sx = far * (along[0] * path[i - 1, 1] + along[1] * path[i - 1, 2])
-        sy = far * (along[2] * path[i - 1, 1] + along[3] * path[i - 1, 2])
-        place = _plus(along, (sx * nx, sx * ny, sy * nx, sy * ny))
+        far = (c * p / w - 1.0) / w
+        fx, fy = far * nx + c * k / w * ux, far * ny + c * k / w * uy
+        place = _plus(along, (ux * fx, ux * fy, uy * fx, uy * fy))
     return (
         place,
         place,
-        (-px * d * nx, -px * d * ny, -py * d * nx, -py * d * ny),
+        (-px * lx, -px * ly, -py * lx, -py * ly),
         _plus(_scaled(along, keeps), late),
     )
 
 
 @kernel
-def _lasts(path: Any, keep: Any, t: float, i: int) -> float:
+def _series(path: Any, bend: Any, keep: Any, pull: Any, i: int) -> Any:
+    """Endless bounces that end at i: (w at first, their way over the speed u along the wall at first, p at first).
+
+    Each takes 2 w / p, and leaves the parts e of w and f of u; what presses the ball, p = -g.n - k u^2, changes with u.
+    """
+    nx, ny, vx, vy = path[i - 1, 3], path[i - 1, 4], path[i - 1, 1], path[i - 1, 2]
+    w, u = vx * nx + vy * ny, vy * nx - vx * ny
+    flat, square = -(pull[i, 0] * nx + pull[i, 1] * ny), -bend[i - 1] * u * u
+    first = flat + square
+    time, left, total = 2.0 * w, 1.0, 0.0
+    for _bounce in range(BOUNCES_IN_SERIES):
+        total += left * time / (flat + left * left * square)
+        time, left = keep[i, 1] * time, keep[i, 0] * left
+        if time * left < LEFT_IN_SERIES * w:
+            break
+    return w, total, first
+
+
+@kernel
+def _lasts(path: Any, bend: Any, keep: Any, pull: Any, t: float, i: int) -> float:
     """Time for which an error is carried from contact to contact: t, but where endless bounces stop a ball.
 
-    With the time a = 2 w / p of the first of them, dw / w = (dv.n - p dt) / w adds a u / (1 - e f) w for dv.n to what
-    is above for dx.n: both are one for dx.n + dv.n a / (1 + e f), which is dx.n at that time.
+    dw / w = (dv.n - p dt) / w adds c u dv.n / w to what is above for dx.n: both are one for dx.n + dv.n c / (c p / w -
+    1) there, which is dx.n at that time.
     """
     if path[i, 5] != STOPS:
         return t
-    e, f = keep[i, 1], keep[i, 0]
-    lasting: float = t * (1.0 - e) / (1.0 + e * f)
+    w, c, p = _series(path, bend, keep, pull, i)
+    lasting: float = c / (c * p / w - 1.0)
     return lasting
 
 
@@ -255,8 +282,54 @@ def _wall_moved(d: float, wx: float, wy: float, across: float, nx: float, ny: fl
 
 
 @kernel
+def _one_flown(error: Any, t: float, left: float, g: Any) -> Any:
+    """Carry one error (dx, dv) to the next contact: as ``_flown``, or along a circle as ``_glided``."""
+    x, y, p, q = error
+    if g[0] != g[0]:
+        return x + p * t, y + q * t, p * left, q * left
+    px, py, tx, ty = g[4], g[5], g[6], g[7]
+    xi, eta = x * px + y * py, p * px + q * py
+    xi, eta = g[8] * xi + g[9] * eta, g[10] * xi + g[11] * eta
+    k = g[12] * xi
+    return xi * tx, xi * ty, eta * tx + k * ty, eta * ty - k * tx
+
+
+@kernel
+def _one_met(error: Any, A: Any, B: Any, M: Any) -> Any:
+    """Carry one error through a contact, as ``_met``."""
+    x, y, p, q = error
+    return (
+        A[0] * x + A[1] * y,
+        A[2] * x + A[3] * y,
+        B[0] * x + B[1] * y + M[0] * p + M[1] * q,
+        B[2] * x + B[3] * y + M[2] * p + M[3] * q,
+    )
+
+
+@kernel
+def _with_made(made: Any, sums: Any, error: Any, S: Any, A: Any, B: Any, M: Any, i: int) -> Any:
+    """Carry the known error through a contact and add what is made there; note its sizes, place and velocity."""
+    x, y, _p, _q = error
+    wx, wy = S[0] * x + S[1] * y + made[i, 0], S[2] * x + S[3] * y + made[i, 1]
+    x, y, p, q = _one_met(error, A, B, M)
+    x, y, p, q = x + made[i, 2], y + made[i, 3], p + made[i, 4], q + made[i, 5]
+    sums[i, 0], sums[i, 1] = math.sqrt(wx * wx + wy * wy), math.sqrt(p * p + q * q)
+    return x, y, p, q
+
+
+@kernel
 def carry(
-    start: Any, path: Any, bend: Any, keep: Any, pull: Any, drag: float, glides: Any, fresh: Any, variance: Any
+    start: Any,
+    path: Any,
+    bend: Any,
+    keep: Any,
+    pull: Any,
+    drag: float,
+    glides: Any,
+    fresh: Any,
+    made: Any,
+    variance: Any,
+    sums: Any,
 ) -> None:
     """Fill ``variance`` with that of the place of each contact, and of the velocity after it before it is rounded.
 
@@ -269,19 +342,24 @@ def carry(
         drag: rate under gravity, or 0.
         glides: (n, 13) of ``wallkit.simulation.glide_errors``, of not-a-number where the ball came no circle along.
         fresh: (n, 4) new at each contact: displacement of the wall, turn of its normal, rounding of the place,
-            and of the velocity relative to the speed.
+            and of the velocity relative to the speed; 0 where it is known.
+        made: (n, 6) known errors of each contact, see ``wallkit.simulation.made_errors``, or None.
         variance: (n, 2), filled; left as it is after the first place of more than 1e300.
+        sums: (n, 2) filled likewise with what known errors add up to, of the same two.
     """
     ux, uy = start[0], start[1]
+    error = (0.0, 0.0, 0.0, 0.0)
     # covariances of position, of position with velocity, of velocity; the start is exact: it is what was asked for
     xx = xv = vv = (0.0, 0.0, 0.0, 0.0)
     now = 0.0
     for i in range(len(path)):
         t = path[i, 0] - now
         now = path[i, 0]
-        left, t = _eased(drag, _lasts(path, keep, t, i))
+        left, t = _eased(drag, _lasts(path, bend, keep, pull, t, i))
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ax, ay = pull[i, 0] - drag * vx, pull[i, 1] - drag * vy
+        if made is not None:
+            error = _one_flown(error, t, left, glides[i])
         if glides[i, 0] == glides[i, 0]:
             xx, xv, vv = _glided(xx, xv, vv, glides[i])
             vx, vy, ax, ay = glides[i, 0], glides[i, 1], glides[i, 2], glides[i, 3]
@@ -299,6 +377,10 @@ def carry(
             variance[i, 0] += fresh[i, 0] * fresh[i, 0] * (vx * vx + vy * vy) / (across * across)
         if not variance[i, 0] < 1e300:
             break
+        if made is not None:
+            error = _with_made(made, sums, error, S, A, B, M, i)
+            if not sums[i, 0] < 1e150:
+                break
         xx, xv, vv = _met(xx, xv, vv, A, B, M)
         variance[i, 1] = vv[0] + vv[3]
         rounded = fresh[i, 2] * fresh[i, 2]
@@ -324,32 +406,21 @@ def stretch(
 ) -> None:
     """Carry one small error (dx, dv) along and fill ``logs`` with the logarithm of its growth at each bounce."""
     ux, uy = start[0], start[1]
-    x, y, vx_, vy_ = error[0], error[1], error[2], error[3]
+    carried = (error[0], error[1], error[2], error[3])
     now = 0.0
     for i in range(len(path)):
         t = path[i, 0] - now
         now = path[i, 0]
-        left, t = _eased(drag, _lasts(path, keep, t, i))
+        left, t = _eased(drag, _lasts(path, bend, keep, pull, t, i))
         vx, vy = ux * left + pull[i, 0] * t, uy * left + pull[i, 1] * t
         ax, ay = pull[i, 0] - drag * vx, pull[i, 1] - drag * vy
+        carried = _one_flown(carried, t, left, glides[i])
         if glides[i, 0] == glides[i, 0]:
             vx, vy, ax, ay = glides[i, 0], glides[i, 1], glides[i, 2], glides[i, 3]
-            px, py, tx, ty = glides[i, 4], glides[i, 5], glides[i, 6], glides[i, 7]
-            xi, eta = x * px + y * py, vx_ * px + vy_ * py
-            xi, eta = glides[i, 8] * xi + glides[i, 9] * eta, glides[i, 10] * xi + glides[i, 11] * eta
-            k = glides[i, 12] * xi
-            x, y, vx_, vy_ = xi * tx, xi * ty, eta * tx + k * ty, eta * ty - k * tx
-        else:
-            x, y, vx_, vy_ = x + vx_ * t, y + vy_ * t, vx_ * left, vy_ * left
         ux, uy = path[i, 1], path[i, 2]
         _, A, B, M = contact(vx, vy, ax, ay, path, bend, keep, pull, drag, i)
-        vx_, vy_, x, y = (
-            B[0] * x + B[1] * y + M[0] * vx_ + M[1] * vy_,
-            B[2] * x + B[3] * y + M[2] * vx_ + M[3] * vy_,
-            A[0] * x + A[1] * y,
-            A[2] * x + A[3] * y,
-        )
+        x, y, p, q = _one_met(carried, A, B, M)
         # Scaled back to 1 at each bounce, as Benettin et al. (1980) do for Lyapunov exponents.
-        size = math.sqrt(x * x + y * y + vx_ * vx_ + vy_ * vy_)
+        size = math.sqrt(x * x + y * y + p * p + q * q)
         logs[i] = math.log(size)
-        x, y, vx_, vy_ = x / size, y / size, vx_ / size, vy_ / size
+        carried = (x / size, y / size, p / size, q / size)

@@ -6,14 +6,16 @@ import math
 
 from wallkit.kernels.flight.ball_state import read_state, write_state
 from wallkit.kernels.flight.damping import free_time, last_flight, slowed
+from wallkit.kernels.flight.falling_back import fallen_back, falls_back
 from wallkit.kernels.flight.gravity import bounce, facing, fall, first_contact, kept_energy, lifted
 from wallkit.kernels.flight.guide import guide
-from wallkit.kernels.flight.joints import NO_END, end_at, next_face
+from wallkit.kernels.flight.joints import AT_VERTEX, NO_END, end_at, next_face
 from wallkit.kernels.flight.motion import advance
 from wallkit.kernels.flight.point_in_corner import settle
 from wallkit.kernels.flight.resting import held_after, keep, side_of, stopped_between
 from wallkit.kernels.flight.vertex import first_face, order_shows, rests_anyhow
 from wallkit.kernels.impact.contact_normal import normal_at
+from wallkit.kernels.impact.polynomial_roots import NEVER
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.records import (
     ABSORBED,
@@ -24,6 +26,7 @@ from wallkit.kernels.records import (
     COLLAPSE,
     COLLAPSES,
     EDGE,
+    FALLS_BACK,
     JOINING,
     LEAVING,
     LEFT,
@@ -82,6 +85,10 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             if feature in (NO_HIT, AMBIGUOUS) or (feature == COLLAPSES and (gravity is None or before == NO_HIT)):
                 ending = ending_without(model.damping, feature, until)
                 break
+            if gravity is not None:
+                if feature == FALLS_BACK:
+                    ball, clock, start, grip, last = back_on_wall(model, gravity, ball, clock, grip, t)
+                    continue
             passed, slower = slowed(model.damping, ball[4], t, remaining)
             if gravity is None:  # a collapse is where the last bounce was: the ball has not moved there yet
                 still = still_now(model.restitution, feature, still, clock, passed, t, ball, tolerance)
@@ -155,6 +162,7 @@ def contact_ahead(model, gravity, radius, ball, start, grip, last, still, tolera
     """Find what ends a flight: (free time until then, feature); a point in a corner may get out of it at once."""
     x, y, vx, vy, energy = ball
     best = free_time(model.damping, energy, remaining)  # in which t is: as if nothing slowed the ball down
+    back, best = back_before(model, gravity, radius, ball, grip, tolerance, best)
     t, feature, touched = first_contact(
         model, gravity, radius, x, y, vx, vy, energy, last, grip[0], grip[1], grip[2], tolerance, best
     )
@@ -164,7 +172,37 @@ def contact_ahead(model, gravity, radius, ball, start, grip, last, still, tolera
         met = settle(model, last, side, x, y, vx, vy, start[0], start[1], start[2], start[3], tolerance, still)
         if met != NO_HIT:
             t, feature = 0.0, met
-    return t, feature
+    return (back, FALLS_BACK) if feature == NO_HIT and back < NEVER else (t, feature)
+
+
+@kernel
+def back_before(model, gravity, radius, ball, grip, tolerance, best):
+    """When a point falls back along a wall that it left, NEVER if not before ``best``, and until when to look ahead.
+
+    Nearer to the wall's end than rounding nothing else is met.
+    """
+    if gravity is None:
+        return NEVER, best
+    held, hold, side, _turns, _changes = grip
+    if radius > 0.0 or hold != LEFT or held < 0:
+        return NEVER, best
+    x, y, vx, vy, _energy = ball
+    back = falls_back(model, gravity, held, side, x, y, vx, vy, tolerance)
+    if back > best or back == NEVER:
+        return NEVER, best
+    _x, _y, vx, vy = fall(gravity, model.drag, x, y, vx, vy, back)
+    return back, max(back - AT_VERTEX * tolerance / (abs(vx) + abs(vy)), 0.0)
+
+
+@kernel
+def back_on_wall(model, gravity, ball, clock, grip, t):
+    """Put a point on the end of a wall to which it has fallen back: (ball, clock, start, grip, last)."""
+    held, _hold, side, turns, changes = grip
+    ball = fallen_back(model, gravity, held, ball, t)
+    x, y, vx, vy, _energy = ball
+    from_vx, from_vy = lifted(model, gravity, 0.0, held, PASSING, side, x, y, vx, vy)
+    start = (x, y, from_vx, from_vy)
+    return ball, advance(clock[0], clock[1], t), start, (held, PASSING, side, turns, changes), held
 
 
 @kernel

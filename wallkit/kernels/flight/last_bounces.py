@@ -83,7 +83,13 @@ def _unslowed(drag, gravity, rho, away, nx, ny, u, w, e):
 def _last_bounces(gravity, rho, away, nx, ny, u, w, e, f):
     """Time and way of the endless bounces on a circle that a wall with f < 1 ends, one after the other.
 
-    As u dies, so does the part v^2 / rho of what presses the ball on the wall, and on its way the wall turns.
+    As u dies, so does the part v^2 / rho of what presses the ball on the wall, and on its way the wall turns. A bounce
+    goes x = u t + a t^2 / 2 along the wall and y = w t - b t^2 / 2 off it, and ends where y = k x^2 / 2 (k = 1 / rho in
+    a hollow, else -1 / rho):
+
+        t = 2 w / (b + k u^2 + k u a t),    and off the wall it comes down there at w + k u a t^2 / 2.
+
+    What is left out is of the square of the angle by which the wall turns under one bounce.
     """
     time, way, least = 0.0, 0.0, 2.0**-34 * w
     while w > least:
@@ -93,7 +99,10 @@ def _last_bounces(gravity, rho, away, nx, ny, u, w, e, f):
         if pressed <= 0.0:
             break
         t = 2.0 * w / pressed
-        time, way, u, w = time + t, way + t * (u + 0.5 * pull * t), f * (u + pull * t), e * w
+        later = -away / rho * u * pull * t
+        t = 2.0 * w / (pressed + later)
+        w = e * (w + 0.5 * later * t)
+        time, way, u = time + t, way + t * (u + 0.5 * pull * t), f * (u + pull * t)
     return time, way
 
 

@@ -15,6 +15,7 @@ from wallkit.kernels.flight.joints import AT_VERTEX, NO_END, end_at, leading_alo
 from wallkit.kernels.flight.motion import reflect
 from wallkit.kernels.flight.obstacles import SMOOTH_JOINT
 from wallkit.kernels.flight.point_in_corner import order_matters, touching
+from wallkit.kernels.flight.tip import may_hop_on
 from wallkit.kernels.impact.contact_normal import normal_at, outward
 from wallkit.kernels.impact.drag_motion import pulled
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
@@ -100,7 +101,8 @@ def rests_anyhow(model, gravity, feature, face, ball, tolerance):
 
     Where both edges rise from the vertex, by a = -g.t for each unit of way, a point of the energy v^2 / 2 gets no
     farther along either than v^2 / 2 a. Walls with restitution e < 1 take speed from it at every bounce, and there is
-    no end of these before it rests. So only the bounces are not known that are left out, all of them within 2^-20
+    no end of these before it rests. So do walls with e = 1 that take speed along them, where no hop between them is
+    stable (see ``tip``). So only the bounces are not known that are left out, all of them within 2^-20
     of the edges, a millionth: no picture shows them. A longer way is not left out.
     """
     x, y, vx, vy, _energy = ball
@@ -108,8 +110,14 @@ def rests_anyhow(model, gravity, feature, face, ball, tolerance):
     end, _face = other_bound(model, own, face)
     if model.restitution is None or not (_rises(model, gravity, own, vx, vy) and _rises(model, gravity, end, vx, vy)):
         return False
-    walls = model.edge_wall
-    return model.restitution[2 * walls[feature]] < 1.0 and model.restitution[2 * walls[end >> 1]] < 1.0
+    one, other = 2 * model.edge_wall[feature], 2 * model.edge_wall[end >> 1]
+    e, f = model.restitution[one], model.restitution[one + 1]
+    other_e, other_f = model.restitution[other], model.restitution[other + 1]
+    if e < 1.0 and other_e < 1.0:
+        return True
+    if not (e == 1.0 and other_e == 1.0 and f < 1.0 and other_f < 1.0):
+        return False
+    return not may_hop_on(gravity, model.joints[own], model.joints[end], f, other_f)
 
 
 @kernel

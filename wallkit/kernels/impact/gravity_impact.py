@@ -24,6 +24,8 @@ HULL_ROUNDING = 2.0**-45
 """Of the size of a hull, beyond the rounding of its points and of what is made of them."""
 GRAZING_ROUNDING = 2.0**-46
 """Of the squared way to a corner, above the rounding of the quartic's coefficients."""
+PLACE_ROUNDING = 2.0**-9
+"""Of the tolerance, 2^-41 of the extent: what the place of a flight with drag is rounded by, 2^-50 of that."""
 HIDING = 2.0**-23
 """Of the way to a corner: the square of a smaller radius is below that rounding, and a root of it tells nothing."""
 LATER = 1.0 + 2.0**-18
@@ -229,11 +231,10 @@ def fall_corners(
             c2, c1, c0, from_behind = left_along(c2, c1, c0, radius, slack, vx, vy, gx, gy, from_behind)
         near = 0.0
         grazes = c4 > 0.0 and c0 > 0.0 and not from_behind and -2 - ids[k] != last
-        if drag is None:
-            if grazes:  # widened by rounding it falls sooner: without a root of that one the exact one has none
-                near = _near(ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, LATER * min(best, until))
-                if not near < NEVER:
-                    continue
+        if grazes:  # widened by rounding it falls sooner: without a root of that one the exact one has none
+            near = _near(drag, far, radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, tolerance, LATER * min(best, until))
+            if not near < NEVER:
+                continue
         t = circle_fall(
             drag, far, 1.0, -radius * radius, ex, ey, 0.0, 0.0, vx, vy, gx, gy, c4, c3, c2, c1, c0, 0.0,
             LATER * min(best, until), from_behind,
@@ -241,6 +242,8 @@ def fall_corners(
         if drag is None:
             if grazes and (t == NEVER or radius < HIDING * way_of(ex, ey, vx, vy, gx, gy, t)):
                 t = _grazing(radius, ex, ey, vx, vy, gx, gy, near, LATER * min(best, until))
+        elif grazes and t == NEVER:
+            t = near
         if one_sided is not None:
             if t <= best and t < NEVER:
                 there_x, there_y = along(drag, ex, vx, gx, t), along(drag, ey, vy, gy, t)
@@ -255,12 +258,22 @@ def fall_corners(
 
 
 @rare_kernel
-def _near(ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, c0, t_max):
-    """First fall of a disc on to a corner, or to within the rounding of the quartic's coefficients of it, or NEVER."""
+def _near(drag, far, radius, ex, ey, vx, vy, gx, gy, c4, c3, c2, c1, tolerance, t_max):
+    """First fall of a disc on to a corner, or to within the rounding of what is asked of it, or NEVER.
+
+    That of the quartic's coefficients; with drag the gap is made of places, and only their rounding may hide a graze.
+    """
+    if drag is not None:
+        reach = radius + PLACE_ROUNDING * tolerance
+        c0 = ex * ex + ey * ey - reach * reach
+        return circle_fall(
+            drag, far, 1.0, -reach * reach, ex, ey, 0.0, 0.0, vx, vy, gx, gy, c4, c3, c2, c1, c0, 0.0, t_max, False
+        )
     # At the corner e + v t + g t^2 / 2 = 0: g t^2 / 2 <= |e| + |v| t, so t <= (|v| + sqrt(v^2 + 2 g |e|)) / g.
     pull, speed, off = math.sqrt(gx * gx + gy * gy), abs(vx) + abs(vy), abs(ex) + abs(ey)
     latest = (speed + math.sqrt(speed * speed + 2.0 * pull * off)) / pull
     size = 2.0 * (off + speed * latest)
+    c0 = ex * ex + ey * ey - radius * radius
     return first_fall_quartic(c4, c3, c2, c1, c0 - GRAZING_ROUNDING * size * size, t_max, False)
 
 
@@ -305,7 +318,8 @@ def circle_fall(
         return _polished(t, off, wx, wy, sx, sy, vx, vy, gx, gy)
     ex, ey = wx + sx, wy + sy
     bend = vx * vx + vy * vy + ex * pulled(drag, vx, gx) + ey * pulled(drag, vy, gy)
-    off_now = c0 - side * (wx * (wx + 2.0 * sx) + wy * (wy + 2.0 * sy))
+    # What was taken out of c0 is 0 but for what the ball has left. c0 less w.(w + 2 s) would be off by its rounding.
+    off_now = side * off + (c0 - side * (wx * (wx + 2.0 * sx) + wy * (wy + 2.0 * sy) + off))
     lin, twice = c1 - side * 2.0 * (ex * vx + ey * vy), 2.0 * (c2 - side * bend)
     gap = Gap(side, side * sx, side * sy, off_now, lin, twice, wx, wy, vx, vy, gx, gy, drag)
     return first_fall_after(gap, far, after, t_max, from_behind)
