@@ -52,7 +52,7 @@ def falls(rho, ex, ey, tx, ty, c, gx, gy, q, from_behind):
 
 @kernel
 def _keeps_off(rho, tx, ty, c, gx, gy, best):
-    """Tell whether on a straight guide a gap c, of the gradient G, stays above 0 up to ``best``, whatever q >= 0 adds."""
+    """Tell whether on a straight guide a gap c of the gradient G stays above 0 up to ``best``, whatever q >= 0 adds."""
     # It is at least c + (G.t) s: no root and no quotient for what lies behind, or too far ahead.
     along = gx * tx + gy * ty
     return rho == STRAIGHT and c > 0.0 and (along >= 0.0 or c > -along * best * LATER)
