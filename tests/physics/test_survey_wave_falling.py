@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_survey_wave_acting import level, thrown
 
-from wallkit import Balls, Ending, Material, Scene, Walls
+from wallkit import Balls, Ending, Material, Scene, Walls, simulate
 from wallkit.kernels.batches.falling_columns import PER_TURN
 from wallkit.kernels.records import OCTANTS
 from wallkit.simulation.prepared import prepare
@@ -61,6 +61,18 @@ def test_walls_that_take_speed_hold_balls_and_absorb_them(arcs, radius, acts):
         return
     totals, _model = assert_same(Scene(walls, thrown(random, radius), **DOWN, **acts), until=60.0)
     assert Ending.ABSORBED in totals.ending
+
+
+@pytest.mark.parametrize("ball", [8, 121, 131])
+def test_a_glide_within_a_rounding_of_the_lowest_place_of_an_arc_goes_on(ball):
+    # A way below the rounding of the place left it where it was: each stretch ended where it had begun, for ever.
+    random = np.random.default_rng(4)
+    walls = level(random, arcs=True, one_sided=False, soft=True)
+    walls = replace(walls, materials=(Material(0.5, 1.0, static_friction=1.5),) * len(walls))
+    balls = thrown(random, 0.0)
+    one = Balls(balls.position[ball : ball + 1], balls.velocity[ball : ball + 1], 0.0)
+    run = simulate(Scene(walls, one, **DOWN), until=60.0, mode="interpreted")
+    assert run.ending[0] in (Ending.TIME_REACHED, Ending.AT_REST)
 
 
 @pytest.mark.parametrize("radius", [0.0, 0.7, 4.0])
