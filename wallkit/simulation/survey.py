@@ -194,8 +194,10 @@ def _check_executor(executor: object) -> None:
 
     An InterpreterPoolExecutor (Python 3.14) is a ThreadPoolExecutor by its class, and copies all the same.
     """
+    if executor is None:
+        return
     copies = getattr(concurrent.futures, "InterpreterPoolExecutor", ())
-    if executor is None or (isinstance(executor, ThreadPoolExecutor) and not isinstance(executor, copies)):
+    if isinstance(executor, ThreadPoolExecutor) and not isinstance(executor, copies):
         return
     kind = f"{type(executor).__module__}.{type(executor).__qualname__}"
     raise SceneError(

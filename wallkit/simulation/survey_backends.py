@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray
+from wallkit.kernels.batches import falling_columns as falling
 from wallkit.kernels.batches.ball_queue import Queue
+from wallkit.kernels.batches.falling_wave import fly_falling_wave
 from wallkit.kernels.batches.lockstep import MOST_EDGES, fly_in_step
 from wallkit.kernels.batches.lockstep_lanes import LANES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start
 from wallkit.kernels.batches.wave import MET, WAVES, WaveScratch, fly_wave
@@ -79,6 +81,32 @@ def _fly_as_waves(ready: PreparedScene, until: float, limit: int, outcome: Outco
         )
         return lambda stop: compiled(fly_wave)(
             model, radius, start, order, queue, stop, until, limit, hits, outcome, scratch
+        )
+
+    with _from_one_counter(ready, batches) as work:
+        yield work
+
+
+@contextmanager
+def _fly_falling(ready: PreparedScene, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
+    """Give what a thread does to fly balls as a wave under gravity, until none is left: counts of bounces."""
+    model, start, radius = ready.modelled.model, _start(ready), _radius(ready)
+    order = np.arange(len(ready.modelled.radii)) if ready.order is None else ready.order
+
+    def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
+        lanes = falling.LANES
+        scratch = falling.FallScratch(
+            on_cache_lines(lanes, falling.FALLER),
+            on_cache_lines(falling.FLOATS, np.float64),
+            on_cache_lines(falling.COUNTS, np.uint32),
+            on_cache_lines(falling.LISTED, np.uint32),
+            np.empty(lanes, dtype=np.int64),
+            np.empty((lanes, STATE_SIZE)),
+            np.empty((lanes, len(START)), dtype=np.int64),
+            np.empty(0),
+        )
+        return lambda stop: compiled(fly_falling_wave)(
+            model, model.gravity, radius, start, order, queue, stop, until, limit, hits, outcome, scratch
         )
 
     with _from_one_counter(ready, batches) as work:
@@ -187,12 +215,14 @@ def way_to_fly(ready: PreparedScene) -> Flying:
         return _fly_one_by_one
     if suits_lockstep(model, radii):
         return _fly_in_step
-    return _fly_as_waves if suits_wave(model, radii) else _fly_one_by_one
+    if suits_wave(model, radii):
+        return _fly_as_waves if model.gravity is None else _fly_falling
+    return _fly_one_by_one
 
 
 def suits_wave(model: Model, radii: FloatArray) -> bool:
-    """An index, one radius, and straight paths: no gravity."""
-    if model.grid is None or model.gravity is not None or len(radii) < WORTH_A_WAVE:
+    """An index, one radius, and no drag under gravity, which bends paths too much."""
+    if model.grid is None or model.drag is not None or len(radii) < WORTH_A_WAVE:
         return False
     return bool((radii == radii[0]).all())
 

@@ -18,6 +18,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
     AX,
     AY,
     BEFORE,
+    BEST,
     BOUNCES,
     ENDING,
     ENERGY,
@@ -53,7 +54,7 @@ from wallkit.kernels.batches.lockstep_lanes import (
     feature_of,
     row_of,
 )  # fmt: skip
-from wallkit.kernels.batches.lockstep_straight import WIDER, ask_straight, bounce_straight, set_out
+from wallkit.kernels.batches.lockstep_straight import WIDER, ask_straight, bounce_straight, look_ahead
 from wallkit.kernels.flight.ball_state import FALLING_OVER, has_left, tolerance_of
 from wallkit.kernels.flight.flight import flown_on, fly
 from wallkit.kernels.flight.gravity import kept_energy
@@ -106,6 +107,7 @@ def fly_in_step(model, gravity, radius, start, queue, stop, until, limit, hits, 
     few = _few(gravity, model.restitution)
     while flying > few:
         if gravity is None:
+            look_ahead(model.damping, s)
             ask_straight(model, radius, s, until, flying)
         else:
             ask_falling(model, gravity, radius, s, flying)
@@ -254,7 +256,7 @@ def _fly_alone(model, gravity, radius, s, i, until, limit, stop, hits, scratch):
     ending = counts[COUNT.ending]
     # A ball that meets nothing more has been flown on by now: ``_finish`` then finds no time left.
     s[ENDING + i] = float(RUNNING if ending == BOUNCE_LIMIT and counts[COUNT.bounces] < limit else ending)
-    set_out(model.damping, s, i, (until - s[TIME + i]) - s[LOST + i])
+    s[BEST + i] = (until - s[TIME + i]) - s[LOST + i]
 
 
 @kernel
@@ -263,6 +265,9 @@ def _finish(model, damping, s, i, until):
     if damping is None:
         return
     if s[ENDING + i] != float(TIME_REACHED):
+        return
+    if s[ENERGY + i] == 0.0:  # the pass has let it fly until it stopped
+        s[ENDING + i] = float(AT_REST)
         return
     ball, clock = (s[X + i], s[Y + i], s[VX + i], s[VY + i], s[ENERGY + i]), (s[TIME + i], s[LOST + i])
     ball, clock, _start, ending = flown_on(model, None, ball, clock, ball[:4], TIME_REACHED, until)
@@ -290,7 +295,7 @@ def _board(model, gravity, s, i, balls, radius, start, queue, stop, until, limit
         _load(gravity, model.restitution, s, i, radius, start, ball)
         rests = gravity is None and s[ENERGY + i] <= 0.0
         if limit > 0 and not rests:
-            set_out(model.damping, s, i, until)
+            s[BEST + i] = until
             return True
         s[ENDING + i] = float(AT_REST) if rests else float(BOUNCE_LIMIT)
         _store(s, i, ball, radius, start, hits, outcome)

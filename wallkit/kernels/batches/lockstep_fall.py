@@ -63,6 +63,7 @@ from wallkit.kernels.impact.gravity_impact import fall_corners, hull_of, strays
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.impact.line_impact import slack_of
 from wallkit.kernels.impact.polynomial_roots import NEVER, first_fall_quadratic
+from wallkit.kernels.intrinsics import lowest
 from wallkit.kernels.jit import kernel, pass_kernel
 from wallkit.kernels.records import BOUNCE_LIMIT, FREE, LEFT_SCENE, RUNNING, TIME_REACHED
 
@@ -77,8 +78,11 @@ def ask_falling(model, gravity, radius, s, flying):
     for k in range(lines):
         line = model.lines[model.ids[k]]
         one_way = is_one_way(model.one_sided, model.edge_wall[model.ids[k]])
-        if _pass_line(s, float(k), line, one_way, gravity, radius) > 0:
-            _ask_far_side(s, float(k), line, gravity, radius)
+        left = _pass_line(s, float(k), line, one_way, gravity, radius)
+        while left != 0:
+            i = lowest(left)
+            left &= left - 1
+            _ask_far_side(s, i, float(k), line, gravity, radius)
     # Lines first: corners are asked only where they may be met before what is found by then.
     if radius is not None:
         _outline(s, gravity, radius)
@@ -92,12 +96,12 @@ def ask_falling(model, gravity, radius, s, flying):
 
 @pass_kernel
 def _pass_line(s, row, line, one_way, gravity, radius):
-    """Let the near side of a line ask all balls, as ``fall_line`` does: how many may meet the far side."""
+    """Let the near side of a line ask all balls, as ``fall_line`` does: bits of those that may meet the far side."""
     ax, ay, nx, ny, length = line.ax, line.ay, line.nx, line.ny, line.length
     gx, gy = gravity[0], gravity[1]
     gn, gu = gx * nx + gy * ny, gy * nx - gx * ny
     r = 0.0 if radius is None else radius
-    many = 0
+    beside = 0
     for i in range(LANES):
         vx, vy, best = s[VX + i], s[VY + i], s[BEST + i]
         ex, ey, slack = s[X + i] - ax, s[Y + i] - ay, slack_of(s[TOLERANCE + i], r)
@@ -124,9 +128,9 @@ def _pass_line(s, row, line, one_way, gravity, radius):
         s[ROW + i] = row if met else s[ROW + i]
         far = (in_time & (not there) & (not one_way)) | (not solid)
         far = far & _may_come_back(-0.5 * side * gn, -side * vn, -side * d - r, s[BEST + i])
-        s[FAR + i] = side if far else 0.0
-        many += 1 if far else 0
-    return many
+        s[FAR + i] = side
+        beside |= int(far) << i
+    return beside
 
 
 @kernel
@@ -140,28 +144,19 @@ def _may_come_back(a, b, c, best):
     return (a < 0.0) & (b > 0.0) & above & (b <= -2.0 * WIDER * a * best) & (by_then <= SMALL * size)
 
 
-@pass_kernel
-def _ask_far_side(s, row, line, gravity, radius):
-    """Let the far side of a line ask the few balls that may meet it, as ``fall_line`` does."""
-    gx, gy, nx, ny = gravity[0], gravity[1], line.nx, line.ny
+@kernel
+def _ask_far_side(s, i, row, line, gravity, radius):
+    """Let the far side of a line ask a ball, as ``fall_line`` does."""
+    gx, gy, nx, ny, side = gravity[0], gravity[1], line.nx, line.ny, s[FAR + i]
     r = 0.0 if radius is None else radius
-    for i in range(LANES):
-        side = s[FAR + i]
-        if side == 0.0:
-            continue
-        vx, vy, ex, ey, slack = (
-            s[VX + i],
-            s[VY + i],
-            s[X + i] - line.ax,
-            s[Y + i] - line.ay,
-            slack_of(s[TOLERANCE + i], r),
-        )
-        d, vn, gn = ex * nx + ey * ny, vx * nx + vy * ny, gx * nx + gy * ny
-        u, vu, gu = ey * nx - ex * ny, vy * nx - vx * ny, gy * nx - gx * ny
-        t = _from_behind(-0.5 * side * gn, -side * vn, -side * d - r)
-        foot = u + t * (vu + 0.5 * t * gu)
-        if t < s[BEST + i] and -slack <= foot <= line.length + slack:
-            s[BEST + i], s[ROW + i] = t, row
+    vx, vy, slack = s[VX + i], s[VY + i], slack_of(s[TOLERANCE + i], r)
+    ex, ey = s[X + i] - line.ax, s[Y + i] - line.ay
+    d, vn, gn = ex * nx + ey * ny, vx * nx + vy * ny, gx * nx + gy * ny
+    u, vu, gu = ey * nx - ex * ny, vy * nx - vx * ny, gy * nx - gx * ny
+    t = _from_behind(-0.5 * side * gn, -side * vn, -side * d - r)
+    foot = u + t * (vu + 0.5 * t * gu)
+    if t < s[BEST + i] and -slack <= foot <= line.length + slack:
+        s[BEST + i], s[ROW + i] = t, row
 
 
 @kernel

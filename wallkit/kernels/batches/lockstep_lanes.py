@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 from wallkit.kernels.jit import kernel
 from wallkit.kernels.records import NO_HIT
 
-LANES = 128
+LANES = 64
+"""Balls in step: so few that their numbers stay in the L1 cache, and a bit for each in 64."""
 (
     X, Y, VX, VY, TIME, LOST, ENERGY, TOLERANCE, LAST, BOUNCES, STILL, BEST, ROW, ASK, ENDING, NX, NY, TWICE,
     FROM_X, FROM_Y, FROM_VX, FROM_VY, E, F, PASSED, KEPT, BEFORE, HOLD, HELD, SIDE, AX, AY,

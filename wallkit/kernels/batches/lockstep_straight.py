@@ -215,12 +215,16 @@ def _slow(damping, s, until):
             s[PASSED + i], s[KEPT + i] = slowed(damping, s[ENERGY + i], s[BEST + i], most)
     else:
         for i in range(LANES):
-            most = (until - s[TIME + i]) - s[LOST + i]
-            s[PASSED + i], s[KEPT + i] = slowed_rolling(s[STOP + i], s[BEST + i], most)
+            most, stop = (until - s[TIME + i]) - s[LOST + i], s[STOP + i]
+            passed, kept = slowed_rolling(stop, s[BEST + i], most)
+            # A ball that meets nothing stops, or its time is up before: as in ``damping.last_flight``.
+            stops, free = most >= stop, s[ROW + i] == NONE
+            last = 0.0 if stops else 1.0 - most / stop
+            s[PASSED + i], s[KEPT + i] = stop if free & stops else passed, last if free else kept
 
 
 @pass_kernel
-def _look_ahead(damping, s, until):
+def look_ahead(damping, s):
     """Begin the next flights: contacts count until time is up, or something has stopped the ball."""
     if damping is None:
         return
@@ -231,15 +235,6 @@ def _look_ahead(damping, s, until):
         for i in range(LANES):
             s[STOP + i] = rolling_stop(damping, s[ENERGY + i])
             s[BEST + i] = free_time_rolling(s[STOP + i], s[BEST + i])
-
-
-@kernel
-def set_out(damping, s, i, span):
-    """Begin the flight of a ball that comes to its lane, or back to it, with a span of time left."""
-    if damping is not None:
-        if damping[1] <= 0.0:
-            s[STOP + i] = rolling_stop(damping, s[ENERGY + i])
-    s[BEST + i] = free_time(damping, s[ENERGY + i], span)
 
 
 @pass_kernel
@@ -256,8 +251,8 @@ def bounce_straight(model, damping, restitution, s, radius, until, limit):
         passes = (total > time) & (t * (abs(vx) + abs(vy)) > s[TOLERANCE + i] * 2.0**-6)
         still = 0.0 if passes else s[STILL + i] + 1.0
         hit = (row >= 0.0) & (still <= most_still)
-        # With damping the last flight, which may end in a stop, is that of ``flight.flown_on``.
-        late = (row == NONE) & (until < math.inf) if damping is None else False
+        # With drag the last flight, which takes an exponential, is that of ``flight.flown_on``.
+        late = (row == NONE) & (until < math.inf) if damping is None else (row == NONE) & (damping[1] <= 0.0)
         moved = (hit | late) & (t > 0.0)
         new_x, new_y = x + t * vx if moved else x, y + t * vy if moved else y
         new_vx, new_vy = vx, vy
@@ -267,7 +262,11 @@ def bounce_straight(model, damping, restitution, s, radius, until, limit):
         # Neumaier's sum, see ``motion.advance``.
         rest = (time - total) + passed if time >= passed else (passed - total) + time
         time, lost = total if moved else time, lost + rest if moved else lost
-        time, lost = until if late & moved else time, 0.0 if late & moved else lost
+        stops = False if damping is None else late & moved & (s[KEPT + i] == 0.0)
+        if damping is not None:
+            new_vx, new_vy = 0.0 if stops else new_vx, 0.0 if stops else new_vy
+        ended = late & moved & (not stops)
+        time, lost = until if ended else time, 0.0 if ended else lost
         nx, ny, twice = s[NX + i], s[NY + i], s[TWICE + i]
         if radius is not None:
             # The row of a corner holds its place: the normal goes from there to the centre.
@@ -294,13 +293,12 @@ def bounce_straight(model, damping, restitution, s, radius, until, limit):
         s[VX + i] = wx if hit else new_vx
         s[VY + i] = wy if hit else new_vy
         if damping is not None or restitution is not None:
-            s[ENERGY + i] = energy if hit else s[ENERGY + i]
+            s[ENERGY + i] = energy if hit else 0.0 if stops else s[ENERGY + i]
         s[LAST + i] = row if hit else s[LAST + i]
         s[BOUNCES + i], s[STILL + i] = bounces, still
         s[BEST + i] = (until - time) - lost
         s[ROW + i] = NONE
         s[ASK + i] = 0.0
-    _look_ahead(damping, s, until)
 
 
 @kernel

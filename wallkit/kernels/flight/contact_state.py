@@ -126,7 +126,8 @@ def _own_events(model, rolling, drag, held, radius, rho, away, ex, ey, tx, ty, g
         return _to_end(model, model.arcs, held, radius, rho, away, ex, ey, tx, ty, x, y, way, event)
     if slows(rolling, drag):  # where it turns and where it lifts is found on the way, at most a right angle
         return _to_end(model, model.arcs, held, radius, rho, away, ex, ey, tx, ty, x, y, 1.0, GOES_ON)
-    way, event = to_quarter(ex, ey, tx, ty, gx, gy), GOES_ON
+    # A way below the rounding of the place would leave it where it is, and without end.
+    way, event = to_quarter(ex, ey, tx, ty, gx, gy, 2.0**-52 * (abs(x) + abs(y)) / rho), GOES_ON
     turn = turning(rho, gx, gy, ex, ey, tx, ty, square)
     if turn < way:
         way, event = turn, TURNS

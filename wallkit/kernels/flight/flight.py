@@ -100,16 +100,10 @@ def fly(model, gravity, radius, state, counts, until, limit, hits, log, capacity
             )
         if feature == NO_HIT:
             continue
-        if gravity is not None:
-            still = still_now(model.restitution, feature, still, clock, passed, t, ball, tolerance)
-            if still > still_limit(model.restitution):
-                ball, grip, still, ending = caught(model, gravity, radius, ball, start, grip, last, before, tolerance)
-                continue
-        ball, nx, ny, wall = turned(model, gravity, radius, feature, face, ball)
-        before, last, bounces = (before if feature == last else last), feature, bounces + 1
-        hits[tally_of(model, feature)] += 1
-        noted = note(log, noted, clock, ball, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
-        ball, grip, ending = after_bounce(model, gravity, radius, feature, wall, fate, ball, grip, nx, ny, tolerance)
+        ball, grip, last, bounces, still, before, ending, noted = met(
+            model, gravity, radius, ball, clock, start, grip, last, bounces, still, before, feature, face, fate, t,
+            passed, tolerance, hits, log, noted,
+        )  # fmt: skip
     ball, clock, start, ending = flown_on(model, gravity, ball, clock, start, ending, until)
     write_state(state, counts, ball, clock, start, grip, last, bounces, ending, still, before)
     return noted
@@ -166,8 +160,15 @@ def contact_ahead(model, gravity, radius, ball, start, grip, last, still, tolera
     t, feature, touched = first_contact(
         model, gravity, radius, x, y, vx, vy, energy, last, grip[0], grip[1], grip[2], tolerance, best
     )
+    return settled(model, ball, start, grip, last, still, tolerance, t, feature, touched)
+
+
+@kernel
+def settled(model, ball, start, grip, last, still, tolerance, t, feature, touched):
+    """What ends a flight that has found a contact: a point in a corner may get out of it at once."""
     if touched > 0 and last >= 0:
         # Within rounding of another edge a point has no side of it; where it came from tells.
+        x, y, vx, vy, _energy = ball
         side = grip[2] if grip[0] == last else 0.0
         met = settle(model, last, side, x, y, vx, vy, start[0], start[1], start[2], start[3], tolerance, still)
         if met != NO_HIT:
@@ -235,6 +236,29 @@ def arrived(model, gravity, radius, ball, clock, start, grip, last, still, featu
         elif face != 0.0 and t > 0.0 and order_shows(model, feature, face, ball, tolerance):
             fate = AT_REST if rests_anyhow(model, gravity, feature, face, ball, tolerance) else AMBIGUOUS_CORNER
     return ball, clock, start, grip, last, still, feature, face, fate
+
+
+@kernel
+def met(
+    model, gravity, radius, ball, clock, start, grip, last, bounces, still, before, feature, face, fate, t, passed,
+    tolerance, hits, log, noted,
+):  # fmt: skip
+    """Let a ball that has come to a feature, after the free time t, bounce off it, and count and note that.
+
+    Returns:
+        (ball, grip, last, bounces, still, before, ending or RUNNING, row of the log for the next contact).
+    """
+    if gravity is not None:
+        still = still_now(model.restitution, feature, still, clock, passed, t, ball, tolerance)
+        if still > still_limit(model.restitution):
+            ball, grip, still, ending = caught(model, gravity, radius, ball, start, grip, last, before, tolerance)
+            return ball, grip, last, bounces, still, before, ending, noted
+    ball, nx, ny, wall = turned(model, gravity, radius, feature, face, ball)
+    before, last, bounces = (before if feature == last else last), feature, bounces + 1
+    hits[tally_of(model, feature)] += 1
+    noted = note(log, noted, clock, ball, nx, ny, radius, feature, EDGE if feature >= 0 else VERTEX)
+    ball, grip, ending = after_bounce(model, gravity, radius, feature, wall, fate, ball, grip, nx, ny, tolerance)
+    return ball, grip, last, bounces, still, before, ending, noted
 
 
 @kernel

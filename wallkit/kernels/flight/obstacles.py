@@ -27,6 +27,8 @@ from wallkit.kernels.impact.polynomial_roots import NEVER, first_fall_quadratic
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import NO_HIT
 
+LATER = 1.0 + 2.0**-20
+"""Far beyond all rounding in a look that may only save work, never decide."""
 SMOOTH_JOINT = 2.0**-20
 """Edges that meet at a smaller angle (radians) are met where they join, not before: that is off by r 2^-41 at most."""
 
@@ -46,6 +48,14 @@ def falls(rho, ex, ey, tx, ty, c, gx, gy, q, from_behind):
     if a >= 0.0 or b <= 0.0 or discriminant <= 0.0:
         return NEVER
     return -0.5 * (b + math.sqrt(discriminant)) / a
+
+
+@kernel
+def _keeps_off(rho, tx, ty, c, gx, gy, best):
+    """Tell whether on a straight guide a gap c of the gradient G stays above 0 up to ``best``, whatever q >= 0 adds."""
+    # It is at least c + (G.t) s: no root and no quotient for what lies behind, or too far ahead.
+    along = gx * tx + gy * ty
+    return rho == STRAIGHT and c > 0.0 and (along >= 0.0 or c > -along * best * LATER)
 
 
 @kernel
@@ -138,6 +148,10 @@ def meet_lines(
                 continue
             # The gap +-d - r has the gradient +-n and does not bend: q = 0.
             c = out * d - radius
+            if rho == STRAIGHT and c <= 0.0 and out * (line.nx * tx + line.ny * ty) >= 0.0:
+                continue  # the ball is behind, and this gap changes one way alone
+            if _keeps_off(rho, tx, ty, c, out * line.nx, out * line.ny, best):
+                continue
             from_behind = above != (out > 0.0) or stands_across(model.one_sided, model.edge_wall, edge, c, slack)
             way = falls(rho, ex, ey, tx, ty, c, out * line.nx, out * line.ny, 0.0, from_behind)
             if not (way < best or (way == best and precedes(edge, feature))):
@@ -187,6 +201,8 @@ def meet_arcs(
                 continue
             # The gap +-(|p|^2 - (R +- r)^2) = +-power - r (2 R +- r) has the gradient +-2 p, and q = +-1.
             c = out * power - radius * (2.0 * arc.radius + out * radius)
+            if out > 0.0 and _keeps_off(rho, tx, ty, c, 2.0 * px, 2.0 * py, best):
+                continue
             from_behind = beyond != (out > 0.0)
             from_behind = from_behind or stands_across(
                 model.one_sided, model.edge_wall, edge, c, 2.0 * (arc.radius + radius) * slack
@@ -212,12 +228,14 @@ def meet_corners(model, start, stop, radius, held, rho, ex, ey, tx, ty, x, y, to
     slack = slack_of(tolerance, radius)
     for k in range(start, stop):
         vertex = int(model.ids[k])
-        if _is_own(model, held, model.spokes[vertex]) or held == -2 - vertex:
-            continue
         corner = model.corners[vertex]
         px, py = x - corner.x, y - corner.y
         # The gap |p|^2 - r^2 has the gradient 2 p, and q = 1.
         c = px * px + py * py - radius * radius
+        if _keeps_off(rho, tx, ty, c, 2.0 * px, 2.0 * py, best):
+            continue
+        if _is_own(model, held, model.spokes[vertex]) or held == -2 - vertex:
+            continue
         from_behind = stands_across(model.one_sided, model.corner_wall, vertex, c, 2.0 * radius * slack)
         way = falls(rho, ex, ey, tx, ty, c, 2.0 * px, 2.0 * py, 1.0, from_behind)
         if not (way < best or (way == best and precedes(-2 - vertex, feature))):

@@ -135,11 +135,14 @@ def swing_within(rho, gx, gy, ex, ey, tx, ty, square, t_end, span):
 
 
 @kernel
-def to_quarter(ex, ey, tx, ty, gx, gy):
-    """How far ahead of e the quarter ends, at the bottom or the top: t = tan(phi / 2), at most 1 (a right angle)."""
+def to_quarter(ex, ey, tx, ty, gx, gy, off):
+    """How far ahead of e the quarter ends, at the bottom or the top: t = tan(phi / 2), at most 1 (a right angle).
+
+    ``off`` is the angle by which rounding may have e off, beside that of its numbers.
+    """
     along, across = gx * tx + gy * ty, gx * ex + gy * ey
     ahead = across if along > 0.0 else -across  # on the way down the bottom is next, else the top
-    if abs(along) <= 2.0**-50 * abs(across) or ahead <= 0.0:  # it is there, but for rounding, and begins the next one
+    if abs(along) <= (2.0**-50 + off) * abs(across) or ahead <= 0.0:  # it is there, and begins the next one
         return 1.0
     # The angle to the direction of g, or from it, has the sine |g.t| and the cosine `ahead`, times |g|:
     # tan(phi / 2) = sin / (1 + cos).
@@ -176,7 +179,7 @@ def swing(
         turn = 1.0 if v > 0.0 or (v == 0.0 and pull > 0.0) else -1.0
         # A stretch ends with its quarter of the circle, where the ball turns, or when time is up.
         tx, ty, square = -turn * ey, turn * ex, v * v
-        t, t_turn = to_quarter(ex, ey, tx, ty, gx, gy), turning(rho, gx, gy, ex, ey, tx, ty, square)
+        t, t_turn = to_quarter(ex, ey, tx, ty, gx, gy, 0.0), turning(rho, gx, gy, ex, ey, tx, ty, square)
         turns = t_turn < t
         t = min(t, t_turn)
         fx, fy, _ux, _uy = turned(ex, ey, tx, ty, t)

@@ -62,7 +62,7 @@ def _next_crossing_swung(sensors, gx, gy, rho, x, y, ex, ey, v, time, until, las
         # At rest it sets out to where gravity pulls it.
         turn = 1.0 if v > 0.0 or (v == 0.0 and pull > 0.0) else -1.0
         tx, ty, square = -turn * ey, turn * ex, v * v
-        t, t_turn = to_quarter(ex, ey, tx, ty, gx, gy), turning(rho, gx, gy, ex, ey, tx, ty, square)
+        t, t_turn = to_quarter(ex, ey, tx, ty, gx, gy, 0.0), turning(rho, gx, gy, ex, ey, tx, ty, square)
         turns = t_turn < t
         t = min(t, t_turn)
         # a sensor at the very end of a quarter, as below the circle's middle, is crossed on this side of the end

@@ -1,0 +1,86 @@
+"""What a falling wave knows of its balls, and of what they ask: flat arrays, LANES or PAIRS for each number.
+
+So the compiler sees that nothing aliases, and vector instructions do the work. Each name is where its numbers begin.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wallkit.kernels.intrinsics import AT_ONCE
+from wallkit.kernels.records import NO_HIT
+
+LANES = 32
+"""Balls of a wave: so few that it stays in the L1 cache, and a bit for each in 32."""
+PER_TURN = AT_ONCE
+"""So many lines of its cell a ball asks in a pass at most; most cells list fewer."""
+PAIRS = 56
+"""Pairs of a ball and a line that are worked on together: mostly all of a turn, and a bit for each in 64."""
+
+
+class Faller(NamedTuple):
+    """What a ball asks with, one cache line, fetched for each pair that it is in: as its flight began."""
+
+    x: float
+    y: float
+    vx: float
+    vy: float
+    tolerance: float
+    """How far its position may be off by rounding."""
+    last: float
+    """The feature that it met last, or NONE."""
+    skipped: float
+    """The line that it has just left along it, or NONE."""
+    unused: float
+
+
+FALLER = np.dtype([(name, np.float64) for name in Faller._fields])
+NONE = float(NO_HIT)
+(
+    X, Y, VX, VY, BEST, FEATURE, TOUCHED, FLIES, NOW, THEN, TURN, STILL_X, STILL_Y, LEVEL, STEEP,
+    AT_X, AT_Y, AT_VX, AT_VY, BACK_X, BACK_Y, COLUMN, ROW, LEFT, RIGHT, LOW, HIGH, SIDEWAYS,
+) = (LANES * number for number in range(28))  # fmt: skip
+"""By ball: its flight's start, its contact so far (time, feature, how many edges it touched where it began), whether it
+flies. Times since the start: NOW until when it has walked, THEN when it leaves the rectangle in which it is, TURN when
+its octant changes next; that is when a velocity is 0 (STILL) or both are equal (LEVEL) or opposite (STEEP). Its place
+and velocity now, whether they go back, its column and row; the rectangle, in units, and whether it leaves it by a
+side."""
+FLOATS = 28 * LANES
+(
+    WHO, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE, LAST, SKIPPED, _UNUSED,
+    ID, AX, AY, _BX, _BY, NX, NY, LENGTH, _TWICE, T, LATER_T,
+) = (FLOATS + PAIRS * number for number in range(20))  # fmt: skip
+"""By pair: which ball it is and its ``Faller``; the line that it asks, its ID and record; when it meets the near side,
+and when, after that, the far one."""
+FLOATS += 20 * PAIRS
+NEXT, ARCS, CORNERS, END, OCTANT, AT, CLEARING = (LANES * number for number in range(7))
+COUNTS = 7 * LANES
+"""By ball, unsigned: what its cell lists, NEXT the first of it (see ``Cell``); where the clearings of its octant begin,
+where in ``Model.clearings`` it looks, and what stands there."""
+ROOM = PER_TURN * LANES + AT_ONCE
+IDS, FALLERS = 0, ROOM
+LISTED = 2 * ROOM
+"""Pairs of a turn: the ids, and which balls ask them."""
+
+
+class FallScratch(NamedTuple):
+    """Memory to work in: contents do not matter."""
+
+    fallers: Any
+    """(LANES,) ``Faller``."""
+    floats: Any
+    """FLOATS floats."""
+    counts: Any
+    """COUNTS unsigned integers, which need no look whether they count from the end."""
+    pairs: Any
+    """LISTED unsigned integers."""
+    balls: Any
+    """(LANES,) signed integers: the ball of each lane."""
+    states: Any
+    """(LANES, STATE_SIZE) floats, see ``State``."""
+    tallies: Any
+    """(LANES, 10) signed integers, see ``Counts``."""
+    log: Any
+    """No floats."""
