@@ -14,6 +14,7 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.triangulation import Triangulation, cut_further
 
 _NEARLY = 1e-9  # of the square of the distance: rounding
+_AT_ONCE = 1 << 15  # corners that are looked from: bounds the memory
 _DEEPEST = 40  # edges looked over: with more between two walls, their vertices are as dense as feet would be
 
 
@@ -32,9 +33,15 @@ def narrow_feet(mesh: Triangulation) -> tuple[IntArray, FloatArray]:
         (n,) the edges that the feet are on, and (n, 2) the feet; both empty where there are none.
     """
     row = np.flatnonzero(mesh.corners.ravel() < mesh.given)
-    edge, through = mesh.edge.ravel()[row], row // 3
-    corner = mesh.corners.ravel()
     reach = _reach(mesh)
+    parts = [_feet_of(mesh, row[begin : begin + _AT_ONCE], reach) for begin in range(0, max(len(row), 1), _AT_ONCE)]
+    return np.concatenate([edge for edge, _ in parts]), np.concatenate([foot for _, foot in parts])
+
+
+def _feet_of(mesh: Triangulation, row: IntArray, reach: FloatArray) -> tuple[IntArray, FloatArray]:
+    """The same of some corners of triangles, by their numbers."""
+    corner = mesh.corners.ravel()
+    edge, through = mesh.edge.ravel()[row], row // 3
     edges, feet = [np.empty(0, dtype=np.int64)], [np.empty((0, 2))]
     for _ in range(_DEEPEST):
         p, q = (mesh.points[mesh.ends[edge, k]] for k in (0, 1))
@@ -48,6 +55,8 @@ def narrow_feet(mesh: Triangulation) -> tuple[IntArray, FloatArray]:
         edges.append(edge[met])
         feet.append(foot[met])
         going = np.flatnonzero(inner & ~mesh.wall[edge] & ~mesh.outer[edge])
+        if not len(going):
+            break
         row, edge, through = _across(mesh, row, edge, through, going)
     return np.concatenate(edges), np.concatenate(feet)
 
