@@ -83,7 +83,8 @@ class Lines:
         """The bounded faces between the lines.
 
         By GEOS, which looks among all rings for the one around each hole; of many rings that touch nothing, and are no
-        copies, the nesting tells that: a face is what is within a ring, and not within those directly in it.
+        copies, the nesting tells that: a face is what is within a ring, and not within those directly in it. Open lines
+        that meet nowhere bound nothing.
         """
         import shapely
 
@@ -92,6 +93,8 @@ class Lines:
         edges, touches = self.met.edges, self.met.touches
         met = (touches.crossing_at, touches.overlap_edges, touches.touch_at, touches.cut_edge)
         count = np.diff(edges.offsets)
+        if not edges.closed.any() and not any(map(len, met)):
+            return np.empty(0, dtype=object)
         if len(count) < _MANY_RINGS or any(map(len, met)) or not edges.closed.all() or count.min() < 3:
             return shapely.get_parts(shapely.polygonize([*self.tree.geometries]))
         rings = shapely.linearrings(edges.vertices, indices=np.repeat(np.arange(len(count)), count))
