@@ -265,7 +265,8 @@ def _searched(face: Any, lines: Lines) -> Spot | None:
     size, free = math.sqrt(shapely.area(face)), face
     inner = shapely.intersection(shapely.multilinestrings(lines.tree.geometries[standing]), within)
     if not shapely.is_empty(inner):  # open walls inside: thickened by a hair, they become holes
-        free = shapely.difference(face, shapely.buffer(inner, 1e-6 * size))
+        thick = shapely.buffer(shapely.get_parts(inner), 1e-6 * size)  # of all at once GEOS takes 100 times as long
+        free = shapely.difference(face, shapely.union_all(thick))
         free = max(shapely.get_parts(free), key=shapely.area, default=face)
     if shapely.is_empty(free):
         return None

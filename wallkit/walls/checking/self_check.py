@@ -244,7 +244,8 @@ def _gaps(findings: Findings, edges: Edges, loose: Sequence[LooseEnd]) -> None:
         findings.add(wall, "ends-meet", "info", message, "join them to one wall (--join)", spots[index])
     offsets = findings.walls.offsets
     for end in loose:
-        code = "overshoot" if end.kind == "trim" else "gap"
+        sticks_out = end.kind == "trim"
+        code = "overshoot" if sticks_out else "gap"
         if findings.is_listed(code):
             wall = int(np.searchsorted(offsets, end.ends[0], side="right")) - 1
             message, fix = _told(end)
