@@ -49,6 +49,11 @@ SHAPES = {
         (70, 140, 280),
         "[[(30 * i, 30 * j), (30 * i + 20, 30 * j)] for i in range(n) for j in range(n)], False",
     ),
+    "slanted dashes, n by n": ((70, 140, 280), "slanted(n), False"),
+    "polygons over one another": ((100, 200, 400), "polygons(n), True"),
+    "lines through a point": ((50, 100, 200), "[(-ray, ray) for ray in around(2 * n)[:n]], False"),
+    "a star of n corners": ((50, 100, 200), "[around(n)[np.arange(n) * (n // 2 - 1) % n]], True"),
+    "lines on one another": ((100, 200, 400), "[[(0, 0), (800, 0)]] * n, False"),
     "nested squares": ((2500, 5000, 10000), "[np.array(SQUARE) * k / n for k in range(1, n + 1)], True"),
     "identical squares": ((500, 1000, 2000), "[SQUARE] * n, True"),
 }
@@ -76,6 +81,17 @@ rng = np.random.default_rng(1)
 SQUARE = [(-300, -300), (300, -300), (300, 300), (-300, 300)]
 walks = lambda n: np.cumsum(rng.normal(0, 8, (n, 100, 2)), axis=1)
 hatch = lambda n: [[(-1, k), (n, k)] for k in range(n)] + [[(k + 0.5, -1), (k + 0.5, n)] for k in range(n)]
+def around(n):
+    turn = np.arange(n) * 2 * np.pi / n
+    return 450 * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+def polygons(n):  # 400 of them part the plane into some 15,400 rooms
+    for _ in range(n):
+        middle, radius = rng.uniform(0, 1000, 2), rng.uniform(50, 198)
+        turn = np.sort(rng.uniform(0, 6.28, rng.integers(3, 9)))
+        yield np.round(middle + radius * np.stack([np.cos(turn), np.sin(turn)], axis=1), 3)
+def slanted(n):
+    start = 30 * np.indices((n, n)).reshape(2, -1).T + rng.uniform(0, 8, (n * n, 2))
+    return np.stack([start, start + rng.uniform(-14, 14, (n * n, 2))], axis=1)
 lines, closed = eval(code)
 paths = []
 for line in lines:

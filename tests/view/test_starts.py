@@ -120,6 +120,19 @@ def test_faces_of_many_rings_are_those_of_geos(monkeypatch):
         assert len(found[0]) >= len(outlines)
 
 
+@pytest.mark.parametrize("seed", range(40))
+def test_open_lines_have_the_faces_of_geos(seed):
+    """Walks on a lattice and off it, that cross, touch, fold back and come back to where they began, or do not meet."""
+    random = np.random.default_rng(seed)
+    places = random.integers(0, 12, (random.integers(1, 5), random.integers(2, 6), 2)) * 1.0
+    places += random.choice([0.0, 0.1]) * random.random(places.shape)
+    walks = [walk[np.append(True, np.diff(walk, axis=0).any(axis=1))] for walk in places]
+    walks = [walk if k % 2 else np.append(walk, walk[:1], axis=0) for k, walk in enumerate(walks) if len(walk) > 1]
+    faces = shapely.get_parts(shapely.polygonize([shapely.union_all([*map(shapely.LineString, walks)])]))
+    found = Lines.of(Walls.from_polylines(walks, closed=False)).bounded if walks else []
+    assert sum(shapely.area(found)) == pytest.approx(sum(shapely.area(faces)), abs=1e-9)
+
+
 def test_tiles_that_share_edges_are_a_face_each():
     tiles = Walls.from_polylines([ring(60 * i, 60 * j, 60 * i + 60, 60 * j + 60) for i in range(6) for j in range(5)])
     faces = Lines.of(tiles).bounded

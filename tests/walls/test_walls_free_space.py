@@ -292,3 +292,19 @@ def test_a_wall_that_ends_on_a_slanted_one_parts_the_room(seed):
     expected = sorted(min(5.0, 10 * part) for part in (part, 1 - part))
     assert (space.complete, space.gaps) == (True, [])
     assert sorted(space.closed_rooms[:, 2].tolist()) == pytest.approx(expected, rel=1e-8)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_closed_rooms_come_the_roomiest_first_then_from_left_to_right_and_up(seed):
+    """In whatever order walls are drawn and whichever way round: slanted squares that share edges, two of them cut."""
+    random = np.random.default_rng(seed)
+    turned = np.array([[math.cos(0.3), math.sin(0.3)], [-math.sin(0.3), math.cos(0.3)]])
+    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)])
+    cells = [30.0 * (square + np.array([i, j])) @ turned for i in (0, 1, 2) for j in (0, 1)]
+    whole = [cell[:4].mean(axis=0).tolist() for cell in cells[1:-1]]
+    walls = [*cells, cells[0][[0, 2]], cells[-1][[0, 2]]]
+    drawn = [walls[k][:: random.choice([-1, 1])] for k in random.permutation(len(walls))]
+    rooms = free_space(Walls.from_polylines(drawn, closed=False)).closed_rooms
+    assert rooms[:, 2] == pytest.approx([15.0] * 4 + [30 - 15 * math.sqrt(2)] * 4, rel=1e-7)
+    assert rooms[:4, :2] == pytest.approx(np.array(sorted(whole)), abs=1e-4)
+    assert rooms[4:, 0].tolist() == sorted(rooms[4:, 0].tolist())

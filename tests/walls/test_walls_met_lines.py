@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
+import shapely
 from drawn import drawing, line, path, square
+from hypothesis import given
+from hypothesis import strategies as st
 
 from importers.drawing import DrawnPath, Subpath
 from wallkit.geometry import triangulation
@@ -18,6 +22,8 @@ from wallkit.scene.wishes import Wishes
 from wallkit.walls import Walls, met_lines
 from wallkit.walls.checking import loose_ends, open_ends
 from wallkit.walls.checking.free_space import free_space, free_space_among
+from wallkit.walls.checking.meetings import meetings, on_edge
+from wallkit.walls.checking.open_ends import Surroundings
 from wallkit.walls.checking.self_check import straight_edges, validate
 from wallkit.walls.import_options import ImportOptions
 from wallkit.walls.met_lines import MetLines
@@ -65,7 +71,7 @@ def test_arcs_are_looked_at_twice_for_their_chords_are_finer_where_a_ball_is_put
 
 @pytest.mark.parametrize("count", [1, 2, 4])
 def test_walls_turned_round_meet_where_they_did(count):
-    """The same rooms, in any order, as of the turned walls looked at afresh; what moves is another set of lines."""
+    """The same rooms, in the same order, as of turned walls looked at afresh; what moves is another set of lines."""
     walls = Walls.from_polylines(list(np.random.default_rng(count).uniform(0, 100, (count, 5, 2))))
     met = MetLines.of(walls, straight_edges(walls))
     vertices, _ = turned(walls.vertices, walls.bulges, walls.offsets, walls.closed)
@@ -74,7 +80,7 @@ def test_walls_turned_round_meet_where_they_did(count):
     assert met.same_as(back)
     assert not met.same_as(back, turned_too=False)
     spaces = free_space(back), free_space_among(back, straight_edges(back), met)
-    rooms, same = (space.closed_rooms[np.lexsort(space.closed_rooms.round(6).T)] for space in spaces)
+    rooms, same = (space.closed_rooms for space in spaces)
     assert same == pytest.approx(rooms, abs=1e-9)  # crossings of turned lines differ by rounding of 100
     assert [gap.width for gap in spaces[1].gaps] == pytest.approx([gap.width for gap in spaces[0].gaps], abs=1e-9)
     vertices[-1, 0] = np.nextafter(vertices[-1, 0], np.inf)
@@ -88,6 +94,42 @@ def test_surroundings_of_ends_are_measured_once_however_often_the_reach_is_short
     found = validate(Walls.from_polylines(lines, closed=False))
     assert "tangled" in [problem.code for problem in found]
     assert len(measured) == 1
+
+
+# Whole numbers, for boxes that touch; steps about what counts as rounding there, and any numbers.
+coordinate = st.integers(-4, 4).map(float) | st.floats(-4, 4) | st.floats(-1e-10, 1e-10).map(lambda step: 2.0 + step)
+corner = st.tuples(coordinate, coordinate)
+edge = st.tuples(corner, corner).filter(lambda ends: ends[0] != ends[1])
+
+
+def every_pair(edges, bulges):
+    """What is around edges, each a wall of its own, and the numbers of all pairs."""
+    walls = Walls.from_polylines(np.array(edges), closed=False, bulges=[[bulge, 0.0] for bulge in bulges])
+    one, two = (index.ravel() for index in np.indices((len(edges), len(edges))))
+    return Surroundings.of(walls), one, two
+
+
+@given(st.lists(edge, min_size=2, max_size=8))
+def test_boxes_of_edges_meet_where_exact_fractions_say(edges):
+    """Boxes are exact, and a difference is rounded once: nothing that is no farther than the margin is left out."""
+    scene, one, two = every_pair(edges, [0.0] * len(edges))
+    margin = Fraction(1e3 * scene.there)
+    boxes = [[sorted(map(Fraction, across)) for across in zip(*ends, strict=True)] for ends in edges]
+    for a, b, met in zip(one.tolist(), two.tolist(), scene.boxes_meet(one, two).tolist(), strict=True):
+        apart = max(max(p[0] - q[1], q[0] - p[1]) for p, q in zip(boxes[a], boxes[b], strict=True))
+        assert met if apart <= margin else apart <= margin * (1 + Fraction(1, 2**52)) or not met
+        if shapely.intersects(*shapely.linestrings([edges[a], edges[b]])):
+            assert met
+
+
+@given(st.lists(st.tuples(edge, st.just(0.0) | st.floats(-3, 3)), min_size=2, max_size=8))
+def test_edges_that_have_a_point_in_common_have_boxes_that_meet(edges):
+    """Of lines and arcs: to look at the boxes first leaves out no point that would be found without."""
+    scene, one, two = every_pair([ends for ends, _ in edges], [bulge for _, bulge in edges])
+    e, f = scene.edges.take(one), scene.edges.take(two)
+    with np.errstate(all="ignore"):
+        common = np.any([on_edge(e, point) & on_edge(f, point) for point in meetings(e, f).T], axis=0)
+    assert not (common & (one != two) & ~scene.boxes_meet(one, two)).any()
 
 
 @pytest.mark.parametrize("name", ["", "wing", "balls", "sensor:goal", "wing #one-way", "wing [restitution=0.5]"])

@@ -167,7 +167,8 @@ def _tell(look: Look, assumed: list[str]) -> None:
         print(f"no leak for {ball}")
     if shut:
         print(f"out of reach: {len(shut)} {'room' if len(shut) == 1 else 'rooms'}")
-    rest = [gap for gap in space.gaps if gap not in leaks]
+    told = set(leaks)
+    rest = [gap for gap in space.gaps if gap not in told]
     if rest:
         print(f"narrowest gap between rooms: {rest[0].width:.6g} wide, at ({_at(middle(rest[0]))})")
     rooms = [*space.closed_rooms.tolist(), *((*gap.room, gap.room_radius) for gap in space.gaps)]

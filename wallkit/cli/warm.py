@@ -11,7 +11,7 @@ import typer
 if TYPE_CHECKING:
     from wallkit.scene.scene import Scene
 
-IMPORTING = "drawings of many curves"
+IMPORTING = "large drawings"
 MEMORY = 4
 """Processes that compile at once, at most, where nobody says how many: each takes up to a gigabyte."""
 
@@ -55,13 +55,14 @@ def warmed(name: str) -> str:
     from wallkit.levels.aim import warm_aim
     from wallkit.simulation.warming import plain_scenes
     from wallkit.simulation.warming import warm as warm_scene
+    from wallkit.walls.checking.rooms_by_kernels import look_at_a_few
     from wallkit.walls.importing.arc_fitting.curves_to_arcs import fit_a_few
     from wallkit.walls.importing.curves_to_lines import flatten_a_few
     from wallkit.walls.near_boxes import ask_a_few
 
     began = time.perf_counter()
     if name == IMPORTING:
-        for task in (fit_a_few, flatten_a_few, ask_a_few):
+        for task in (fit_a_few, flatten_a_few, ask_a_few, look_at_a_few):
             task()
     else:
         scene = dict(plain_scenes()).get(name) or _opened(name)

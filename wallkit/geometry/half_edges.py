@@ -49,6 +49,10 @@ class HalfEdges:
         self.after, self.before = rows + np.tile([1, 1, -2], size // 3), rows + np.tile([2, -1, -1], size // 3)
         self._place, self._mark = rows.copy(), np.full(size, -1)
 
+    def rest(self) -> None:
+        """Forget what only changes need, four of its seven columns; ``grow`` makes its own."""
+        del self.after, self.before, self._place, self._mark
+
     def grow(self, points: FloatArray) -> HalfEdges:
         """Give the same with (n, 2) more points, before the last four, and room for their triangles."""
         new, more = HalfEdges.__new__(HalfEdges), len(points)

@@ -108,6 +108,7 @@ def _of(net: HalfEdges, points: FloatArray, given: int, size: float, middle: Flo
     corner, across = net.corner[:used], net.across[:used]
     half = np.flatnonzero(across < np.arange(used))
     begin, end = corner[net.after[half]], corner[net.before[half]]
+    net.rest()
     ends = np.stack([np.minimum(begin, end), np.maximum(begin, end)], axis=1)
     order = np.argsort(ends[:, 0] * len(points) + ends[:, 1])
     half, ends = half[order], ends[order]

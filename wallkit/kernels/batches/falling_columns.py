@@ -33,7 +33,8 @@ class Faller(NamedTuple):
     """The feature that it met last, or NONE."""
     skipped: float
     """The line that it has just left along it, or NONE."""
-    unused: float
+    back: float
+    """When it falls back on the end of a wall that it left, or NEVER."""
 
 
 FALLER = np.dtype([(name, np.float64) for name in Faller._fields])
@@ -49,7 +50,7 @@ and velocity now, whether they go back, its column and row; the rectangle, in un
 side."""
 FLOATS = 28 * LANES
 (
-    WHO, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE, LAST, SKIPPED, _UNUSED,
+    WHO, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE, LAST, SKIPPED, _BACK,
     ID, AX, AY, _BX, _BY, NX, NY, LENGTH, _TWICE, T, LATER_T,
 ) = (FLOATS + PAIRS * number for number in range(20))  # fmt: skip
 """By pair: which ball it is and its ``Faller``; the line that it asks, its ID and record; when it meets the near side,

@@ -24,6 +24,8 @@ from wallkit.kernels.flight.ball_state import FALLING_OVER, has_left, read_state
 from wallkit.kernels.flight.flight import (
     HOLDS,
     arrived,
+    back_before,
+    back_on_wall,
     ending_at_once,
     ending_without,
     flown_on,
@@ -38,6 +40,7 @@ from wallkit.kernels.records import (
     AMBIGUOUS,
     COLLAPSES,
     COUNT,
+    FALLS_BACK,
     LEFT,
     LEFT_SCENE,
     NO_HIT,
@@ -89,7 +92,7 @@ def fly_falling_wave(model, gravity, radius, start, order, queue, stop, until, l
             t, feature, touched = s[BEST + i], int(s[FEATURE + i]), int(s[TOUCHED + i])
             ending = _bounce(model, gravity, radius, t, feature, touched, until, limit, hits, scratch, i)
             if ending == RUNNING:
-                _set_out(model, gravity, scratch, i, until)
+                _set_out(model, gravity, radius, scratch, i, until)
             else:
                 _store(scratch.states[i], scratch.tallies[i], scratch.balls[i], radius, start, outcome)
                 flying += _board(gravity, i, start, order, queue, stop, scratch) - 1
@@ -104,13 +107,18 @@ def _bounce(model, gravity, radius, t, feature, touched, until, limit, hits, scr
     while True:
         face, fate = 0.0, RUNNING
         if flown:
-            t, feature = settled(model, ball, start, grip, last, still, tolerance, t, feature, touched)
+            back = scratch.fallers[i].back
+            t, feature = settled(model, ball, start, grip, last, still, tolerance, t, feature, touched, back)
             if feature in (NO_HIT, AMBIGUOUS) or (feature == COLLAPSES and before == NO_HIT):
                 ending = ending_without(None, feature, until)
                 break
-            ball, clock, start, grip, last, still, feature, face, fate = arrived(
-                model, gravity, size, ball, clock, start, grip, last, still, feature, t, t, 1.0, tolerance
-            )
+            if feature == FALLS_BACK:
+                ball, clock, start, grip, last = back_on_wall(model, gravity, ball, clock, grip, t)
+                feature = NO_HIT
+            else:
+                ball, clock, start, grip, last, still, feature, face, fate = arrived(
+                    model, gravity, size, ball, clock, start, grip, last, still, feature, t, t, 1.0, tolerance
+                )
         if feature != NO_HIT:
             ball, grip, last, bounces, still, before, ending, _noted = met(
                 model, gravity, size, ball, clock, start, grip, last, bounces, still, before, feature, face, fate, t, t,
@@ -130,16 +138,18 @@ def _bounce(model, gravity, radius, t, feature, touched, until, limit, hits, scr
 
 
 @kernel
-def _set_out(model, gravity, scratch, i, until):
+def _set_out(model, gravity, radius, scratch, i, until):
     """Begin a flight: nothing met so far, in the cell where the ball is."""
     state, counts, f, s = scratch.states[i], scratch.tallies[i], scratch.fallers, scratch.floats
-    x, y, vx, vy = state[STATE.x], state[STATE.y], state[STATE.vx], state[STATE.vy]
-    f[i].x, f[i].y, f[i].vx, f[i].vy, f[i].tolerance = x, y, vx, vy, state[STATE.tolerance]
-    f[i].last = float(counts[COUNT.last])
-    f[i].skipped = float(counts[COUNT.held]) if counts[COUNT.hold] == LEFT else NONE
+    ball, clock, _start, grip, last, _bounces, _still, _before = read_state(state, counts)
+    x, y, vx, vy, _energy = ball
+    f[i].x, f[i].y, f[i].vx, f[i].vy, f[i].tolerance, f[i].last = x, y, vx, vy, state[STATE.tolerance], float(last)
+    f[i].skipped = float(grip[0]) if grip[1] == LEFT else NONE
     s[FEATURE + i], s[TOUCHED + i] = NONE, 0.0
-    remaining = (until - state[STATE.time]) - state[STATE.lost]
-    set_out(model.grid, gravity, s, scratch.counts, i, x, y, vx, vy, remaining)
+    remaining = (until - clock[0]) - clock[1]
+    size = 0.0 if radius is None else radius
+    f[i].back, best = back_before(model, gravity, size, ball, grip, state[STATE.tolerance], remaining)
+    set_out(model.grid, gravity, s, scratch.counts, i, x, y, vx, vy, best)
 
 
 @kernel

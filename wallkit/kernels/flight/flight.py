@@ -160,12 +160,15 @@ def contact_ahead(model, gravity, radius, ball, start, grip, last, still, tolera
     t, feature, touched = first_contact(
         model, gravity, radius, x, y, vx, vy, energy, last, grip[0], grip[1], grip[2], tolerance, best
     )
-    return settled(model, ball, start, grip, last, still, tolerance, t, feature, touched)
+    return settled(model, ball, start, grip, last, still, tolerance, t, feature, touched, back)
 
 
 @kernel
-def settled(model, ball, start, grip, last, still, tolerance, t, feature, touched):
-    """What ends a flight that has found a contact: a point in a corner may get out of it at once."""
+def settled(model, ball, start, grip, last, still, tolerance, t, feature, touched, back):
+    """What ends a flight that has found a contact: a point in a corner may get out of it at once.
+
+    One that has found none falls back on a wall's end, at the time ``back`` (see ``back_before``).
+    """
     if touched > 0 and last >= 0:
         # Within rounding of another edge a point has no side of it; where it came from tells.
         x, y, vx, vy, _energy = ball

@@ -40,6 +40,9 @@ from wallkit.walls.walls import Walls, WallsError
 MOST_EDGES = 200_000
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
 _SEAM = 4e-7  # of the diagonal: what is narrower is closed, but for rounding
+_ALIKE = (
+    1e-6  # of the diagonal: rooms that differ by less are as roomy, and circles as far to the left, for their order
+)
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
 
@@ -74,7 +77,8 @@ class FreeSpace:
 
     Attributes:
         gaps: narrowest first.
-        closed_rooms: (n, 3) x, y, radius of the roomiest circle of each part that no way leads out of.
+        closed_rooms: (n, 3) x, y, radius of the roomiest circle of each part that no way leads out of: the roomiest
+            first; those as roomy, to a millionth of the drawing's diagonal, by x, then by y.
         complete: false when the drawing was too large or too tangled; then nothing is told.
         parts: what walls part from one another; None where there are no walls, or too many.
         solids: where material is, for balls that stand in it; None likewise.
@@ -147,6 +151,7 @@ def free_space_among(walls: Walls, edges: Edges, met: MetLines, narrow: float = 
         solids=solids,
     )
     found = _roomier(found, mesh, circles, seam)
+    found = replace(found, closed_rooms=_in_order(found.closed_rooms, _ALIKE * diagonal(vertices)))
     return _sharpened(found, walls) if walls.has_arcs else found
 
 
@@ -160,6 +165,16 @@ def _roomier(found: FreeSpace, mesh: Triangulation, circles: _Circles, seam: flo
         for gap, (x, y, radius) in zip(found.gaps, largest.tolist(), strict=False)
     ]
     return replace(found, gaps=gaps, closed_rooms=largest[len(gaps) :])
+
+
+def _in_order(rooms: FloatArray, alike: float) -> FloatArray:
+    """Put rooms (n, 3) in order, whatever order triangles have, which hangs on the way round that walls run.
+
+    Where these cross, and so rooms, rounding moves by some 1e-16 of the whole, and climbs end within 1e-8 of a radius:
+    far less than ``alike``.
+    """
+    x, y, radius = np.round(rooms / alike).T
+    return rooms[np.lexsort((y, x, -radius))]
 
 
 def _sharpened(found: FreeSpace, walls: Walls) -> FreeSpace:

@@ -7,6 +7,7 @@ end to the nearest wall. What would cross a wall on its way is left alone.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -14,7 +15,6 @@ import numpy as np
 
 from importers.limits import limit_error
 from wallkit.geometry.arrays import FloatArray, IntArray, distinct
-from wallkit.geometry.box_tree import BoxTree
 from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
 from wallkit.walls.checking.meetings import meetings, on_edge
@@ -27,7 +27,7 @@ EndKind = Literal["corner", "middle", "bridge", "extend", "foot", "trim"]
 
 MOST_NEAR = 2_000_000
 """Pairs of an open end and an edge, or of two ends, within reach of each other: more are not looked at."""
-_AT_ONCE = 512  # ends that are asked about: bounds the memory
+_AT_FIRST, _AT_ONCE = 64, 1 << 16  # ends that are asked about, and answers
 _ASKEW = 3.0  # a move along the own line is taken up to so many times the distance, else an edge is added
 
 
@@ -71,6 +71,25 @@ class _Near:
     foot: ComplexArray
 
 
+@dataclass(slots=True, eq=False, repr=False)
+class _Offers:
+    """What could mend ends, in columns; only what is chosen is made.
+
+    Attributes:
+        rank: (n,) 0 crossed corners, 1 pairs, 2 moves to walls, 3 edges to walls, 4 what a wall is in the way of.
+        need: (n,) as of a LooseEnd, and so the others.
+        distance: (n,).
+        ends: (n, 2) vertices; the second is -1 where there is one.
+        make: makes the one of a row.
+    """
+
+    rank: IntArray
+    need: FloatArray
+    distance: FloatArray
+    ends: IntArray
+    make: Callable[[int], LooseEnd]
+
+
 def loose_ends(walls: Walls, reach: float, scene: Surroundings | None = None) -> list[LooseEnd]:
     """Find loose ends and what mends each; each end at most once, those that need least first.
 
@@ -91,8 +110,7 @@ def loose_ends(walls: Walls, reach: float, scene: Surroundings | None = None) ->
     _, spot, shared = np.unique(ends.at, return_inverse=True, return_counts=True)
     settled |= shared[spot.reshape(-1)] > 1
     loose = np.flatnonzero(~settled)
-    found = _pairs(scene, ends, loose, near, reach) + _to_walls(scene, ends, near, ~settled, reach)
-    return _chosen(found)
+    return _chosen([*_pairs(scene, ends, loose, near, reach), *_to_walls(scene, ends, near, ~settled, reach)])
 
 
 def landed(walls: Walls, found: list[LooseEnd]) -> list[LooseEnd]:
@@ -113,20 +131,29 @@ def settled_places(walls: Walls) -> ComplexArray:
     return places
 
 
-def _chosen(found: list[tuple[int, LooseEnd]]) -> list[LooseEnd]:
-    """Each end once, by rank, then by need; ranks: crossed corners, pairs, moves to walls, edges to walls, blocked."""
-    used: set[int] = set()
-    chosen = []
-    for _, loose in sorted(found, key=lambda pair: (pair[0], pair[1].need, pair[1].distance, pair[1].ends)):
-        if used.isdisjoint(loose.ends):
-            used.update(loose.ends)
-            chosen.append(loose)
+def _chosen(offers: list[_Offers]) -> list[LooseEnd]:
+    """Mend each end once: by rank, then by need, by distance, and by the number of the end."""
+    ends = np.concatenate([np.empty((0, 2), dtype=np.int64), *(offer.ends for offer in offers)])
+    rank, need, distance = (
+        np.concatenate([np.empty(0), *(getattr(offer, name) for offer in offers)])
+        for name in ("rank", "need", "distance")
+    )
+    batch = np.repeat(np.arange(len(offers)), [len(offer.rank) for offer in offers])
+    row = np.concatenate([np.empty(0, dtype=np.int64), *(np.arange(len(offer.rank)) for offer in offers)])
+    order = np.lexsort((ends[:, 1], ends[:, 0], distance, need, rank))
+    mended, chosen = set[int](), []
+    for one, two, number, k in zip(*(column[order].tolist() for column in (*ends.T, batch, row)), strict=True):
+        if one not in mended and two not in mended:
+            mended.update((one,) if two < 0 else (one, two))
+            chosen.append(offers[number].make(k))
     return chosen
 
 
 def _near(scene: Surroundings, ends: OpenEnds, reach: float) -> _Near:
-    end, edge = _bounded(scene.tree, _points(ends.at), reach)
-    parts = [_near_among(scene, ends, end[at], edge[at], reach) for at in portions(len(end))]
+    parts, count = [], 0
+    for end, edge in _beside_each(scene.boxes, ends.at, reach):
+        count = _bounded(count + len(end))
+        parts.append(_near_among(scene, ends, end, edge, reach))
     return _Near(
         np.concatenate([part.end for part in parts]),
         np.concatenate([part.edge for part in parts]),
@@ -146,27 +173,26 @@ def _near_among(scene: Surroundings, ends: OpenEnds, end: IntArray, edge: IntArr
     return _Near(end[keep], edge[keep], distance[keep], foot[keep])
 
 
-def _points(at: ComplexArray) -> FloatArray:
-    """(2, n) coordinates."""
-    return np.stack([at.real, at.imag])
+def _beside_each(boxes: NearBoxes, at: ComplexArray, reach: float) -> Iterator[tuple[IntArray, IntArray]]:
+    """Give the boxes within reach of each place, across and up: numbers of places and boxes, both rising.
 
-
-def _bounded(tree: BoxTree, points: FloatArray, reach: float) -> IntArray:
-    """Pairs of a point, one of (2, m), and a box that comes that near in x and in y: (2, n).
-
-    Raises:
-        LimitError: more than MOST_NEAR.
+    So many places at a time as will have some _AT_ONCE answers, which bounds the memory.
     """
-    found, count = [np.empty((2, 0), dtype=np.int64)], 0
-    for start in range(0, points.shape[1], _AT_ONCE):
-        some = points[:, start : start + _AT_ONCE]
-        point, box = tree.query(some - reach, some + reach)
-        count += len(point)
-        if count > MOST_NEAR:
-            fix = "give a smaller reach (--snap), or take fewer layers"
-            raise limit_error("pairs of an open end and what is near it", f"{MOST_NEAR:,}", fix=fix)
-        found.append(np.stack([point + start, box]))
-    return np.concatenate(found, axis=1)
+    places, start, some = np.stack([at.real, at.imag]), 0, _AT_FIRST
+    while start < len(at) or not start:
+        asked = places[:, start : start + some]
+        place, box = boxes.query(asked - reach, asked + reach)
+        yield place + start, box
+        start += some
+        some = max(some * _AT_ONCE // max(len(box), _AT_ONCE // 4), 1)
+
+
+def _bounded(count: int) -> int:
+    """Give the number of pairs that were found if they are no more than MOST_NEAR."""
+    if count > MOST_NEAR:
+        fix = "give a smaller reach (--snap), or take fewer layers"
+        raise limit_error("pairs of an open end and what is near it", f"{MOST_NEAR:,}", fix=fix)
+    return count
 
 
 def _by_the_line(scene: Surroundings, at: ComplexArray, edge: IntArray, reach: float) -> BoolArray:
@@ -178,18 +204,17 @@ def _by_the_line(scene: Surroundings, at: ComplexArray, edge: IntArray, reach: f
     return within | (scene.edges.radius[edge] > 0)
 
 
-def _pairs(
-    scene: Surroundings, ends: OpenEnds, loose: IntArray, near: _Near, reach: float
-) -> list[tuple[int, LooseEnd]]:
+def _pairs(scene: Surroundings, ends: OpenEnds, loose: IntArray, near: _Near, reach: float) -> list[_Offers]:
     """What mends two ends: a corner where both lines cross near by, the middle on one line, an edge else."""
-    points = _points(ends.at[loose])
-    pair = _bounded(NearBoxes(points, points), points, 2 * reach)
-    i, j = loose[pair[:, pair[0] < pair[1]]]
-    near_by = np.abs(ends.at[i] - ends.at[j]) <= 2 * reach
-    i, j = i[near_by], j[near_by]
-    beside = _two_nearest(near, len(ends.at))
-    parts = (_pairs_among(scene, ends, i[at], j[at], beside, reach) for at in portions(len(i)))
-    return [mended for part in parts for mended in part]
+    at, beside = ends.at[loose], _two_nearest(near, len(ends.at))
+    places = np.stack([at.real, at.imag])
+    found, count = [], 0
+    for i, j in _beside_each(NearBoxes(places, places), at, 2 * reach):
+        within = np.abs(at[i] - at[j]) <= 2 * reach
+        count = _bounded(count + int(np.count_nonzero(within)))
+        i, j = loose[i[within & (i < j)]], loose[j[within & (i < j)]]
+        found += _pairs_among(scene, ends, i, j, beside, reach)
+    return found
 
 
 def _pairs_among(
@@ -199,7 +224,7 @@ def _pairs_among(
     j: IntArray,
     nearest_edges: tuple[IntArray, FloatArray],
     reach: float,
-) -> list[tuple[int, LooseEnd]]:
+) -> list[_Offers]:
     """What mends the ends ``i`` with the ends ``j``."""
     one, two = ends.take(i), ends.take(j)
     distance = np.abs(one.at - two.at)
@@ -216,34 +241,42 @@ def _pairs_among(
         is_corner &= crossed | (need <= _ASKEW * np.minimum(distance, beside))
     nearest = (distance <= reach) & (distance <= beside * (1 + 1e-9) + scene.there)
     flat = one.straight & two.straight & _on_one_line(one, two)
-    rows = {
+    rows: dict[EndKind, IntArray] = {
         "corner": np.flatnonzero(apart & is_corner & ~flat),
         "middle": np.flatnonzero(apart & nearest & flat),
         "bridge": np.flatnonzero(apart & nearest & ~flat),
     }
+    target = {"corner": corner, "middle": (one.at + two.at) / 2, "bridge": two.at}
     found = []
     for kind, row in rows.items():
-        target = corner[row] if kind == "corner" else two.at[row]
-        length = need[row] if kind == "corner" else distance[row]
-        if kind == "middle":
-            target = (one.at[row] + two.at[row]) / 2
-        blocked = in_the_way(scene, one.at[row], target) | in_the_way(scene, two.at[row], target)
+        at, length = target[kind][row], need[row] if kind == "corner" else distance[row]
+        blocked = in_the_way(scene, one.at[row], at) | in_the_way(scene, two.at[row], at)
         rank = np.where(blocked, 4, np.where(crossed[row] & (kind == "corner"), 0, 1))
-        for r, k, need_, at, no in zip(
-            row.tolist(), rank.tolist(), length.tolist(), target.tolist(), blocked, strict=True
-        ):
-            both = int(one.vertex[r]), int(two.vertex[r])
-            back = _back(one, two, r) if kind == "bridge" else None
-            found.append((k, LooseEnd(kind, both, float(distance[r]), np.inf if no else need_, at, back=back)))  # type: ignore[arg-type]
+        found.append(_of_pairs(kind, ends, i[row], j[row], at, rank, np.where(blocked, np.inf, length), distance[row]))
     return found
 
 
-def _back(one: OpenEnds, two: OpenEnds, row: int) -> complex | None:
+def _of_pairs(
+    kind: EndKind, ends: OpenEnds, i: IntArray, j: IntArray, at: ComplexArray,
+    rank: IntArray, need: FloatArray, distance: FloatArray,
+) -> _Offers:  # fmt: skip
+    """Offer to mend ends ``i`` with ``j`` at some places."""
+    both = np.stack([ends.vertex[i], ends.vertex[j]], axis=1)
+
+    def make(row: int) -> LooseEnd:
+        pair = int(both[row, 0]), int(both[row, 1])
+        back = _back(ends, i[row], j[row]) if kind == "bridge" else None
+        return LooseEnd(kind, pair, float(distance[row]), float(need[row]), complex(at[row]), back=back)
+
+    return _Offers(rank, need, distance, both, make)
+
+
+def _back(ends: OpenEnds, one: int, two: int) -> complex | None:
     """Where to shorten the first end to, if it reaches past the second: abreast of it."""
-    past = -float(((two.at[row] - one.at[row]) * one.towards[row].conjugate()).real)
-    if not one.straight[row] or not 0 < past < abs(one.line.b[row] - one.line.a[row]):
+    past = -float(((ends.at[two] - ends.at[one]) * ends.towards[one].conjugate()).real)
+    if not ends.straight[one] or not 0 < past < abs(ends.line.b[one] - ends.line.a[one]):
         return None
-    return complex(one.at[row] - past * one.towards[row])
+    return complex(ends.at[one] - past * ends.towards[one])
 
 
 def _two_nearest(near: _Near, count: int) -> tuple[IntArray, FloatArray]:
@@ -283,9 +316,7 @@ def _on_one_line(one: OpenEnds, two: OpenEnds) -> BoolArray:
     return flat
 
 
-def _to_walls(
-    scene: Surroundings, ends: OpenEnds, near: _Near, loose: BoolArray, reach: float
-) -> list[tuple[int, LooseEnd]]:
+def _to_walls(scene: Surroundings, ends: OpenEnds, near: _Near, loose: BoolArray, reach: float) -> list[_Offers]:
     """What mends an end at a wall: back to the wall that it sticks out of, on to the first wall, an edge else."""
     keep = loose[near.end]
     end, edge, distance, foot = near.end[keep], near.edge[keep], near.distance[keep], near.foot[keep]
@@ -299,21 +330,35 @@ def _to_walls(
     rows = np.flatnonzero(ahead == forward[end])
     on[end[rows]] = edge[rows]
     trims = (out.length > 0) & (out.length <= forward)
-    found = [(2, _trim(scene, ends, out, row)) for row in np.flatnonzero(trims).tolist()]
     first = first[~trims[end[first]]]
-    mine = ends.take(end[first])
-    blocked = in_the_way(scene, mine.at, foot[first])
-    for k, (row, no) in enumerate(zip(first.tolist(), blocked.tolist(), strict=True)):
-        vertex, far, short = int(mine.vertex[k]), float(forward[end[row]]), float(distance[row])
-        tip = complex(mine.at[k])
-        if far <= min(reach, _ASKEW * short):
-            at, before = tip + far * complex(mine.towards[k]), complex(mine.line.a[k])
-            found.append((2, LooseEnd("extend", (vertex,), short, far, at, int(on[end[row]]), before, tip)))
-        else:
-            need = np.inf if no else short
-            at = complex(foot[row])
-            found.append((4 if no else 3, LooseEnd("foot", (vertex,), short, need, at, int(edge[row]), tip)))
-    return found
+    end, edge, foot, short = end[first], edge[first], foot[first], distance[first]
+    far = forward[end]
+    goes_on = far <= np.minimum(reach, _ASKEW * short)
+    blocked = in_the_way(scene, ends.at[end], foot) & ~goes_on
+    need = np.where(goes_on, far, np.where(blocked, np.inf, short))
+
+    def make(row: int) -> LooseEnd:
+        at, vertex = end[row], (int(ends.vertex[end[row]]),)
+        tip, where = complex(ends.at[at]), complex(foot[row])
+        if not goes_on[row]:
+            return LooseEnd("foot", vertex, float(short[row]), float(need[row]), where, int(edge[row]), tip)
+        where, before = tip + float(far[row]) * complex(ends.towards[at]), complex(ends.line.a[at])
+        return LooseEnd("extend", vertex, float(short[row]), float(far[row]), where, int(on[at]), before, tip)
+
+    rank = np.where(goes_on, 2, np.where(blocked, 4, 3))
+    return [_trims(scene, ends, out, np.flatnonzero(trims)), _Offers(rank, need, short, _alone(ends, end), make)]
+
+
+def _alone(ends: OpenEnds, rows: IntArray) -> IntArray:
+    """The vertices of ends that are mended by themselves."""
+    return np.stack([ends.vertex[rows], np.full(len(rows), -1)], axis=1)
+
+
+def _trims(scene: Surroundings, ends: OpenEnds, out: Overshoots, rows: IntArray) -> _Offers:
+    """Offer to trim ends that stick out."""
+    length = out.length[rows]
+    rank = np.full(len(rows), 2)
+    return _Offers(rank, length, length, _alone(ends, rows), lambda row: _trim(scene, ends, out, int(rows[row])))
 
 
 def _trim(scene: Surroundings, ends: OpenEnds, out: Overshoots, row: int) -> LooseEnd:

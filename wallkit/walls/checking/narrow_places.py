@@ -14,6 +14,7 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.triangulation import Triangulation, cut_further
 
 _NEARLY = 1e-9  # of the square of the distance: rounding
+_AT_ONCE = 1 << 15  # corners that are looked from: bounds the memory
 _DEEPEST = 40  # edges looked over: with more between two walls, their vertices are as dense as feet would be
 
 
@@ -32,22 +33,33 @@ def narrow_feet(mesh: Triangulation) -> tuple[IntArray, FloatArray]:
         (n,) the edges that the feet are on, and (n, 2) the feet; both empty where there are none.
     """
     row = np.flatnonzero(mesh.corners.ravel() < mesh.given)
-    edge, through = mesh.edge.ravel()[row], row // 3
-    corner = mesh.corners.ravel()
     reach = _reach(mesh)
+    x, y = mesh.points.T.copy()  # columns: sums and gathers of pairs take NumPy several times as long
+    begins = range(0, max(len(row), 1), _AT_ONCE)
+    parts = [_feet_of(mesh, x, y, row[begin : begin + _AT_ONCE], reach) for begin in begins]
+    return np.concatenate([edge for edge, _ in parts]), np.concatenate([foot for _, foot in parts])
+
+
+def _feet_of(
+    mesh: Triangulation, x: FloatArray, y: FloatArray, row: IntArray, reach: FloatArray
+) -> tuple[IntArray, FloatArray]:
+    """The same of some corners of triangles, by their numbers; x and y are those of the points."""
+    corner = mesh.corners.ravel()
+    edge, through = mesh.edge.ravel()[row], row // 3
     edges, feet = [np.empty(0, dtype=np.int64)], [np.empty((0, 2))]
     for _ in range(_DEEPEST):
-        p, q = (mesh.points[mesh.ends[edge, k]] for k in (0, 1))
-        vertex = corner[row]
-        foot = _foot(mesh.points[vertex], p, q)
-        inner = (foot != p).any(axis=1) & (foot != q).any(axis=1)
-        inner &= np.hypot(*(mesh.points[vertex] - foot).T) <= reach[vertex]
+        vertex, (p, q) = corner[row], mesh.ends[edge].T
+        at_x, at_y = _foot(x[vertex], y[vertex], x[p], y[p], x[q], y[q])
+        inner = ((at_x != x[p]) | (at_y != y[p])) & ((at_x != x[q]) | (at_y != y[q]))
+        inner &= np.hypot(x[vertex] - at_x, y[vertex] - at_y) <= reach[vertex]
         met = np.flatnonzero(inner & mesh.wall[edge])
-        passed = np.stack([row[met] // 3, through[met]], axis=1)
-        met = met[_empty(mesh, mesh.points[vertex[met]], foot[met], passed)]
+        around = np.concatenate([mesh.corners[row[met] // 3], mesh.corners[through[met]]], axis=1)
+        met = met[_empty(x, y, vertex[met], at_x[met], at_y[met], around)]
         edges.append(edge[met])
-        feet.append(foot[met])
+        feet.append(np.stack([at_x[met], at_y[met]], axis=1))
         going = np.flatnonzero(inner & ~mesh.wall[edge] & ~mesh.outer[edge])
+        if not len(going):
+            break
         row, edge, through = _across(mesh, row, edge, through, going)
     return np.concatenate(edges), np.concatenate(feet)
 
@@ -69,17 +81,21 @@ def _reach(mesh: Triangulation) -> FloatArray:
     return reach
 
 
-def _empty(mesh: Triangulation, vertex: FloatArray, foot: FloatArray, triangles: IntArray) -> NDArray[np.bool_]:
-    """Whether no corner of some triangles, (n, 2) for each, is in the circle from a vertex to its foot.
+def _empty(
+    x: FloatArray, y: FloatArray, vertex: IntArray, at_x: FloatArray, at_y: FloatArray, around: IntArray
+) -> NDArray[np.bool_]:
+    """Whether none of some points ``around``, (n, 6), is in the circle from a vertex to its foot.
 
     In the circle over v f is what sees it under more than a right angle: (w - v) . (w - f) < 0. Of a vertex on a wall,
     to rounding, it is a point.
     """
-    square = ((foot - vertex) ** 2).sum(axis=1)
-    empty = np.ones(len(foot), dtype=np.bool_)
-    for corner in mesh.corners[triangles].reshape(-1, 6).T:
-        place = mesh.points[corner]
-        empty &= ((place - vertex) * (place - foot)).sum(axis=1) >= -_NEARLY * square
+    v_x, v_y = x[vertex], y[vertex]
+    off_x, off_y = at_x - v_x, at_y - v_y
+    least = -_NEARLY * (off_x * off_x + off_y * off_y)
+    empty = np.ones(len(vertex), dtype=np.bool_)
+    for point in around.T:
+        w_x, w_y = x[point], y[point]
+        empty &= (w_x - v_x) * (w_x - at_x) + (w_y - v_y) * (w_y - at_y) >= least
     return empty
 
 
@@ -95,9 +111,11 @@ def _across(
     return np.tile(row, 2), following, np.tile(beyond, 2)
 
 
-def _foot(point: FloatArray, p: FloatArray, q: FloatArray) -> FloatArray:
-    """The nearest point of each segment."""
-    d = q - p
-    part = np.clip(((point - p) * d).sum(axis=1) / np.maximum((d * d).sum(axis=1), 1e-300), 0.0, 1.0)
-    foot: FloatArray = p + d * part[:, None]
-    return foot
+def _foot(
+    x: FloatArray, y: FloatArray, p_x: FloatArray, p_y: FloatArray, q_x: FloatArray, q_y: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """The point of each segment from p to q that is nearest to (x, y)."""
+    d_x, d_y = q_x - p_x, q_y - p_y
+    part = ((x - p_x) * d_x + (y - p_y) * d_y) / np.maximum(d_x * d_x + d_y * d_y, 1e-300)
+    part = np.clip(part, 0.0, 1.0)
+    return p_x + d_x * part, p_y + d_y * part

@@ -61,9 +61,7 @@ class Surroundings:
     edge_wall: IntArray
     starts: IntArray
     stops: IntArray
-    low: FloatArray  # (E, 2) lowest corner of the box around each edge
-    high: FloatArray
-    tree: NearBoxes
+    boxes: NearBoxes  # around the edges
     along: FloatArray  # (V,) way along its wall to each vertex
     total: FloatArray  # (W,) length of each wall
     there: float
@@ -75,7 +73,7 @@ class Surroundings:
         length = np.where(edges.radius > 0, np.abs(edges.angle) * edges.radius, np.abs(edges.b - edges.a))
         bow = np.abs(np.tan(edges.angle / 4)) * np.abs(edges.b - edges.a) / 2
         a, b = walls.vertices[walls.edge_starts], walls.vertices[walls.edge_ends]
-        low, high = np.minimum(a, b) - bow[:, None], np.maximum(a, b) + bow[:, None]
+        boxes = NearBoxes((np.minimum(a, b) - bow[:, None]).T, (np.maximum(a, b) + bow[:, None]).T)
         wall_of = np.repeat(np.arange(len(walls)), np.diff(walls.offsets))
         step = np.zeros(len(walls.vertices))
         step[walls.edge_starts] = length
@@ -85,7 +83,7 @@ class Surroundings:
         there = ROUNDING * float(np.abs(walls.vertices).max(initial=0.0))
         total = np.bincount(edge_wall, length, len(walls)).astype(np.float64)
         starts, stops = walls.edge_starts, walls.edge_ends
-        return cls(walls, edges, edge_wall, starts, stops, low, high, NearBoxes(low.T, high.T), along, total, there)
+        return cls(walls, edges, edge_wall, starts, stops, boxes, along, total, there)
 
     def ends(self) -> OpenEnds:
         """All open ends."""
@@ -105,10 +103,11 @@ class Surroundings:
     def boxes_meet(self, one: IntArray, two: IntArray) -> BoolArray:
         """Tell of pairs of edges whether their boxes meet, or nearly: within what rounding adds to common points."""
         margin = 1e3 * self.there  # 1e-11: the parts of edges at which points lie are off by some 1e-12
+        low, high = self.boxes.low, self.boxes.high
         met = np.empty(len(one), dtype=np.bool_)
         for at in portions(len(one)):
-            apart = np.maximum(self.low[one[at]] - self.high[two[at]], self.low[two[at]] - self.high[one[at]])
-            met[at] = (apart[:, 0] <= margin) & (apart[:, 1] <= margin)
+            apart = np.maximum(low[:, one[at]] - high[:, two[at]], low[:, two[at]] - high[:, one[at]])
+            met[at] = (apart[0] <= margin) & (apart[1] <= margin)
         return met
 
     def own_bend(self, ends: OpenEnds, edge: IntArray, distance: FloatArray) -> BoolArray:
@@ -143,8 +142,9 @@ def put_on(scene: Surroundings, edge: int, at: complex, before: complex, end: co
 def in_the_way(scene: Surroundings, start: ComplexArray, stop: ComplexArray) -> BoolArray:
     """Whether a wall is in the way from start to stop: met farther from both than rounding."""
     zero = np.zeros(len(start))
-    ends = np.stack([[start.real, stop.real], [start.imag, stop.imag]])
-    piece, edge = scene.tree.query(ends.min(axis=1), ends.max(axis=1))
+    ends = np.stack([start.real, stop.real]), np.stack([start.imag, stop.imag])
+    low, high = (np.stack([extreme(part, axis=0) for part in ends]) for extreme in (np.min, np.max))
+    piece, edge = scene.boxes.query(low, high)
     way = ExactEdges(start[piece], stop[piece], zero.astype(np.complex128)[piece], zero[piece], zero[piece])
     f = scene.edges.take(edge)
     result = np.zeros(len(start), dtype=np.bool_)

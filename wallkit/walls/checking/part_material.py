@@ -39,6 +39,8 @@ def in_material(
         copy_of: (W,) the first wall with the same edges.
         points: the places.
     """
+    if not solids.sign.any():  # only closed walls hold material
+        return np.zeros(len(points), dtype=np.bool_)
     edge = _edges_of(mesh, pieces)
     if len(points) == 0 or (edge < 0).any():  # pieces that came to nothing: ask each wall
         return solids.contain(points)

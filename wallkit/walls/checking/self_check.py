@@ -36,14 +36,22 @@ class Findings:
     hidden: Counter[str] = field(default_factory=Counter)
 
     def add(self, wall: int, code: str, severity: Severity, message: str, fix: str, at: FloatArray) -> None:
-        """Note one finding about a wall at a place."""
+        """Note one finding about a wall at a place, if it is listed."""
+        if self.is_listed(code):
+            self.put(wall, code, severity, message, fix, at)
+
+    def put(self, wall: int, code: str, severity: Severity, message: str, fix: str, at: FloatArray) -> None:
+        """Put one into the list."""
+        name, layer = self.walls.names[wall], self.walls.layers[wall]
+        line = self.lines[wall] if self.lines else None
+        x, y = float(at[0]), float(at[1])
+        self.problems.append(Problem(code, severity, message, fix, layer, name, line, None, x, y))
+
+    def is_listed(self, code: str) -> bool:
+        """Count one more of a code, and tell whether it is listed; many walls have more than anybody reads."""
         self.listed[code] += 1
         self.hidden[code] += self.listed[code] > MOST_PLACES
-        if self.listed[code] <= MOST_PLACES:
-            name, layer = self.walls.names[wall], self.walls.layers[wall]
-            line = self.lines[wall] if self.lines else None
-            x, y = float(at[0]), float(at[1])
-            self.problems.append(Problem(code, severity, message, fix, layer, name, line, None, x, y))
+        return self.listed[code] <= MOST_PLACES
 
     def first(self, rows: IntArray, code: str) -> list[int]:
         """The rows that are listed under a code; the others are only counted."""
@@ -241,22 +249,25 @@ def _gaps(findings: Findings, edges: Edges, loose: Sequence[LooseEnd]) -> None:
         findings.add(wall, "ends-meet", "info", message, "join them to one wall (--join)", spots[index])
     offsets = findings.walls.offsets
     for end in loose:
-        wall = int(np.searchsorted(offsets, end.ends[0], side="right")) - 1
-        code, message, fix = _told(end)
-        findings.add(wall, code, "warning", message, fix, findings.walls.vertices[end.ends[0]])
+        sticks_out = end.kind == "trim"
+        code = "overshoot" if sticks_out else "gap"
+        if findings.is_listed(code):
+            wall = int(np.searchsorted(offsets, end.ends[0], side="right")) - 1
+            message, fix = _told(end)
+            findings.put(wall, code, "warning", message, fix, findings.walls.vertices[end.ends[0]])
 
 
-def _told(end: LooseEnd) -> tuple[str, str, str]:
-    """Code, message and fix of a loose end."""
+def _told(end: LooseEnd) -> tuple[str, str]:
+    """Message and fix of a loose end."""
     snap = f"--snap {at_least(end.need)}" if np.isfinite(end.need) else ""
     if end.kind == "trim":
         fix = f"trim it at the wall, in the drawing or with {snap}"
-        return "overshoot", f"an open end sticks out {end.distance:.6g} beyond another wall", fix
+        return f"an open end sticks out {end.distance:.6g} beyond another wall", fix
     if end.kind in ("corner", "middle", "bridge"):
         fix = f"close it in the drawing, or with {snap}" if snap else "close it in the drawing: a wall is in the way"
-        return "gap", f"a gap of {end.distance:.6g} to the nearest open end", fix
+        return f"a gap of {end.distance:.6g} to the nearest open end", fix
     fix = f"draw it on, or snap it with {snap}" if snap else "draw it on; a third wall is in the way"
-    return "gap", f"an open end stops {end.distance:.6g} short of another wall", fix
+    return f"an open end stops {end.distance:.6g} short of another wall", fix
 
 
 def at_least(length: float) -> str:

@@ -9,6 +9,7 @@ from wallkit.geometry.arrays import FloatArray
 from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.checking.wall_distance import wall_distance
 
+_AT_ONCE = 1 << 14  # triangles whose circles are looked at together: bounds the memory
 TOO_SMALL = 1.5
 """Times the radius of a circle in a triangle: a larger one may be found above it."""
 
@@ -22,8 +23,10 @@ def triangle_circles(mesh: Triangulation, least: float, where: NDArray[np.bool_]
     which is the room then.
     """
     size, place = np.zeros(len(mesh.corners)), mesh.points[mesh.corners].mean(axis=1)
-    centres = _centres(mesh)
-    most = np.stack([_to_corners(mesh, centre) for centre in centres])
+    if not where.any():
+        return size, place
+    parts = [_candidates(mesh, begin) for begin in range(0, len(size), _AT_ONCE)]
+    centres, most = (np.concatenate([part[k] for part in parts], axis=1) for k in (0, 1))
     bound: FloatArray = np.where(where & (mesh.corners < len(mesh.points) - 4).all(axis=1), most.max(axis=0), 0.0)
     known = bound.copy()
     asked = np.zeros(len(bound), dtype=np.bool_)
@@ -48,16 +51,19 @@ def _beside_larger(mesh: Triangulation, bound: FloatArray, known: FloatArray) ->
     return larger
 
 
-def _to_corners(mesh: Triangulation, centre: FloatArray) -> FloatArray:
-    """How far places in triangles are from the nearest corner, which is on a wall: (T,)."""
-    far = (np.hypot(*(centre - mesh.points[mesh.corners[:, k]]).T) for k in range(3))
+def _candidates(mesh: Triangulation, begin: int) -> tuple[FloatArray, FloatArray]:
+    """Two centres (2, n, 2) for some triangles, and how far they are (2, n) from the nearest corner, so from a wall.
+
+    One is the centre of the circle around the triangle, if inside, the other that of the circle in it.
+    """
+    p, q, r = (mesh.points[mesh.corners[begin : begin + _AT_ONCE, k]] for k in range(3))
+    centres = _centres(p, q, r)
+    far = (np.hypot(*(centres - corner).transpose(2, 0, 1)) for corner in (p, q, r))
     nearest: FloatArray = np.minimum(np.minimum(next(far), next(far)), next(far))
-    return nearest
+    return centres, nearest
 
 
-def _centres(mesh: Triangulation) -> FloatArray:
-    """Two candidates for each triangle, (2, T, 2): the centre of the circle around it, if inside, and the one in it."""
-    p, q, r = (mesh.points[mesh.corners[:, k]] for k in range(3))
+def _centres(p: FloatArray, q: FloatArray, r: FloatArray) -> FloatArray:
     u, v = q - p, r - p
     double = 2 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
     uu, vv, ww = (u * u).sum(axis=1), (v * v).sum(axis=1), ((r - q) ** 2).sum(axis=1)

@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.geometry.triangulation import Triangulation
+from wallkit.kernels.rooms import widest_ways as kernels
+from wallkit.walls.checking.rooms_by_kernels import one_by_one
 
 
 class Room(NamedTuple):
@@ -75,7 +77,7 @@ class Joined:
         closed: the nodes with the roomiest circles of the parts that no way leads out of.
     """
 
-    used: list[int]
+    used: IntArray
     rooms: list[Room]
     closed: list[int]
 
@@ -93,39 +95,26 @@ def unite(mesh: Triangulation, ways: Ways, circle: FloatArray, narrow: float, le
     outer = _outer(mesh)
     frame = np.zeros(len(circle))
     frame[outer] = np.inf
-    roomy = np.concatenate([frame, circle]).tolist()  # of a root: the radius of the roomiest circle
-    parent = list(range(len(roomy)))
-    for triangle in outer:
-        parent[triangle] = outer[0]
-    best = list(range(len(roomy)))
-    used: list[int] = []
-    rooms: list[Room] = []
+    roomy = np.concatenate([frame, circle])
+    parent = np.arange(len(roomy))
+    parent[outer] = outer[0]
     order = np.argsort(-ways.width, kind="stable")
-    columns = (order, ways.one[order], ways.two[order], ways.width[order])
-    for way, one, two, width in zip(*(column.tolist() for column in columns), strict=True):
-        while parent[one] != one:  # to its root, with the path halved on the way
-            parent[one] = one = parent[parent[one]]
-        while parent[two] != two:
-            parent[two] = two = parent[parent[two]]
-        if one == two:
-            continue
-        used.append(way)
-        if roomy[one] < roomy[two]:
-            one, two = two, one
-        if 2 * narrow * roomy[two] >= width > 0 and roomy[two] > least:
-            rooms.append(Room(way, best[two], math.isinf(roomy[one])))
-        parent[two] = one
-    root = np.array(parent)
-    while (root[root] != root).any():
-        root = root[root]
-    roots: list[int] = distinct(root[: len(circle)]).tolist()
-    return Joined(used, rooms, [best[node] for node in roots if least < roomy[node] < math.inf])
+    given = ways.one[order], ways.two[order], ways.width[order], roomy, float(narrow), float(least)
+    used, joined = np.zeros(len(roomy), dtype=np.int64), np.zeros(3 * len(roomy), dtype=np.int64)
+    count, rooms = one_by_one(kernels.unite, mesh, given, (parent, used, joined))
+    while (parent[parent] != parent).any():
+        parent = parent[parent]
+    roots = distinct(parent[: len(circle)])
+    closed: list[int] = roots[(roomy[roots] > least) & (roomy[roots] < math.inf)].tolist()
+    parted = joined[: 3 * rooms].reshape(-1, 3)
+    into_outside = np.isinf(roomy[parted[:, 2]])
+    found = zip(order[parted[:, 0]].tolist(), parted[:, 1].tolist(), into_outside.tolist(), strict=True)
+    return Joined(order[used[:count]], [Room(*one) for one in found], closed)
 
 
-def _outer(mesh: Triangulation) -> list[int]:
+def _outer(mesh: Triangulation) -> IntArray:
     """The triangles at the frame."""
-    triangles: list[int] = np.flatnonzero(mesh.outer[mesh.edge].sum(axis=1)).tolist()
-    return triangles
+    return np.flatnonzero(mesh.outer[mesh.edge].sum(axis=1))
 
 
 class WaysOut(NamedTuple):
@@ -137,26 +126,22 @@ class WaysOut(NamedTuple):
         narrowest: width of the narrowest of all ways to the outside; infinite there, 0 where there is none.
     """
 
-    before: list[int]
-    step: list[int]
-    narrowest: list[float]
+    before: IntArray
+    step: IntArray
+    narrowest: FloatArray
 
 
-def ways_out(mesh: Triangulation, ways: Ways, used: list[int]) -> WaysOut:
+def ways_out(mesh: Triangulation, ways: Ways, used: IntArray) -> WaysOut:
     """Walk the tree from the outside."""
-    nodes, tree = 2 * len(mesh.corners), np.array(used, dtype=np.int64)
-    one, two = np.concatenate([ways.one[tree], ways.two[tree]]), np.concatenate([ways.two[tree], ways.one[tree]])
+    nodes = 2 * len(mesh.corners)
+    one, two = np.concatenate([ways.one[used], ways.two[used]]), np.concatenate([ways.two[used], ways.one[used]])
     order = np.argsort(one, kind="stable")
-    first = np.searchsorted(one[order], np.arange(nodes + 1)).tolist()
-    other, number, width = two[order].tolist(), np.tile(tree, 2)[order].tolist(), ways.width.tolist()
-    before, step, narrowest = [-1] * nodes, [-1] * nodes, [0.0] * nodes
-    reached = _outer(mesh)
-    for node in reached:
-        narrowest[node] = math.inf
-    for node in reached:  # which grows on the way
-        for k in range(first[node], first[node + 1]):
-            if narrowest[other[k]] == 0:
-                before[other[k]], step[other[k]] = node, number[k]
-                narrowest[other[k]] = min(narrowest[node], width[number[k]])
-                reached.append(other[k])
-    return WaysOut(before, step, narrowest)
+    first = np.searchsorted(one[order], np.arange(nodes + 1))
+    outer = _outer(mesh)
+    out = WaysOut(np.full(nodes, -1), np.full(nodes, -1), np.zeros(nodes))
+    out.narrowest[outer] = np.inf
+    reached = np.zeros(nodes, dtype=np.int64)
+    reached[: len(outer)] = outer
+    given = first, two[order], np.tile(used, 2)[order], ways.width, len(outer)
+    one_by_one(kernels.walk_out, mesh, given, (*out, reached))
+    return out

@@ -1,0 +1,1 @@
+"""Free space between walls: how far the nearest wall is, and how triangles of free space hang together."""
