@@ -157,3 +157,24 @@ def test_any_level_with_anything_that_acts(seed, size, radius, kinds, acts):
     turn = random.uniform(0, math.tau)
     gravity = (20.0 * size * math.cos(turn), 20.0 * size * math.sin(turn))
     assert_same(Scene(walls, thrown(random, radius, size=size), gravity=gravity, **acts), until=8.0)
+
+
+@pytest.mark.parametrize("restitution", [0.4, 1.0])
+def test_points_fall_back_on_the_ends_of_upright_sides_of_half_pipes(restitution):
+    random = np.random.default_rng(6)
+    middles, radius, height = 10.0 * np.arange(8), 3.0, 2.0
+    pipe = np.array([(-radius, height), (-radius, 0.0), (radius, 0.0), (radius, height)])
+    walls = Walls.from_polylines(
+        [pipe + (middle, 0.0) for middle in middles],
+        closed=[False] * len(middles),
+        bulges=[[0.0, 1.0, 0.0, 0.0]] * len(middles),
+        material=[Material(restitution)] * len(middles),
+    )
+    middle, side = random.choice(middles, COUNT), random.choice([-1.0, 1.0], COUNT)
+    position = np.stack([middle + side * radius, random.uniform(0.1, 1.9, COUNT)], axis=1)
+    velocity = np.stack([np.zeros(COUNT), random.uniform(5.0, 14.0, COUNT)], axis=1)
+    totals, _model = assert_same(Scene(walls, Balls(position, velocity, 0.0), **DOWN), until=4.0)
+    rose = position[:, 1] + velocity[:, 1] ** 2 / 40.0 > height
+    assert 0.3 * COUNT < np.count_nonzero(rose) < COUNT
+    # Those that ran up over the end are in their half pipe, as the discs are whose limit they are.
+    assert (np.abs(totals.position[:, 0] - middle) <= radius + 1e-9).all()
