@@ -73,7 +73,14 @@ def check_smooth(vertices, bulges, cusps_allowed=0):
 
 
 def cusps(control):
-    """How often the velocity all but vanishes inside, among the places where the derivative of its square is 0."""
+    """How often the velocity all but vanishes inside, among the places where the derivative of its square is 0.
+
+    Roots near 0 have more digits than those near 1, so the curve is asked from both ends.
+    """
+    return max(_cusps(control), _cusps(control[::-1]))
+
+
+def _cusps(control):
     d = 3 * np.diff(np.asarray(control, dtype=float), axis=0)
     powers = np.stack([d[0], 2 * (d[1] - d[0]), d[0] - 2 * d[1] + d[2]])
     slope = sum(np.polynomial.Polynomial(p) * np.polynomial.Polynomial(p).deriv() for p in powers.T)

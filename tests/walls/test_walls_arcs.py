@@ -96,6 +96,7 @@ def test_every_cubic_to_and_fro_on_a_line_stays_within_the_tolerance(start, turn
 @given(point, angle, short, angle, short, point, tolerance)
 @example((-13.75465, 73.464101), 3.97, 7.943282347242821e-12, 2.15, 7.943282347242813e-4, (8.733858, -60.740623), 1e-3)
 @example((-84.957778, 92.572916), 3.39, 5e-10, 4.86, 5e-12, (22.315946, -93.22155), 1e-2)
+@example((86.462921, 0.0), 0.8961615249426534, 1e-7, 0.4792108358056123, 10**-3.3, (-97.517578, 1.5), 1.0)
 def test_every_cubic_with_short_arms_stays_within_the_tolerance(p0, turn0, arm0, turn1, arm1, p3, tol):
     p1 = np.array(p0) + arm0 * np.array([math.cos(turn0), math.sin(turn0)])
     p2 = p1 + arm1 * np.array([math.cos(turn1), math.sin(turn1)])
