@@ -1,6 +1,7 @@
 """Numbers as large as doubles go, given to what builds and flies scenes: an error that says what may be."""
 
 import io
+import math
 
 import pytest
 
@@ -22,16 +23,18 @@ def bowed(bulge):
 
 
 LARGE_THINGS = {
-    "a place": lambda large: simulate(room(balls=Balls([[large, 2.0]], [[1.0, 2.0]])), bounces=9),
+    "a place": lambda large: simulate(room(balls=Balls([[large, 2.0]], [[1.0, 2.0]]), gravity=(0.0, -9.0)), bounces=9),
     "a speed": lambda large: simulate(room(balls=Balls([[25.0, 25.0]], [[large, 2.0]])), bounces=9),
     "a radius": lambda large: simulate(room(balls=Balls([[25.0, 25.0]], [[1.0, 2.0]], abs(large))), bounces=9),
     "gravity": lambda large: simulate(room(gravity=(0.0, large)), bounces=9),
     "rolling friction": lambda large: simulate(room(rolling_friction=abs(large)), bounces=9),
     "drag": lambda large: simulate(room(drag=abs(large), gravity=(0.0, -9.0)), bounces=9),
     "a bulge": lambda large: simulate(Scene(bowed(large), Balls([[50.0, 40.0]], [[1.0, 3.0]])), bounces=9),
-    "a box of balls": lambda large: count(room(), RandomBalls((0.0, 0.0, abs(large), 10.0)), 10, bounces=3),
+    "a box of balls": lambda large: count(
+        room(gravity=(0.0, -9.0)), RandomBalls((0.0, 0.0, abs(large), 10.0)), 10, bounces=3
+    ),
     "a kick": lambda large: World(room()).place(0, velocity=(large, 25.0)),
-    "a new place": lambda large: World(room()).place(0, (large, 25.0)),
+    "a new place": lambda large: World(room(gravity=(0.0, -9.0))).place(0, (large, 25.0)),
     "a start": lambda large: aim(room(), (large, 25.0), (75.0, 75.0, 5.0), 1),
     "a target": lambda large: aim(room(), (25.0, 25.0), (large, 75.0, 5.0), 1),
     "a target's radius": lambda large: aim(room(), (25.0, 25.0), (75.0, 75.0, abs(large)), 1),
@@ -45,6 +48,15 @@ def test_what_is_too_large_is_refused_in_words(thing):
     for large in LARGE:
         with pytest.raises(wallkit.WallkitError):  # a warning of numpy would fail the test
             LARGE_THINGS[thing](large)
+
+
+@pytest.mark.parametrize("far", LARGE)
+def test_without_gravity_a_ball_may_be_as_far_away_as_numbers_go(far):
+    run = simulate(room(balls=Balls([[far, 25.0]], [[-math.copysign(1e150, far), 0.0]])), bounces=9)
+    assert run.trusted_until()[0].bounces == 0
+    world = World(room())
+    world.place(0, (far, 25.0))
+    assert len(world.step(1.0)) == 0
 
 
 def test_a_frame_without_end_ends(monkeypatch):

@@ -199,9 +199,10 @@ def _errors(scene: Scene, own: Any, ball: int, source: ErrorSource) -> tuple[Flo
         if math.isinf(first[1][0, -1]):
             known, rms = (np.pad(part, ((0, 0), (0, len(own) - FIRST)), constant_values=np.inf) for part in first)
             return known, rms
-    carried = _carried(scene, own, ball, source)
-    variance, sums = carried[-2:]
-    _kernel(carry, len(own))(*carried)
+    with np.errstate(over="ignore", invalid="ignore"):  # as compiled kernels do
+        carried = _carried(scene, own, ball, source)
+        variance, sums = carried[-2:]
+        _kernel(carry, len(own))(*carried)
     for table in (variance, sums):
         table[~(table >= 0.0)] = np.inf  # overflown on the way: beyond any promise
     # a ball that stands is exactly still; one that damping slowed down has lost as much of its error as of its speed

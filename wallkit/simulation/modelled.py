@@ -211,7 +211,7 @@ def check_sizes(scene: Scene) -> float:
 
 
 def check_balls(balls: Balls, size: float, falls: bool) -> None:
-    """Refuse balls that are so far away, so slow or so fast that squares of products are no numbers any more.
+    """Refuse balls so slow, so fast or, under gravity, so far away that squares of products are no numbers any more.
 
     Args:
         balls: any number of them.
@@ -221,8 +221,9 @@ def check_balls(balls: Balls, size: float, falls: bool) -> None:
     Raises:
         SceneError: a coordinate or a speed is beyond LENGTHS, SPEEDS and FALLING.
     """
-    farthest = float(np.abs(balls.position).max(initial=0.0))
-    _check_range("a ball's coordinate", farthest, (0.0, LENGTHS[1]), "place it nearer to the walls")
+    if falls:  # else a place is only added to, and a ball may come from anywhere
+        farthest = float(np.abs(balls.position).max(initial=0.0))
+        _check_range("a ball's coordinate", farthest, (0.0, LENGTHS[1]), "place it nearer to the walls")
     speeds = np.hypot(*np.asarray(balls.velocity, dtype=np.float64).reshape(-1, 2).T)
     moving = speeds[speeds > 0.0]
     if len(moving):
