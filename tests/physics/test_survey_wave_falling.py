@@ -165,7 +165,7 @@ def test_points_fall_back_on_the_ends_of_upright_sides_of_half_pipes(restitution
     middles, radius, height = 10.0 * np.arange(8), 3.0, 2.0
     pipe = np.array([(-radius, height), (-radius, 0.0), (radius, 0.0), (radius, height)])
     walls = Walls.from_polylines(
-        [pipe + (middle, 0.0) for middle in middles],
+        [pipe + np.array([middle, 0.0]) for middle in middles],
         closed=[False] * len(middles),
         bulges=[[0.0, 1.0, 0.0, 0.0]] * len(middles),
         material=[Material(restitution)] * len(middles),
