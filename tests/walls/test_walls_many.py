@@ -1,11 +1,16 @@
 """Many edges and curves: near pairs as by comparing all with all, and blocks that make no difference."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import shapely
 
 import wallkit
+from wallkit.geometry import rings as rings_of_walls
 from wallkit.geometry.box_tree import BoxTree
+from wallkit.geometry.ragged import portions
+from wallkit.walls import as_shapely, edge_tree
 from wallkit.walls.edge_tree import Edges, EdgeTree
 from wallkit.walls.importing import curves_to_lines
 from wallkit.walls.importing.arc_fitting import curves_to_arcs
@@ -105,6 +110,50 @@ def test_arcs_are_the_same_in_any_blocks(monkeypatch):
     np.testing.assert_array_equal(whole.bulges, parts.bulges)
     assert whole.measured_error == parts.measured_error
     assert whole.measured_normal_error == parts.measured_normal_error
+
+
+def test_walls_and_what_is_found_of_them_are_the_same_in_any_portions(monkeypatch):
+    drawing = many_curves()
+    whole = wallkit.import_walls(drawing, curves="arcs", tolerance=0.01, flip_y=True)
+    assert {problem.code for problem in whole.problems} >= {"self-crossing", "open-path"}
+    for module in (edge_tree, rings_of_walls):
+        monkeypatch.setattr(module, "portions", lambda of: portions(of, 5))
+    for module in (edge_tree, as_shapely):
+        monkeypatch.setattr(module, "AT_ONCE", 3)
+    parts = wallkit.import_walls(drawing, curves="arcs", tolerance=0.01, flip_y=True)
+    for name in ("offsets", "vertices", "bulges", "depth"):
+        np.testing.assert_array_equal(getattr(whole, name), getattr(parts, name))
+    assert whole.problems == parts.problems
+
+
+@pytest.mark.parametrize("about", [1, 3, 10, 1000])
+def test_portions_have_all_rows_in_order_each_once(about):
+    counts = np.array([0, 0, 3, 0, 7, 1, 1, 1, 30, 2, 0, 0])
+    offsets = np.concatenate([[0], np.cumsum(counts)])
+    ranges = list(portions(offsets, about))
+    assert [row for first, stop in ranges for row in range(first, stop)] == list(range(len(counts)))
+    # what begins in one of the stretches of ``about`` entries, and the last of these with all that it has
+    assert all(offsets[stop - 1] - offsets[first] < about for first, stop in ranges)
+    assert list(portions(np.zeros(1, dtype=np.int64))) == []
+
+
+def test_areas_and_turned_rings_are_those_of_shapely_in_any_portions(monkeypatch):
+    rng = np.random.default_rng(6)
+    counts = rng.integers(3, 9, 40)
+    offsets = np.concatenate([[0], np.cumsum(counts)])
+    vertices, lines = rng.uniform(-5, 5, (offsets[-1], 2)), np.zeros(offsets[-1])
+    rings = [shapely.LinearRing(vertices[a:b]) for a, b in pairwise(offsets.tolist())]
+    areas = [shapely.Polygon(ring).area * (1 if ring.is_ccw else -1) for ring in rings if ring.is_simple]
+    simple = np.array([ring.is_simple for ring in rings])
+    for about in (1, 7, 1 << 14):
+        monkeypatch.setattr(rings_of_walls, "portions", lambda of, about=about: portions(of, about))
+        for bulges in (None, lines):
+            got = rings_of_walls.signed_areas(vertices, bulges, offsets)
+            np.testing.assert_allclose(got[simple], areas, rtol=0, atol=1e-13)  # some eps of 100, the largest product
+        points, _ = rings_of_walls.turned(vertices, lines, offsets, np.arange(40) % 2 == 0)
+        for k, (a, b) in enumerate(pairwise(offsets.tolist())):
+            expected = vertices[a:b] if k % 2 else np.roll(vertices[a:b][::-1], 1, axis=0)
+            np.testing.assert_array_equal(points[a:b], expected)
 
 
 @pytest.mark.parametrize("count", [0, 1, 15, 16, 17, 300, 5000])

@@ -6,32 +6,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ragged import numbered, portions
 
-_AT_ONCE = 1 << 14  # vertices: what they need stays in the cache
 
-
-def signed_areas(vertices: FloatArray, bulges: FloatArray, offsets: IntArray) -> FloatArray:
+def signed_areas(vertices: FloatArray, bulges: FloatArray | None, offsets: IntArray) -> FloatArray:
     """Signed area of each ring, arcs included: (W,), positive when counter-clockwise with y up.
 
     The shoelace sum taken from each ring's first vertex, so that a far origin costs no digits, and for an arc
     of angle 4 atan(bulge) the circular segment R^2 (angle - sin angle) / 2 between chord and arc.
+
+    Args:
+        vertices: (V, 2).
+        bulges: (V,), or None for lines alone.
+        offsets: (W + 1,) ring k has the vertices ``offsets[k]`` to ``offsets[k + 1]``, which may be none.
     """
-    counts = np.diff(offsets)
-    following = np.arange(1, len(vertices) + 1)
-    full = counts > 0
-    following[offsets[1:][full] - 1] = offsets[:-1][full]
-    first, parts, has_arcs = np.repeat(offsets[:-1], counts), np.empty(len(vertices)), bool(np.any(bulges))
-    for begin in range(0, len(vertices), _AT_ONCE):
-        some = slice(begin, begin + _AT_ONCE)
-        origin = vertices[first[some]]
-        a, b = vertices[some] - origin, vertices[following[some]] - origin
-        parts[some] = (a[:, 0] * b[:, 1] - b[:, 0] * a[:, 1]) / 2
-        if has_arcs:
-            parts[some] += _segment_areas(b - a, bulges[some])
-    sums = np.zeros(len(counts))
-    if len(parts):
-        sums[full] = np.add.reduceat(parts, offsets[:-1][full])
+    bent = bulges if bulges is not None and bulges.any() else None
+    sums = np.zeros(len(offsets) - 1)
+    for row, stop in portions(offsets):
+        full = row + np.flatnonzero(np.diff(offsets[row : stop + 1]))
+        if len(full):
+            some = slice(offsets[row], offsets[stop])
+            first = offsets[full] - offsets[row]
+            parts = _parts(vertices[some], None if bent is None else bent[some], first)
+            sums[full] = np.add.reduceat(parts, first)
     return sums
+
+
+def _parts(vertices: FloatArray, bulges: FloatArray | None, first: IntArray) -> FloatArray:
+    """What each edge of rings, none empty, adds to the signed area: (V,), ``first`` the rings' first vertices."""
+    last = np.append(first[1:], len(vertices)) - 1
+    a = vertices - np.repeat(vertices[first], last + 1 - first, axis=0)
+    b = np.empty_like(a)
+    b[:-1], b[last] = a[1:], 0.0
+    parts: FloatArray = (a[:, 0] * b[:, 1] - b[:, 0] * a[:, 1]) / 2
+    if bulges is not None:
+        parts += _segment_areas(b - a, bulges)
+    return parts
 
 
 def _segment_areas(chord: FloatArray, bulges: FloatArray) -> FloatArray:
@@ -69,10 +79,15 @@ def turned(
     vertices: FloatArray, bulges: FloatArray, offsets: IntArray, turn: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray]:
     """Reverse the closed walls marked in ``turn``: the first vertex stays first, bulges go to the new edges."""
-    counts = np.diff(offsets)
-    position = np.arange(len(vertices))
-    first, size, turned = np.repeat(offsets[:-1], counts), np.repeat(counts, counts), np.repeat(turn, counts)
-    rank = position - first
-    vertex_from = np.where(turned, first + (size - rank) % np.maximum(size, 1), position)
-    bulge_from = np.where(turned, first + size - 1 - rank, position)
-    return vertices[vertex_from], np.where(turned, 0.0 - bulges[bulge_from], bulges)  # 0 - 0 is 0, -0 is not
+    points, bends = vertices.copy(), bulges.copy()
+    for row, stop in portions(offsets):
+        if not turn[row:stop].any():
+            continue
+        which = row + np.flatnonzero(turn[row:stop])
+        size = offsets[which + 1] - offsets[which]
+        wall, rank = numbered(size)
+        first = offsets[which][wall]
+        to, far = first + rank, size[wall] - rank
+        points[to] = vertices[first + far % size[wall]]
+        bends[to] = 0.0 - bulges[first + far - 1]  # 0 - 0 is 0, -0 is not
+    return points, bends

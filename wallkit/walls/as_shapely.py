@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -10,11 +11,9 @@ import numpy as np
 from importers.limits import MAX_VERTICES, limit_error
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.bulge_arcs import edge_points
-from wallkit.geometry.ragged import numbered
+from wallkit.geometry.ragged import AT_ONCE, numbered
 from wallkit.geometry.rings import rings_of
 from wallkit.walls.walls import Walls
-
-_AT_ONCE = 1 << 14  # edges: what they need stays in the cache
 
 
 def to_shapely(walls: Walls, tolerance: float | None = None) -> Any:
@@ -62,23 +61,31 @@ def straightened(walls: Walls, tolerance: float | None = None) -> tuple[FloatArr
     if not walls.has_arcs:
         return walls.vertices, walls.offsets
     within = largest_distance(walls) if tolerance is None else tolerance
-    following, total = _following(walls), 0.0
-    parts, counts = [], np.empty(len(walls.vertices), dtype=np.int64)
-    for begin in range(0, len(counts), _AT_ONCE):
-        some = slice(begin, begin + _AT_ONCE)
-        a, b, bulge = walls.vertices[some], walls.vertices[following[some]], walls.bulges[some]
+    offsets = np.zeros(len(walls.vertices) + 1, dtype=np.int64)
+    total = 0.0
+    for some, a, b, bulge in _edges_of(walls):
         wanted = _lines_wanted(a, b, bulge, within)
         total += float(wanted.sum())
-        if not total <= MAX_VERTICES + len(counts):
+        if not total <= MAX_VERTICES + len(walls.vertices):
             raise limit_error("lines in the place of arcs", f"{MAX_VERTICES:,}", fix="ask for a larger tolerance")
-        counts[some] = wanted
-        which, rank = numbered(counts[some])
-        points = a[which]
-        inner = np.flatnonzero(rank)
-        on = which[inner]
-        points[inner] = edge_points(a[on], b[on], bulge[on], rank[inner] / counts[some][on])
-        parts.append(points)
-    return np.concatenate(parts), np.concatenate([[0], np.cumsum(counts)])[walls.offsets]
+        offsets[1:][some] = wanted
+    np.cumsum(offsets, out=offsets)
+    points = np.empty((offsets[-1], 2))
+    for some, a, b, bulge in _edges_of(walls):
+        first = offsets[:-1][some]
+        counts = offsets[1:][some] - first
+        points[first] = a
+        on, rank = numbered(counts - 1)
+        points[first[on] + rank + 1] = edge_points(a[on], b[on], bulge[on], (rank + 1) / counts[on])
+    return points, offsets[walls.offsets]
+
+
+def _edges_of(walls: Walls) -> Iterator[tuple[slice, FloatArray, FloatArray, FloatArray]]:
+    """Some edges after others: which, where they start and end, and their bulges."""
+    following = _following(walls)
+    for begin in range(0, len(following), AT_ONCE):
+        some = slice(begin, begin + AT_ONCE)
+        yield some, walls.vertices[some], walls.vertices.take(following[some], axis=0), walls.bulges[some]
 
 
 def largest_distance(walls: Walls) -> float:
@@ -100,9 +107,12 @@ def check_tolerance(walls: Walls, tolerance: float) -> float:
     asked = tolerance / 10 or largest_distance(walls)
     if not walls.has_arcs:
         return asked
-    angle, radius = _arcs(walls.vertices, walls.vertices[_following(walls)], walls.bulges)
-    most = min(max(CHORDS, CHORDS_OF_AN_ARC * np.count_nonzero(angle)), MAX_VERTICES // 2)
-    return max(asked, float((np.abs(angle) * np.sqrt(radius / 8)).sum() / most) ** 2)
+    taken = np.empty(len(walls.vertices))
+    for some, a, b, bulge in _edges_of(walls):
+        angle, radius = _arcs(a, b, bulge)
+        taken[some] = np.abs(angle) * np.sqrt(radius / 8)
+    most = min(max(CHORDS, CHORDS_OF_AN_ARC * np.count_nonzero(walls.bulges)), MAX_VERTICES // 2)
+    return max(asked, float(taken.sum() / most) ** 2)
 
 
 def _following(walls: Walls) -> IntArray:

@@ -48,7 +48,6 @@ class Touches:
 # Of near edges that are looked at, and of those that meet; a tangle beyond that is reported as one.
 MOST_PAIRS = 10_000_000
 MOST_CONTACTS = 500_000
-_AT_ONCE = 1 << 14  # edges of which neighbours are looked at: fresh memory takes longer than the look
 
 
 def find_touches(edges: Edges) -> Touches:
@@ -68,7 +67,7 @@ def find_touches(edges: Edges) -> Touches:
             met_so_far += len(kind[-1])
     none = np.empty((0, 2), dtype=np.int64)
     proper, flat, touch = (np.concatenate([none, *kind]) for kind in kinds)
-    at = _meeting(edges.a[proper[:, 0]], edges.b[proper[:, 0]], edges.a[proper[:, 1]], edges.b[proper[:, 1]])
+    at = _meeting(*(ends(row) for row in proper.T for ends in (edges.starts_of, edges.stops_of)))
     met = np.concatenate([touch, flat])
     passages = _passages(edges, met[:, 0], met[:, 1])
     more_walls, more_at, touch_walls, touch_at = _through_vertices(edges, *passages)
@@ -93,7 +92,7 @@ def _cuts(
     first, second = folds
     back = np.concatenate([first, second])  # the end of the shorter one lies on the longer
     end = np.concatenate([edges.stop[second], edges.start[first]])
-    one, two = (np.hypot(*(edges.b[part] - edges.a[part]).T) for part in folds)
+    one, two = (np.hypot(*(edges.stops_of(part) - edges.starts_of(part)).T) for part in folds)
     longer = np.concatenate([one > two, one < two])
     edge = np.concatenate([proper.T.ravel(), partner[inside] - count, back[longer]])
     return edge, np.concatenate([at, at, edges.vertices[vertex[inside]], edges.vertices[end[longer]]])
@@ -115,7 +114,8 @@ def _with_copies(
 
 def _classify(edges: Edges, first: IntArray, second: IntArray) -> tuple[NDArray[np.bool_], ...]:
     """Which pairs cross inside both edges, lie on one line, or touch with an end."""
-    a, b, c, d = edges.a[first], edges.b[first], edges.a[second], edges.b[second]
+    a, b = edges.starts_of(first), edges.stops_of(first)
+    c, d = edges.starts_of(second), edges.stops_of(second)
     one = side(a, b, c) * side(a, b, d)
     two = side(c, d, a) * side(c, d, b)
     flat = (one == 0) & (two == 0)
@@ -138,7 +138,8 @@ def _overlaps(
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Pieces shared by edges on one line, and by neighbours that fold back."""
     first, second = np.concatenate([first, folds[0]]), np.concatenate([second, folds[1]])
-    a, b, c, d = edges.a[first], edges.b[first], edges.a[second], edges.b[second]
+    a, b = edges.starts_of(first), edges.stops_of(first)
+    c, d = edges.starts_of(second), edges.stops_of(second)
     axis = (np.abs(b - a)[:, 1] > np.abs(b - a)[:, 0]).astype(np.int64)[:, None]  # the wider one orders exactly
     ends = np.stack([a, b, c, d], axis=1)
     key = np.take_along_axis(ends, axis[:, :, None].repeat(4, axis=1), axis=2)[..., 0]
@@ -153,16 +154,16 @@ def _overlaps(
 
 def _folds(edges: Edges) -> tuple[IntArray, IntArray]:
     """Neighbours along a polyline of which the second goes back over the first."""
-    edge_at = np.full(len(edges.vertices), -1, dtype=np.int64)
-    edge_at[edges.start] = np.arange(len(edges))
     found = [np.empty((2, 0), dtype=np.int64)]
-    for begin in range(0, len(edges), _AT_ONCE):
-        second = edge_at[edges.stop[begin : begin + _AT_ONCE]]
-        (x, y), (u, v) = ((edges.b[some] - edges.a[some]).T for some in (slice(begin, begin + _AT_ONCE), second))
-        back = np.flatnonzero((x * u + y * v < 0) & (second >= 0))
-        found.append(np.stack([begin + back, second[back]]))
+    for _, begin, some in edges.portions():
+        edge_at = np.full(len(some.vertices), -1, dtype=np.int64)
+        edge_at[some.start] = np.arange(len(some))
+        second = edge_at[some.stop]
+        x, y = (some.b - some.a).T
+        back = np.flatnonzero((x * x[second] + y * y[second] < 0) & (second >= 0))
+        found.append(np.stack([begin + back, begin + second[back]]))
     first, second = np.concatenate(found, axis=1)
-    on_line = side(edges.a[first], edges.b[first], edges.b[second]) == 0
+    on_line = side(edges.starts_of(first), edges.stops_of(first), edges.stops_of(second)) == 0
     return first[on_line], second[on_line]
 
 
@@ -176,7 +177,7 @@ def _passages(edges: Edges, first: IntArray, second: IntArray) -> tuple[IntArray
     keys = []
     for own, other in ((second, first), (first, second)):
         for vertex in (edges.start[own], edges.stop[own]):
-            point, a, b = edges.vertices[vertex], edges.a[other], edges.b[other]
+            point, a, b = edges.vertices[vertex], edges.starts_of(other), edges.stops_of(other)
             within = ((point >= np.minimum(a, b)) & (point <= np.maximum(a, b))).all(axis=1)
             at_a, at_b = (point == a).all(axis=1), (point == b).all(axis=1)
             rows = np.flatnonzero(within)

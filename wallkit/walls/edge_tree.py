@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.ragged import numbered
+from wallkit.geometry.ragged import AT_ONCE, numbered, portions
 from wallkit.geometry.rings import signed_areas
 from wallkit.walls.near_boxes import NearBoxes
 
@@ -84,6 +84,24 @@ class Edges:
         """(E, 2) end points."""
         return self.vertices[self.stop]
 
+    def starts_of(self, rows: IntArray) -> FloatArray:
+        """(n, 2) the points that edges ``rows`` start at."""
+        return self.vertices.take(self.start[rows], axis=0)
+
+    def stops_of(self, rows: IntArray) -> FloatArray:
+        """(n, 2) the points that edges ``rows`` end at; ``b`` is fresh memory for those of all."""
+        return self.vertices.take(self.stop[rows], axis=0)
+
+    def portions(self) -> Iterator[tuple[int, int, Edges]]:
+        """The edges of some polylines after others: the first polyline and the first edge of each portion, and it."""
+        edge = 0
+        for wall, stop in portions(self.offsets):
+            first, last = int(self.offsets[wall]), int(self.offsets[stop])
+            offsets, closed = self.offsets[wall : stop + 1] - first, self.closed[wall:stop]
+            some = Edges(self.vertices[first:last], offsets, closed)
+            yield wall, edge, some
+            edge += len(some)
+
     def _at_starts(self, of_vertices: NDArray[Any]) -> NDArray[Any]:
         """Take of what vertices have what edges begin at: all of it, and no copy, where all polylines are closed."""
         return of_vertices if len(self.start) == len(of_vertices) else of_vertices[self.start]
@@ -91,7 +109,12 @@ class Edges:
     @cached_property
     def areas(self) -> FloatArray:
         """(W,) the signed area of each polyline, taken as a ring."""
-        return signed_areas(self.vertices, np.zeros(len(self.vertices)), self.offsets)
+        return signed_areas(self.vertices, None, self.offsets)
+
+    @cached_property
+    def size(self) -> float:
+        """The largest absolute value of a coordinate; 0 without any."""
+        return float(max(-self.vertices.min(initial=0.0), self.vertices.max(initial=0.0)))
 
     @cached_property
     def tree(self) -> EdgeTree:
@@ -121,14 +144,18 @@ class EdgeTree:
     def __init__(self, edges: Edges, rows: IntArray) -> None:
         """Make runs of the edges ``rows`` (n,), in rising order."""
         self.rows = rows
-        a, b, start, stop = edges.a, edges.b, edges.start, edges.stop
-        if len(rows) < len(edges):
-            a, b, start, stop = a[rows], b[rows], start[rows], stop[rows]
         self.low, self.high = np.empty((2, len(rows))), np.empty((2, len(rows)))
-        for k in (0, 1):
-            np.minimum(a[:, k], b[:, k], out=self.low[k])
-            np.maximum(a[:, k], b[:, k], out=self.high[k])
-        self.first, self.goes_on = self._runs(a, b, stop[:-1] == start[1:])
+        way = np.empty(len(rows), dtype=np.int8)
+        for begin in range(0, len(rows), AT_ONCE):
+            some = slice(begin, begin + AT_ONCE)
+            a, b = edges.starts_of(rows[some]).T, edges.stops_of(rows[some]).T
+            np.minimum(a, b, out=self.low[:, some])
+            np.maximum(a, b, out=self.high[:, some])
+            way[some] = np.where((a == b).all(axis=0), -1, 2 * (b[0] < a[0]) + (b[1] < a[1]))
+        start, stop = edges.start, edges.stop
+        if len(rows) < len(edges):
+            start, stop = start[rows], stop[rows]
+        self.first, self.goes_on = self._runs(way, stop[:-1] == start[1:])
         self.run_low, self.run_high = self._boxes()
         if not self._pay():
             self.first, self.goes_on = np.arange(len(rows)), np.zeros(len(rows), dtype=np.bool_)
@@ -157,17 +184,18 @@ class EdgeTree:
         return 4 * runs * covered < area * (count / _RUN)
 
     @staticmethod
-    def _runs(a: FloatArray, b: FloatArray, follows: NDArray[np.bool_]) -> tuple[IntArray, NDArray[np.bool_]]:
-        """Give the first edge of each run, and whether it goes on as the run before it, which was full."""
-        way = 2 * (b[:, 0] < a[:, 0]).astype(np.int8) + (b[:, 1] < a[:, 1])
-        way[(a == b).all(axis=1)] = -1
+    def _runs(way: NDArray[np.int8], follows: NDArray[np.bool_]) -> tuple[IntArray, NDArray[np.bool_]]:
+        """Give the first edge of each run, and whether it goes on as the run before it, which was full.
+
+        Args:
+            way: (n,) which way each edge goes in x and in y, -1 for one without length.
+            follows: (n - 1,) the edge after each begins where it ends.
+        """
         turns = np.ones(len(way), dtype=np.bool_)
         turns[1:] = ~follows | (way[1:] != way[:-1]) | (way[1:] < 0)
         straight = np.flatnonzero(turns)
-        rank = np.arange(len(way))
-        rank -= np.repeat(straight, np.diff(straight, append=len(way)))
-        rank %= _RUN
-        first = np.flatnonzero(rank == 0)
+        which, rank = numbered(-(-np.diff(straight, append=len(way)) // _RUN))
+        first = straight[which] + _RUN * rank
         return first, ~turns[first]
 
     def query(self, boxes: Any) -> tuple[IntArray, IntArray]:

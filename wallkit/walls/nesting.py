@@ -66,6 +66,15 @@ def _inner_points(edges: Edges, ring: NDArray[np.bool_]) -> FloatArray:
 
     A 2^20th of the way down, but not so little that rounding of the coordinates could tell it from the top.
     """
+    points, least = np.empty((len(ring), 2)), 1e-9 * edges.size
+    for wall, _, some in edges.portions():
+        rows = slice(wall, wall + len(some.closed))
+        points[rows] = _inner_points_of(some, ring[rows], least)
+    return points
+
+
+def _inner_points_of(edges: Edges, ring: NDArray[np.bool_], least: float) -> FloatArray:
+    """The same for some polylines: ``least`` below the top, or half the way where that is less."""
     first = edges.offsets[:-1]
     result = edges.vertices[np.minimum(first, len(edges.vertices) - 1)].copy()
     more = np.diff(edges.offsets) > 1
@@ -76,7 +85,7 @@ def _inner_points(edges: Edges, ring: NDArray[np.bool_]) -> FloatArray:
     top = np.maximum.reduceat(y, first)
     below = np.where(y < top[edges.wall_of], y, -np.inf)
     drop = top - np.maximum(np.maximum.reduceat(below, first), -1e300)
-    level = top - np.minimum(np.maximum(drop * 2.0**-20, 1e-9 * np.abs(edges.vertices).max()), drop / 2)
+    level = top - np.minimum(np.maximum(drop * 2.0**-20, least), drop / 2)
     a, b, at = edges.a, edges.b, level[edges.wall]
     crosses = (np.minimum(a[:, 1], b[:, 1]) <= at) & (at < np.maximum(a[:, 1], b[:, 1])) & ring[edges.wall]
     a, b, at, wall = a[crosses], b[crosses], at[crosses], edges.wall[crosses]
@@ -142,7 +151,7 @@ def _first_above(
     edges: Edges, points: FloatArray, reach: FloatArray, source: IntArray, edge: IntArray
 ) -> tuple[IntArray, IntArray]:
     """Keep, for each source, the edges that are first met going up (more than one where they lie on each other)."""
-    p, a, b = points[source], edges.a[edge], edges.b[edge]
+    p, a, b = points[source], edges.starts_of(edge), edges.stops_of(edge)
     spans = (np.minimum(a[:, 0], b[:, 0]) <= p[:, 0]) & (p[:, 0] < np.maximum(a[:, 0], b[:, 0]))
     source, edge, p, a, b = source[spans], edge[spans], p[spans], a[spans], b[spans]
     slope = (b[:, 1] - a[:, 1]) / (b[:, 0] - a[:, 0])
@@ -150,7 +159,7 @@ def _first_above(
     above = (y >= p[:, 1]) & (y <= p[:, 1] + reach[source])
     source, edge, slope, y = source[above], edge[above], slope[above], y[above]
     # edges on one line are met at heights that differ by rounding: a few ulp of the coordinates
-    slack = 16 * np.finfo(float).eps * float(np.abs(edges.vertices).max(initial=1.0))
+    slack = 16 * np.finfo(float).eps * max(edges.size, 1.0)
     lowest = np.full(len(points), np.inf)
     np.minimum.at(lowest, source, y)
     tied = y <= lowest[source] + slack
@@ -175,7 +184,9 @@ def _settle(
         return
     area = edges.areas
     wall = edges.wall[edge]
-    leftward = edges.b[edge, 0] < edges.a[edge, 0]  # its left, where the solid is, is below
+    leftward = (
+        edges.vertices[edges.stop[edge], 0] < edges.vertices[edges.start[edge], 0]
+    )  # its left, where the solid is, is below
     around = leftward == (area[wall] > 0)
     order = np.argsort(-size[wall], kind="stable")
     inside = order[around[order]]

@@ -217,7 +217,10 @@ def _slivers(findings: Findings, edges: Edges) -> None:
     if not len(edges.closed) or not len(edges):
         return
     area = np.abs(edges.areas)
-    perimeter = np.bincount(edges.wall, np.hypot(*(edges.b - edges.a).T), len(edges.closed))
+    lengths = [
+        np.bincount(some.wall, np.hypot(*(some.b - some.a).T), len(some.closed)) for _, _, some in edges.portions()
+    ]
+    perimeter = np.concatenate(lengths)
     width = 2 * area / np.where(perimeter > 0, perimeter, 1.0)
     limit = findings.walls.tolerance or 1e-6 * diagonal(edges.vertices)
     narrow = np.flatnonzero(edges.closed & (width < limit)).tolist()

@@ -53,8 +53,8 @@ def _empty_edges(outlines: Outlines) -> NDArray[np.bool_]:
     following = np.arange(1, len(outlines.vertices) + 1)
     last = outlines.offsets[1:] - 1
     following[last] = outlines.offsets[:-1]
-    same = outlines.vertices == outlines.vertices[following]
-    empty: NDArray[np.bool_] = same[:, 0] & same[:, 1]
+    x, y = outlines.vertices.T
+    empty: NDArray[np.bool_] = (x == x[following]) & (y == y[following])
     empty[last[~outlines.closed]] = False
     return empty
 
@@ -133,7 +133,7 @@ NEARLY_CLOSED = 0.1
 def _report_open(outlines: Outlines) -> Outlines:
     rows = np.flatnonzero(~outlines.closed)
     ends, gaps = outlines.vertices[outlines.offsets[rows + 1] - 1], _gaps(outlines)[rows]
-    nearly = gaps < NEARLY_CLOSED * _lengths(outlines)[rows]
+    nearly = gaps < NEARLY_CLOSED * _lengths(outlines.keep(~outlines.closed))
     one_way = {owner: is_one_way(outlines.paths[owner]) for owner in distinct(outlines.owner[rows]).tolist()}
     problems = [
         outlines.problem(

@@ -46,6 +46,8 @@ class Outlines:
 
     def keep(self, wanted: NDArray[np.bool_]) -> Outlines:
         """Give the outlines where ``wanted`` is true."""
+        if wanted.all():
+            return self
         counts = np.diff(self.offsets)
         rows = np.repeat(wanted, counts)
         return replace(
@@ -188,6 +190,8 @@ def _sums(values: IntArray, offsets: IntArray) -> IntArray:
 
 def without_vertices(outlines: Outlines, drop: NDArray[np.bool_]) -> Outlines:
     """Take vertices away; the edge before one then ends where its own edge did."""
+    if not drop.any():
+        return outlines
     gone = np.concatenate([[0], np.cumsum(drop)])
     return replace(
         outlines,

@@ -98,14 +98,35 @@ def fit_arcs(segments: Segments, tolerance: float) -> Pieces:
         _circles(segments.arcs.take(round_), arc_at[round_]),
         _fit(Ellipses(segments.arcs.take(~round_)), segments, arc_at[~round_], tolerance),
     ]
-    owner = np.concatenate([part.segments for part in parts])
-    order = np.argsort(owner, kind="stable")
-    counts = np.bincount(owner, minlength=len(segments.kinds)).astype(np.int64)
-    ends = np.concatenate([part.ends for part in parts])[order]
+    edges = _in_order(parts)
+    counts = np.bincount(edges.segments, minlength=len(segments.kinds)).astype(np.int64)
     drawn = counts > 0
-    ends[np.cumsum(counts)[drawn] - 1] = segments.ends[drawn]
-    bulges = np.concatenate([part.bulges for part in parts])[order]
-    return Pieces(counts, ends, bulges, max(p.distance for p in parts), max(p.turn for p in parts))
+    edges.ends[np.cumsum(counts)[drawn] - 1] = segments.ends[drawn]
+    return Pieces(counts, edges.ends, edges.bulges, edges.distance, edges.turn)
+
+
+def _in_order(parts: list[_Edges]) -> _Edges:
+    """String edges of all kinds together, segment by segment; those of one kind are in order."""
+    parts = [part for part in parts if len(part.segments)] or parts[:1]
+    joined = _strung(parts)
+    if len(parts) > 1:
+        order = np.argsort(joined.segments, kind="stable")
+        joined.segments, joined.bulges = joined.segments[order], joined.bulges[order]
+        joined.ends = joined.ends.take(order, axis=0)
+    return joined
+
+
+def _strung(parts: list[_Edges]) -> _Edges:
+    """String edges together, one part after the other."""
+    if len(parts) == 1:
+        return parts[0]
+    return _Edges(
+        np.concatenate([part.segments for part in parts]),
+        np.concatenate([part.ends for part in parts]),
+        np.concatenate([part.bulges for part in parts]),
+        max(part.distance for part in parts),
+        max(part.turn for part in parts),
+    )
 
 
 def _is_circle(arcs: Arcs) -> BoolArray:
@@ -144,13 +165,7 @@ def _fit(curves: Curves, segments: Segments, at: IntArray, tolerance: float) -> 
         parts.append(_fit_block(curves.take(rows), own, segments, at[rows], smooth[rows], tolerance, kernels))
         total += len(parts[-1].bulges)
         within_limit(total)
-    return _Edges(
-        np.concatenate([part.segments for part in parts]),
-        np.concatenate([part.ends for part in parts]),
-        np.concatenate([part.bulges for part in parts]),
-        max(part.distance for part in parts),
-        max(part.turn for part in parts),
-    )
+    return _strung(parts)
 
 
 def _fit_block(

@@ -60,11 +60,11 @@ def between_cusps(chains: Chains) -> Spans:
     first, last = chains.headings, chains.leavings
     point = curves.motion(which, t[:, None])[0][:, 0]
     ids = np.concatenate([np.arange(n), which])
-    order = np.lexsort((np.concatenate([np.zeros(n), t]), ids))
+    order = _by_parameter(ids, np.concatenate([np.zeros(n), t]))
     low = np.concatenate([np.zeros(n), t])[order]
     p0 = np.concatenate([np.zeros(n, dtype=np.complex128), point])[order]
     t0 = np.concatenate([first, cusps.leaving])[order]
-    order = np.lexsort((np.concatenate([np.ones(n), t]), ids))
+    order = _by_parameter(ids, np.concatenate([np.ones(n), t]))
     high = np.concatenate([np.ones(n), t])[order]
     p1 = np.concatenate([curves.last, point])[order]
     t1 = np.concatenate([last, cusps.coming])[order]
@@ -229,7 +229,18 @@ def _strung_by_parameter(parts: list[Spans]) -> Spans:
     if len(parts) == 1:
         return parts[0]  # they are in order
     joined = Spans.joined(parts)
-    return joined.take(np.lexsort((joined.low, joined.ids)))
+    return joined.take(_by_parameter(joined.ids, joined.low))
+
+
+def _by_parameter(ids: IntArray, low: FloatArray) -> IntArray:
+    """Give the order by chain and parameter.
+
+    Complex numbers are in order of their real parts, then of the imaginary ones, and a stable sort merges runs that are
+    in order, as what is strung together here is: lexsort would sort by the parameter first, of all chains at once.
+    """
+    key = np.empty(len(ids), dtype=np.complex128)
+    key.real, key.imag = ids, low
+    return np.argsort(key, kind="stable")
 
 
 def settled_cuts(chains: Chains, spans: Spans, whole: Spans, tolerance: float) -> tuple[Spans, Biarcs, Fit]:
@@ -282,7 +293,7 @@ def _cut_anew(chains: Chains, spans: Spans, fit: Fit, wrong: BoolArray, whole: S
 def _in_order(parts: list[tuple[Spans, Fit]]) -> tuple[Spans, Fit]:
     """String spans and their fits together, by chain and parameter."""
     spans, fit = Spans.joined([part for part, _ in parts]), Fit.joined([part for _, part in parts])
-    order = np.lexsort((spans.low, spans.ids))
+    order = _by_parameter(spans.ids, spans.low)
     return spans.take(order), fit.take(order)
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.walls.importing.arc_fitting.curves import ComplexArray, Curves, as_complex, cross, dot, unit
 from wallkit.walls.importing.arc_fitting.machine_code import chain_points
 from wallkit.walls.importing.segments import Segments
@@ -204,10 +204,13 @@ def runs_on(tangents: tuple[ComplexArray, ComplexArray], segments: Segments, at:
 
 
 def _running_sums(values: FloatArray, offsets: IntArray) -> FloatArray:
-    """Sums from the start of each group; each group's are the same whatever stands before it."""
+    """Sums from the start of each group; each group's are the same whatever stands before it.
+
+    Groups of the same size are summed together: of n values there are at most sqrt(2 n) sizes.
+    """
     sums = values.copy()
     counts = np.diff(offsets)
-    for row in np.flatnonzero(counts > 1).tolist():
-        group = slice(offsets[row], offsets[row + 1])
-        np.cumsum(values[group], out=sums[group])
+    for size in distinct(counts[counts > 1]).tolist():
+        rows = offsets[:-1][counts == size][:, None] + np.arange(size)
+        sums[rows] = np.cumsum(values[rows], axis=1)
     return sums
