@@ -136,7 +136,8 @@ def test_a_file_without_a_catalogue_is_broken_in_words(root):
         (b"%PDF-1.4\n1 0 obj<</Type/Catalog>>endobj\ntrailer<</Root 1 0 R>>", "broken-pdf no-pages"),  # older qpdf
         (saved(pikepdf.new()), "no-pages"),
     ],
-)  # fmt: skip
+    ids=["a head alone", "open brackets", "no pages", "no page"],  # older qpdf makes up an /ID each time
+)
 def test_what_cannot_be_opened_is_refused_with_advice(data, code):
     with pytest.raises(DrawingError) as caught:
         read_pdf(data, "plan.ai")
