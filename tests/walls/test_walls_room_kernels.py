@@ -91,7 +91,8 @@ def test_ways_are_a_widest_tree_and_the_narrowest_on_the_way_out_is_scipys(seed)
         rows = rows[np.argsort(ways.width[rows], kind="stable")]
         pair = dict(zip(zip(*np.sort([one[rows], two[rows]], axis=0).tolist(), strict=True), rows, strict=True))
         row = np.array([*pair.values()], dtype=np.int64)
-        return scipy.sparse.coo_array((-ways.width[row], (one[row], two[row])), (nodes, nodes)).tocsr()
+        at = one[row].astype(np.int32), two[row].astype(np.int32)  # older scipys take no others
+        return scipy.sparse.coo_array((-ways.width[row], at), (nodes, nodes)).tocsr()
 
     every = np.arange(len(ways.width))
     tree = csgraph.minimum_spanning_tree(graph(every))
