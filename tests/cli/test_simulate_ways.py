@@ -77,7 +77,7 @@ def test_files_of_exact_runs_do_not_pretend_to_hold_a_way(said, scene, tmp_path,
     [
         (["--way", "stop", "--dt", "0"], "dt is"),
         (["--way", "stop", "--dt", "1e-9"], "frames"),
-        (["--way", "stop", "--dt", "nan"], "dt"),  # typer refuses it, or with older ones the library
+        (["--way", "stop", "--dt", "nan"], "--dt"),
         (["--way", "jump"], "'overlap'"),
         (["--way", "stop", "--heat", "-o", "a.svg"], "--heat"),
         (["--way", "stop", "--strobe", "0.5", "-o", "a.svg"], "--strobe"),

@@ -130,7 +130,7 @@ READ = {
     "ten million blanks": ("b'0 0 m' + b' ' * 10_000_000 + b'n'", "read 1 []"),
     "dictionaries in dictionaries": (
         "b'%PDF-1.4\\n1 0 obj\\n' + b'<</A ' * 300_000 + b'>>' * 300_000 + b'\\nendobj\\ntrailer<</Root 1 0 R>>'",
-        "DrawingError the PDF",  # is broken, or, for older qpdfs, has no pages
+        "DrawingError the PDF is broken",
     ),
     "arrays in arrays": ("b'%PDF-1.4\\n1 0 obj\\n' + b'[' * 1_000_000", "DrawingError the PDF is broken"),
 }

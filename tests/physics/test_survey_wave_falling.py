@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from test_survey_wave_acting import level, thrown
 
 from wallkit import Balls, Ending, Material, Scene, Walls, simulate
-from wallkit.kernels.batches.falling_columns import PER_TURN
+from wallkit.kernels.batches.wave_columns import PER_TURN
 from wallkit.kernels.records import OCTANTS
 from wallkit.simulation.prepared import prepare
 from wallkit.simulation.survey_backends import WORTH_A_WAVE, suits_wave

@@ -19,6 +19,11 @@ AT_ONCE = 1 << 14
 """Entries that are worked on at once: what they need stays in the cache, and is no fresh memory, which takes longer."""
 
 
+def slices(count: int, about: int) -> Iterator[slice]:
+    """Cut so many rows into slices of ``about`` that are worked on one after the other; one at least."""
+    return (slice(begin, begin + about) for begin in range(0, max(count, 1), about))
+
+
 def portions(offsets: IntArray, about: int = AT_ONCE) -> Iterator[tuple[int, int]]:
     """Give ranges of rows (first, stop) that have about so many entries together, all rows in order.
 

@@ -44,6 +44,7 @@ class Modelled:
         radii: (n,) of the balls.
         tallies: how many counts of bounces there are: one a wall; :meth:`by_edge` has one an edge and one a vertex.
         box: (x_min, y_min, x_max, y_max) that no wall reaches beyond, in the scene's coordinates.
+        size: the largest coordinate of it, or radius of a ball.
     """
 
     def __init__(
@@ -65,10 +66,10 @@ class Modelled:
             fine: whether there will be many flights, see ``build_grid``.
             origin: (2,) of the local coordinates, where they are those of other walls; None for their own.
         """
-        self.box = _box(scene.walls)
+        self.box = box_around(scene.walls)
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
         self.tallies = len(scene.walls)
-        self._size = check_sizes(scene)
+        self.size = check_sizes(scene, self.box)
         self.origin = local_origin(scene.walls.vertices) if origin is None else origin
         self.model = self._made(scene, index, machine_code, fine)
         self._lists: Model | None = None
@@ -135,7 +136,7 @@ class Modelled:
     def with_balls(self, balls: Balls) -> Modelled | None:
         """Give the same model with other balls; None if it must be made anew, for other radii or from farther away."""
         radii, off = np.asarray(balls.radius), np.abs(np.asarray(balls.position) - self.origin)
-        check_balls(balls, self._size, self.model.gravity is not None)
+        check_balls(balls, self.size, self.model.gravity is not None)
         if not (len(radii) and len(self.radii) and off.max() <= self.model.extent):
             return None
         if (radii.min(), radii.max()) != (self.radii.min(), self.radii.max()):
@@ -189,16 +190,20 @@ def _machine_code_pays(entries: int, arcs: bool) -> bool:
     return entries > WAITING_PAYS or (entries > LOADING_PAYS and index_at_hand(arcs))
 
 
-def check_sizes(scene: Scene) -> float:
+def check_sizes(scene: Scene, box: tuple[float, float, float, float]) -> float:
     """Refuse what is so large or so small that squares of products of two of it are no numbers any more.
 
+    Args:
+        scene: walls, balls, and what acts.
+        box: of its walls, see :func:`box_around`.
+
     Returns:
-        The size of the walls.
+        The largest coordinate of the box, or radius of a ball.
 
     Raises:
         SceneError: lengths, speeds, gravity or what slows balls are beyond LENGTHS, SPEEDS and FALLING.
     """
-    size = max(*map(abs, _box(scene.walls)), float(scene.balls.radius.max(initial=0.0)))
+    size = max(*map(abs, box), float(scene.balls.radius.max(initial=0.0)))
     _check_range("the largest coordinate or radius", size, LENGTHS, "draw it in another unit of length")
     for what in ("rolling_friction", "drag"):
         slows = getattr(scene, what)
@@ -241,7 +246,7 @@ def _check_range(what: str, size: float, limits: tuple[float, float], fix: str) 
         raise SceneError(known, code="beyond-numbers", fix=fix)
 
 
-def _box(walls: Walls) -> tuple[float, float, float, float]:
+def box_around(walls: Walls) -> tuple[float, float, float, float]:
     """Box around the vertices, widened by what the arcs bow at most: half a chord times the bulge, or the circle."""
     x0, y0, x1, y1 = walls.box()
     if not walls.has_arcs:

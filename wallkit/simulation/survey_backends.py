@@ -94,15 +94,14 @@ def _fly_falling(ready: PreparedScene, until: float, limit: int, outcome: Outcom
     order = np.arange(len(ready.modelled.radii)) if ready.order is None else ready.order
 
     def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
-        lanes = falling.LANES
         scratch = falling.FallScratch(
-            on_cache_lines(lanes, falling.FALLER),
+            on_cache_lines(WAVE, falling.FALLER),
             on_cache_lines(falling.FLOATS, np.float64),
             on_cache_lines(falling.COUNTS, np.uint32),
             on_cache_lines(falling.LISTED, np.uint32),
-            np.empty(lanes, dtype=np.int64),
-            np.empty((lanes, STATE_SIZE)),
-            np.empty((lanes, len(START)), dtype=np.int64),
+            np.empty(WAVE, dtype=np.int64),
+            np.empty((WAVE, STATE_SIZE)),
+            np.empty((WAVE, len(START)), dtype=np.int64),
             np.empty(0),
         )
         return lambda stop: compiled(fly_falling_wave)(

@@ -16,7 +16,7 @@ from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.records import LOG, NO_HIT
 from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.simulation.gliding import guides
-from wallkit.simulation.modelled import check_balls, check_sizes
+from wallkit.simulation.modelled import box_around, check_balls, check_sizes
 from wallkit.simulation.motion import Motion
 from wallkit.simulation.run import CONTACT, ContactKind
 from wallkit.simulation.sensors import sensors_of, together
@@ -77,13 +77,14 @@ class World:
         self.scene = scene
         self.way: Way = way
         self.time = 0.0
-        self._size = check_sizes(scene)
         self._lost = 0.0  # what the sum of the frames loses to rounding
         self._stepper: Together | Overlapping | None = None  # what moves the balls where no contact is foreseen here
         if scene.meeting or way == "overlap":
+            self._size = check_sizes(scene, box_around(scene.walls))
             self._stepper = _stepper_of(scene, way, compile)
             return
         self._flights = Flights(scene, mode="compiled" if compile else "interpreted")
+        self._size = self._flights.modelled.size
         self._motion = Motion.of(scene, self._flights.start.copy())  # after each ball's last contact or change, ...
         self._since = np.zeros(len(self))  # ... when that was, and what was touched
         self._touched = np.full(len(self), NO_HIT, dtype=np.int64)

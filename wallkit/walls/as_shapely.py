@@ -11,9 +11,12 @@ import numpy as np
 from importers.limits import MAX_VERTICES, limit_error
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.bulge_arcs import edge_points
-from wallkit.geometry.ragged import AT_ONCE, numbered
+from wallkit.geometry.ragged import AT_ONCE, numbered, slices
 from wallkit.geometry.rings import rings_of
 from wallkit.walls.walls import Walls
+
+CHORDS, CHORDS_OF_AN_ARC = 100_000, 64
+"""So many lines are put in the place of arcs for a check, however small the tolerance is; or so many for each arc."""
 
 
 def to_shapely(walls: Walls, tolerance: float | None = None) -> Any:
@@ -83,8 +86,7 @@ def straightened(walls: Walls, tolerance: float | None = None) -> tuple[FloatArr
 def _edges_of(walls: Walls) -> Iterator[tuple[slice, FloatArray, FloatArray, FloatArray]]:
     """Some edges after others: which, where they start and end, and their bulges."""
     following = _following(walls)
-    for begin in range(0, len(following), AT_ONCE):
-        some = slice(begin, begin + AT_ONCE)
+    for some in slices(len(following), AT_ONCE):
         yield some, walls.vertices[some], walls.vertices.take(following[some], axis=0), walls.bulges[some]
 
 
@@ -92,10 +94,6 @@ def largest_distance(walls: Walls) -> float:
     """Choose how far lines may be from the arcs in whose place they are put, where nobody says it."""
     low_x, low_y, high_x, high_y = walls.box()
     return walls.tolerance or 1e-4 * math.hypot(high_x - low_x, high_y - low_y) or 1.0
-
-
-CHORDS, CHORDS_OF_AN_ARC = 100_000, 64
-"""So many lines are put in the place of arcs for a check, however small the tolerance is; or so many for each arc."""
 
 
 def check_tolerance(walls: Walls, tolerance: float) -> float:

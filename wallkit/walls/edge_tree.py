@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
-from wallkit.geometry.ragged import AT_ONCE, numbered, portions
+from wallkit.geometry.ragged import AT_ONCE, numbered, portions, slices
 from wallkit.geometry.rings import signed_areas
 from wallkit.walls.near_boxes import NearBoxes
 
@@ -146,8 +146,7 @@ class EdgeTree:
         self.rows = rows
         self.low, self.high = np.empty((2, len(rows))), np.empty((2, len(rows)))
         way = np.empty(len(rows), dtype=np.int8)
-        for begin in range(0, len(rows), AT_ONCE):
-            some = slice(begin, begin + AT_ONCE)
+        for some in slices(len(rows), AT_ONCE):
             a, b = edges.starts_of(rows[some]).T, edges.stops_of(rows[some]).T
             np.minimum(a, b, out=self.low[:, some])
             np.maximum(a, b, out=self.high[:, some])

@@ -184,9 +184,8 @@ def _settle(
         return
     area = edges.areas
     wall = edges.wall[edge]
-    leftward = (
-        edges.vertices[edges.stop[edge], 0] < edges.vertices[edges.start[edge], 0]
-    )  # its left, where the solid is, is below
+    # the left of an edge that goes leftward, where the solid is, is below
+    leftward = edges.stops_of(edge)[:, 0] < edges.starts_of(edge)[:, 0]
     around = leftward == (area[wall] > 0)
     order = np.argsort(-size[wall], kind="stable")
     inside = order[around[order]]

@@ -1,6 +1,7 @@
 """What a falling wave knows of its balls, and of what they ask: flat arrays, LANES or PAIRS for each number.
 
 So the compiler sees that nothing aliases, and vector instructions do the work. Each name is where its numbers begin.
+LANES, PAIRS and PER_TURN are those of ``wave_columns``.
 """
 
 from __future__ import annotations
@@ -9,15 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from wallkit.kernels.batches.wave_columns import LANES, PAIRS, PER_TURN
 from wallkit.kernels.intrinsics import AT_ONCE
-from wallkit.kernels.records import NO_HIT
-
-LANES = 32
-"""Balls of a wave: so few that it stays in the L1 cache, and a bit for each in 32."""
-PER_TURN = AT_ONCE
-"""So many lines of its cell a ball asks in a pass at most; most cells list fewer."""
-PAIRS = 56
-"""Pairs of a ball and a line that are worked on together: mostly all of a turn, and a bit for each in 64."""
 
 
 class Faller(NamedTuple):
@@ -38,7 +32,6 @@ class Faller(NamedTuple):
 
 
 FALLER = np.dtype([(name, np.float64) for name in Faller._fields])
-NONE = float(NO_HIT)
 (
     X, Y, VX, VY, BEST, FEATURE, TOUCHED, FLIES, NOW, THEN, TURN, STILL_X, STILL_Y, LEVEL, STEEP,
     AT_X, AT_Y, AT_VX, AT_VY, BACK_X, BACK_Y, COLUMN, ROW, LEFT, RIGHT, LOW, HIGH, SIDEWAYS,

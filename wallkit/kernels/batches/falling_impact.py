@@ -30,8 +30,6 @@ from wallkit.kernels.batches.falling_columns import (
     NOW,
     NX,
     NY,
-    PAIRS,
-    PER_TURN,
     SKIPPED,
     THEN,
     TOLERANCE,
@@ -39,15 +37,17 @@ from wallkit.kernels.batches.falling_columns import (
     WHO,
     T,
 )
+from wallkit.kernels.batches.wave_columns import NONE, PAIRS, PER_TURN
+from wallkit.kernels.batches.wave_pairs import one_way, part
 from wallkit.kernels.flight.guide import guide
 from wallkit.kernels.impact.arc_fall import fall_arcs
 from wallkit.kernels.impact.gravity_impact import fall_corners, fall_line
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.impact.line_impact import slack_of
-from wallkit.kernels.impact.polynomial_roots import NEVER, first_fall_quadratic
+from wallkit.kernels.impact.polynomial_roots import NEVER, fall_after_rise, first_fall_quadratic
 from wallkit.kernels.intrinsics import AT_ONCE, fetch, lowest, pair_up
 from wallkit.kernels.jit import kernel, rare_kernel
-from wallkit.kernels.records import COUNT, LEFT, NO_HIT
+from wallkit.kernels.records import COUNT, LEFT
 
 
 @kernel
@@ -65,14 +65,13 @@ def meet_falling(model, gravity, radius, scratch, listed):
             _ask_lines(model, gravity, radius, f, s, model.ids, int(q[NEXT + i]) + PER_TURN, int(q[ARCS + i]), i)
     pair_up(model.ids, len(model.ids) - AT_ONCE, 0, pairs, IDS + lines, FALLERS + lines)
     for first in range(0, lines, PAIRS):
-        count = lines - first if lines - first < PAIRS else PAIRS
-        for i in range(0, count, AT_ONCE):
+        padded, real = part(lines - first)
+        for i in range(0, padded, AT_ONCE):
             fetch(f, pairs, FALLERS + first + i, s, WHO + i, PAIRS)
             fetch(model.lines, pairs, IDS + first + i, s, ID + i, PAIRS)
-        met, beside, touched, asked = _meet_lines(gravity, radius, s, (count + AT_ONCE - 1) // AT_ONCE * AT_ONCE)
-        real = (1 << count) - 1
+        met, beside, touched, asked = _meet_lines(gravity, radius, s, padded)
         _touch(s, pairs, FALLERS + first, touched & real)
-        alone = _one_way(model, model.one_sided, pairs, IDS + first, asked & real)
+        alone = one_way(model, model.one_sided, pairs, IDS + first, asked & real)
         _keep(s, pairs, FALLERS + first, met, (met | beside) & real & ~alone)
         while alone > 0:
             j = lowest(alone)
@@ -118,21 +117,12 @@ def _meet_lines(gravity, radius, s, padded):
         s[T + i] = t
         meeting |= int(asked & (foot >= -slack) & (foot <= length + slack)) << i
         # The gap to the far side rises as the ball comes through, and falls later.
-        t = _from_behind(-0.5 * side * gn, -side * vn, -side * d - r)
+        t = fall_after_rise(-0.5 * side * gn, -side * vn, -side * d - r)
         foot = u + t * (vu + 0.5 * t * gu)
         s[LATER_T + i] = t
         beside |= int(asked & (foot >= -slack) & (foot <= length + slack)) << i
         asking |= int(asked) << i
     return meeting, beside, touching, asking
-
-
-@kernel
-def _from_behind(a, b, c):
-    """First fall of a t^2 + b t + c through 0 after it has risen above; as in ``gravity_impact``, by selects."""
-    discriminant = b * b - 4.0 * a * c
-    rises = (a < 0.0) & (b > 0.0) & (discriminant > 0.0)
-    t = -0.5 * (b + math.sqrt(discriminant if rises else 0.0)) / (a if rises else 1.0)
-    return t if rises else NEVER
 
 
 @kernel
@@ -146,7 +136,7 @@ def _keep(s, pairs, first, met, left):
         # Where the near side is not met in time, nor beside the edge, the ball has not come through to the far one.
         t = near if (met >> j) & 1 != 0 else (s[LATER_T + j] if near <= best else NEVER)
         # Edges go by number, and before corners.
-        first_of_equals = (feature != float(NO_HIT)) & ((feature < 0.0) | (number < feature))
+        first_of_equals = (feature != NONE) & ((feature < 0.0) | (number < feature))
         sooner = (t < best) | ((t == best) & first_of_equals)
         s[BEST + i] = t if sooner else best
         s[FEATURE + i] = number if sooner else feature
@@ -159,20 +149,6 @@ def _touch(s, pairs, first, touching):
         i = pairs[first + lowest(touching)]
         touching &= touching - 1
         s[TOUCHED + i] += 1.0 if s[NOW + i] == 0.0 else 0.0
-
-
-@kernel
-def _one_way(model, one_sided, pairs, first, asked):
-    """Of the bits of lines, those that belong to one-sided walls."""
-    if one_sided is None:
-        return 0
-    found, left = 0, asked
-    while left > 0:
-        j = lowest(left)
-        left &= left - 1
-        if one_sided[model.edge_wall[pairs[first + j]]] != 0:
-            found |= 1 << j
-    return found
 
 
 @rare_kernel

@@ -25,7 +25,6 @@ from wallkit.kernels.batches.falling_columns import (
     END,
     FLIES,
     HIGH,
-    LANES,
     LEFT,
     LEVEL,
     LOW,
@@ -45,6 +44,7 @@ from wallkit.kernels.batches.falling_columns import (
     X,
     Y,
 )
+from wallkit.kernels.batches.wave_columns import LANES
 from wallkit.kernels.impact.polynomial_roots import NEVER
 from wallkit.kernels.index.grid import clearing_at, clearings_of, is_divided, leaf, moves_to_next, top_at
 from wallkit.kernels.intrinsics import AT_ONCE, look_up, lowest

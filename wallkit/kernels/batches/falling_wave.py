@@ -14,13 +14,13 @@ from wallkit.kernels.batches.falling_columns import (
     FEATURE,
     FLIES,
     FLOATS,
-    LANES,
-    NONE,
     TOUCHED,
 )
 from wallkit.kernels.batches.falling_impact import meet_falling
 from wallkit.kernels.batches.falling_walk import find_ways_out, look_around, set_out, walk_on
-from wallkit.kernels.flight.ball_state import FALLING_OVER, has_left, read_state, tolerance_of, write_state
+from wallkit.kernels.batches.lockstep_lanes import note_end
+from wallkit.kernels.batches.wave_columns import LANES, NONE
+from wallkit.kernels.flight.ball_state import FALLING_OVER, read_state, tolerance_of, write_state
 from wallkit.kernels.flight.flight import (
     HOLDS,
     arrived,
@@ -42,12 +42,10 @@ from wallkit.kernels.records import (
     COUNT,
     FALLS_BACK,
     LEFT,
-    LEFT_SCENE,
     NO_HIT,
     RUNNING,
     STARTING,
     STATE,
-    TIME_REACHED,
 )
 
 BOARDS = -1.0
@@ -177,11 +175,6 @@ def _board(gravity, i, start, order, queue, stop, scratch):
 @kernel
 def _store(state, counts, ball, radius, start, outcome):
     """Write where a ball has ended."""
-    x, y, vx, vy = state[STATE.x] + start.origin[0], state[STATE.y] + start.origin[1], state[STATE.vx], state[STATE.vy]
-    outcome.position[ball, 0], outcome.position[ball, 1] = x, y
-    outcome.velocity[ball, 0], outcome.velocity[ball, 1] = vx, vy
-    outcome.time[ball] = state[STATE.time] + state[STATE.lost]
-    outcome.bounces[ball] = counts[COUNT.bounces]
-    ending = counts[COUNT.ending]
-    gone = ending == TIME_REACHED and has_left(start.box, 0.0 if radius is None else radius, x, y, vx, vy)
-    outcome.ending[ball] = LEFT_SCENE if gone else ending
+    place, velocity = (state[STATE.x], state[STATE.y]), (state[STATE.vx], state[STATE.vy])
+    time, bounces, ending = state[STATE.time] + state[STATE.lost], counts[COUNT.bounces], counts[COUNT.ending]
+    note_end(outcome, start, ball, radius, place, velocity, time, bounces, ending)

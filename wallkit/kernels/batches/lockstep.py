@@ -52,10 +52,11 @@ from wallkit.kernels.batches.lockstep_lanes import (
     X,
     Y,
     feature_of,
+    note_end,
     row_of,
 )  # fmt: skip
 from wallkit.kernels.batches.lockstep_straight import WIDER, ask_straight, bounce_straight, look_ahead
-from wallkit.kernels.flight.ball_state import FALLING_OVER, has_left, tolerance_of
+from wallkit.kernels.flight.ball_state import FALLING_OVER, tolerance_of
 from wallkit.kernels.flight.flight import flown_on, fly
 from wallkit.kernels.flight.gravity import kept_energy
 from wallkit.kernels.jit import kernel, pass_kernel, rare_kernel
@@ -64,7 +65,6 @@ from wallkit.kernels.records import (
     BOUNCE_LIMIT,
     COUNT,
     FREE,
-    LEFT_SCENE,
     NO_HIT,
     RUNNING,
     STARTING,
@@ -327,14 +327,8 @@ def _load(gravity, restitution, s, i, radius, start, ball):
 @kernel
 def _store(s, i, ball, radius, start, hits, outcome):
     """Write where a ball has ended."""
-    x, y, vx, vy = s[X + i] + start.origin[0], s[Y + i] + start.origin[1], s[VX + i], s[VY + i]
-    outcome.position[ball, 0], outcome.position[ball, 1] = x, y
-    outcome.velocity[ball, 0], outcome.velocity[ball, 1] = vx, vy
-    outcome.time[ball] = s[TIME + i] + s[LOST + i]
-    outcome.bounces[ball] = s[BOUNCES + i]
+    place, velocity, bounces = (s[X + i], s[Y + i]), (s[VX + i], s[VY + i]), int(s[BOUNCES + i])
+    note_end(outcome, start, ball, radius, place, velocity, s[TIME + i] + s[LOST + i], bounces, int(s[ENDING + i]))
     # One wall: all bounces are its own, counted once a ball.
     if len(hits) == 1:
-        hits[0] += outcome.bounces[ball]
-    ending = int(s[ENDING + i])
-    gone = ending == TIME_REACHED and has_left(start.box, 0.0 if radius is None else radius, x, y, vx, vy)
-    outcome.ending[ball] = LEFT_SCENE if gone else ending
+        hits[0] += bounces

@@ -62,7 +62,7 @@ from wallkit.kernels.flight.joints import AT_VERTEX
 from wallkit.kernels.impact.gravity_impact import fall_corners, hull_of, strays
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.impact.line_impact import slack_of
-from wallkit.kernels.impact.polynomial_roots import NEVER, first_fall_quadratic
+from wallkit.kernels.impact.polynomial_roots import NEVER, fall_after_rise, first_fall_quadratic
 from wallkit.kernels.intrinsics import lowest
 from wallkit.kernels.jit import kernel, pass_kernel
 from wallkit.kernels.records import BOUNCE_LIMIT, FREE, LEFT_SCENE, RUNNING, TIME_REACHED
@@ -119,7 +119,7 @@ def _pass_line(s, row, line, one_way, gravity, radius):
         t = first_fall_quadratic(0.5 * (side * gn), side * vn, side * d - r, math.inf)
         solid = above | (not one_way)
         if one_way:
-            t = _from_behind(0.5 * gn, vn, d - r) if side * d - r < -slack else t
+            t = fall_after_rise(0.5 * gn, vn, d - r) if side * d - r < -slack else t
         foot = u + t * (vu + 0.5 * t * gu)
         there = (foot >= -slack) & (foot <= length + slack)
         in_time = solid & (t <= best)
@@ -153,19 +153,10 @@ def _ask_far_side(s, i, row, line, gravity, radius):
     ex, ey = s[X + i] - line.ax, s[Y + i] - line.ay
     d, vn, gn = ex * nx + ey * ny, vx * nx + vy * ny, gx * nx + gy * ny
     u, vu, gu = ey * nx - ex * ny, vy * nx - vx * ny, gy * nx - gx * ny
-    t = _from_behind(-0.5 * side * gn, -side * vn, -side * d - r)
+    t = fall_after_rise(-0.5 * side * gn, -side * vn, -side * d - r)
     foot = u + t * (vu + 0.5 * t * gu)
     if t < s[BEST + i] and -slack <= foot <= line.length + slack:
         s[BEST + i], s[ROW + i] = t, row
-
-
-@kernel
-def _from_behind(a, b, c):
-    """First fall of a t^2 + b t + c through 0 after it has risen above; as in ``gravity_impact``, by selects."""
-    discriminant = b * b - 4.0 * a * c
-    rises = (a < 0.0) & (b > 0.0) & (discriminant > 0.0)
-    t = -0.5 * (b + math.sqrt(discriminant if rises else 0.0)) / (a if rises else 1.0)
-    return t if rises else NEVER
 
 
 @pass_kernel

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from wallkit.kernels.flight.ball_state import has_left
 from wallkit.kernels.jit import kernel
-from wallkit.kernels.records import NO_HIT
+from wallkit.kernels.records import LEFT_SCENE, NO_HIT, TIME_REACHED
 
 LANES = 64
 """Balls in step: so few that their numbers stay in the L1 cache, and a bit for each in 64."""
@@ -61,6 +62,17 @@ class Outcome(NamedTuple):
     time: Any
     bounces: Any
     ending: Any
+
+
+@kernel
+def note_end(outcome, start, ball, radius, place, velocity, time, bounces, ending):
+    """Write where a ball has ended, in the local coordinates of ``start``, and how: see ``Outcome``."""
+    x, y, vx, vy = place[0] + start.origin[0], place[1] + start.origin[1], velocity[0], velocity[1]
+    outcome.position[ball, 0], outcome.position[ball, 1] = x, y
+    outcome.velocity[ball, 0], outcome.velocity[ball, 1] = vx, vy
+    outcome.time[ball], outcome.bounces[ball] = time, bounces
+    gone = ending == TIME_REACHED and has_left(start.box, 0.0 if radius is None else radius, x, y, vx, vy)
+    outcome.ending[ball] = LEFT_SCENE if gone else ending
 
 
 class Scratch(NamedTuple):

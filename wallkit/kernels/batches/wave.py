@@ -18,6 +18,7 @@ import math
 from typing import Any, NamedTuple
 
 from wallkit.kernels.batches.ball_queue import NO_BALL, next_ball
+from wallkit.kernels.batches.lockstep_lanes import note_end
 from wallkit.kernels.batches.wave_columns import (
     AT,
     BALL,
@@ -55,7 +56,7 @@ from wallkit.kernels.batches.wave_columns import (
 )
 from wallkit.kernels.batches.wave_impact import meet
 from wallkit.kernels.batches.wave_walk import cross, decide, prefetch_cells, prefetch_listed
-from wallkit.kernels.flight.ball_state import has_left, tolerance_of
+from wallkit.kernels.flight.ball_state import tolerance_of
 from wallkit.kernels.flight.damping import free_time, slowed
 from wallkit.kernels.flight.flight import (
     absorbs,
@@ -88,7 +89,6 @@ from wallkit.kernels.records import (
     BOUNCE_LIMIT,
     COLLAPSE,
     COLLAPSES,
-    LEFT_SCENE,
     NO_HIT,
     RUNNING,
     TIME_REACHED,
@@ -373,10 +373,4 @@ def _store(model, damping, radius, ball, s, n, i, start, until, ending, outcome)
         time = clock[0] + clock[1]
     elif ending == TIME_REACHED and s[BEST + i] > 0.0:  # BEST is the time that is left; a free flight uses it up
         x, y, time = x + s[BEST + i] * vx, y + s[BEST + i] * vy, until
-    x, y = x + start.origin[0], y + start.origin[1]
-    outcome.position[number, 0], outcome.position[number, 1] = x, y
-    outcome.velocity[number, 0], outcome.velocity[number, 1] = vx, vy
-    outcome.time[number] = time
-    outcome.bounces[number] = n[BOUNCES + i]
-    gone = ending == TIME_REACHED and has_left(start.box, 0.0 if radius is None else radius, x, y, vx, vy)
-    outcome.ending[number] = LEFT_SCENE if gone else ending
+    note_end(outcome, start, number, radius, (x, y), (vx, vy), time, n[BOUNCES + i], ending)

@@ -50,7 +50,7 @@ from wallkit.kernels.batches.wave_columns import (
     X,
     Y,
 )
-from wallkit.kernels.batches.wave_pairs import pair_all
+from wallkit.kernels.batches.wave_pairs import one_way, pair_all, part
 from wallkit.kernels.impact.arc_impact import (
     WELL_KNOWN,
     aside_of,
@@ -77,7 +77,7 @@ def meet(model, radius, movers, s, q, pairs):
     lines, arcs, corners = pair_all(model, radius, q, pairs)
     for first in range(0, lines, PAIRS):
         # Whole vectors: the last one is made up with other pairs, whose bits are not among the `real` ones.
-        padded, real = _part(lines - first)
+        padded, real = part(lines - first)
         for i in range(0, padded, AT_ONCE):
             fetch(movers, pairs, LINE_MOVERS + first + i, s, WHO + i, PAIRS)
             fetch(model.lines, pairs, LINE_IDS + first + i, s, ID + i, PAIRS)
@@ -87,12 +87,12 @@ def meet(model, radius, movers, s, q, pairs):
         else:
             met, behind = _meet_lines_disc(s, radius, padded)
         met &= real
-        through = _one_way(model, model.one_sided, pairs, LINE_IDS + first, met & behind)
+        through = one_way(model, model.one_sided, pairs, LINE_IDS + first, met & behind)
         _keep(s, pairs, LINE_MOVERS + first, met & ~through)
     _meet_arcs(model, model.arcs, radius, movers, s, pairs, arcs)
     if radius is not None:
         for first in range(0, corners, PAIRS):
-            padded, real = _part(corners - first)
+            padded, real = part(corners - first)
             for i in range(0, padded, AT_ONCE):
                 fetch(movers, pairs, CORNER_MOVERS + first + i, s, WHO + i, PAIRS)
                 for j in range(i, i + AT_ONCE, CORNER_FLOATS):
@@ -100,13 +100,6 @@ def meet(model, radius, movers, s, q, pairs):
             met = _meet_corners(s, radius, padded) & real
             met = _solid_corners(model, model.one_sided, radius, s, pairs, CORNER_IDS + first, met)
             _keep(s, pairs, CORNER_MOVERS + first, met)
-
-
-@kernel
-def _part(left):
-    """How many pairs to work on next, with those that make them up to whole vectors; the bits of those there are."""
-    count = min(left, PAIRS)
-    return (count + AT_ONCE - 1) // AT_ONCE * AT_ONCE, (1 << count) - 1
 
 
 @kernel
@@ -129,20 +122,6 @@ def _solid_corners(model, one_sided, radius, s, pairs, first, met):
         if across:
             met -= 1 << j
     return met
-
-
-@kernel
-def _one_way(model, one_sided, pairs, first, asked):
-    """Of the bits of lines or arcs, those that belong to one-sided walls."""
-    if one_sided is None:
-        return 0
-    found, left = 0, asked
-    while left > 0:
-        j = lowest(left)
-        left &= left - 1
-        if one_sided[model.edge_wall[pairs[first + j]]] != 0:
-            found |= 1 << j
-    return found
 
 
 @kernel
@@ -175,13 +154,13 @@ def _meet_arcs(model, arcs, radius, movers, s, pairs, listed):
     if arcs is None:
         return
     for first in range(0, listed, PAIRS):
-        padded, real = _part(listed - first)
+        padded, real = part(listed - first)
         for i in range(0, padded, AT_ONCE):
             fetch(movers, pairs, ARC_MOVERS + first + i, s, WHO + i, PAIRS)
             fetch(arcs, pairs, ARC_IDS + first + i, s, ID + i, PAIRS)
         met, again = _meet_arcs_point(s, padded) if radius is None else _meet_arcs_disc(s, radius, padded)
         # Which of its sides stops a ball, and whether it has to leave it first, the scalar kernel knows.
-        alone = _one_way(model, model.one_sided, pairs, ARC_IDS + first, met & real)
+        alone = one_way(model, model.one_sided, pairs, ARC_IDS + first, met & real)
         _keep(s, pairs, ARC_MOVERS + first, met & real & ~alone)
         again = (again & real) | alone
         while again > 0:

@@ -20,6 +20,7 @@ from wallkit.kernels.batches.wave_columns import (
     NEXT,
     NEXT_ARC,
     NEXT_CORNER,
+    PAIRS,
     PER_TURN,
 )
 from wallkit.kernels.intrinsics import AT_ONCE, lowest, pair_up
@@ -83,3 +84,24 @@ def _take(ids, records, seldom, q, at, end, i, pairs, to):
 def _fill_up(ids, pairs, to_ids, to_movers, count):
     """Write as many pairs as a vector takes behind the last one: the first ball and the first of its kind."""
     pair_up(ids, len(ids) - AT_ONCE, 0, pairs, to_ids + count, to_movers + count)
+
+
+@kernel
+def part(left):
+    """How many pairs to work on next, with those that make them up to whole vectors; the bits of those there are."""
+    count = min(left, PAIRS)
+    return (count + AT_ONCE - 1) // AT_ONCE * AT_ONCE, (1 << count) - 1
+
+
+@kernel
+def one_way(model, one_sided, pairs, first, asked):
+    """Of the bits of lines or arcs, those that belong to one-sided walls."""
+    if one_sided is None:
+        return 0
+    found, left = 0, asked
+    while left > 0:
+        j = lowest(left)
+        left &= left - 1
+        if one_sided[model.edge_wall[pairs[first + j]]] != 0:
+            found |= 1 << j
+    return found

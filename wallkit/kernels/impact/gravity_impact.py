@@ -17,7 +17,7 @@ from wallkit.kernels.impact.drag_motion import along, eased, pulled
 from wallkit.kernels.impact.drag_roots import Gap, first_fall, first_fall_after
 from wallkit.kernels.impact.leaving import LEVEL_SPEED, left_along
 from wallkit.kernels.impact.line_impact import from_across, precedes, slack_of, stands_across
-from wallkit.kernels.impact.polynomial_roots import NEVER, first_fall_quadratic, first_fall_quartic
+from wallkit.kernels.impact.polynomial_roots import NEVER, fall_after_rise, first_fall_quadratic, first_fall_quartic
 from wallkit.kernels.jit import kernel, rare_kernel
 
 HULL_ROUNDING = 2.0**-45
@@ -172,11 +172,7 @@ def fall_from_behind(drag, far, a, b, c):
     """First fall of a t^2 + b t + c through 0, below which it is now, after it has risen above."""
     if drag is not None:
         return first_fall(Gap(0.0, 0.5, 0.0, 0.0, 0.0, 0.0, c, 0.0, b, 0.0, 2.0 * a, 0.0, drag), far, NEVER, True)
-    discriminant = b * b - 4.0 * a * c
-    if a >= 0.0 or b <= 0.0 or discriminant <= 0.0:
-        return NEVER
-    # a < 0 < b: the larger root, (-b - root) / 2 a, whose terms are of one sign.
-    return -0.5 * (b + math.sqrt(discriminant)) / a
+    return fall_after_rise(a, b, c)
 
 
 @rare_kernel

@@ -41,6 +41,16 @@ def first_fall_quadratic(a: float, b: float, c: float, t_max: float) -> float:
     return t if t <= t_max else NEVER
 
 
+@kernel
+def fall_after_rise(a: float, b: float, c: float) -> float:
+    """Give the first t above 0 where a t^2 + b t + c falls through 0 after it has risen above; NEVER if it does not."""
+    discriminant = b * b - 4.0 * a * c
+    rises = (a < 0.0) & (b > 0.0) & (discriminant > 0.0)
+    # a < 0 < b: the larger root, (-b - root) / 2 a, whose terms are of one sign.
+    t = -0.5 * (b + math.sqrt(discriminant if rises else 0.0)) / (a if rises else 1.0)
+    return t if rises else NEVER
+
+
 @rare_kernel
 def first_fall_quartic(c4: float, c3: float, c2: float, c1: float, c0: float, t_max: float, behind: bool) -> float:
     """Give the first t in [0, t_max] where f(t) = c4 t^4 + ... + c0 is <= 0 and falls; NEVER if there is none.

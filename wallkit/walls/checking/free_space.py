@@ -40,9 +40,7 @@ from wallkit.walls.walls import Walls, WallsError
 MOST_EDGES = 200_000
 MOST_SHARPENED = 500  # gaps between arcs that are measured on the arcs themselves, the narrowest
 _SEAM = 4e-7  # of the diagonal: what is narrower is closed, but for rounding
-_ALIKE = (
-    1e-6  # of the diagonal: rooms that differ by less are as roomy, and circles as far to the left, for their order
-)
+_ALIKE = 1e-6  # of the diagonal: what differs by less counts as the same in the order of rooms
 _NARROW = 0.5  # a gap is an opening at most this part as wide as the room behind it is
 
 

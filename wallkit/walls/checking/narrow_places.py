@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ragged import slices
 from wallkit.geometry.triangulation import Triangulation, cut_further
 
 _NEARLY = 1e-9  # of the square of the distance: rounding
@@ -35,8 +36,7 @@ def narrow_feet(mesh: Triangulation) -> tuple[IntArray, FloatArray]:
     row = np.flatnonzero(mesh.corners.ravel() < mesh.given)
     reach = _reach(mesh)
     x, y = mesh.points.T.copy()  # columns: sums and gathers of pairs take NumPy several times as long
-    begins = range(0, max(len(row), 1), _AT_ONCE)
-    parts = [_feet_of(mesh, x, y, row[begin : begin + _AT_ONCE], reach) for begin in begins]
+    parts = [_feet_of(mesh, x, y, row[some], reach) for some in slices(len(row), _AT_ONCE)]
     return np.concatenate([edge for edge, _ in parts]), np.concatenate([foot for _, foot in parts])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.exact_edges import ComplexArray, ExactEdges
 from wallkit.geometry.orientation import side
+from wallkit.geometry.ragged import slices
 from wallkit.walls.checking.exact_widths import exact_edges
 from wallkit.walls.checking.meetings import meetings, on_edge
 from wallkit.walls.near_boxes import NearBoxes
@@ -22,9 +24,9 @@ ROUNDING = 1e-14  # of the largest coordinate: an end so near a wall was put ont
 OWN = 4.0  # a wall comes back to itself where the way along it is so many times the distance; else it only bends
 
 
-def portions(count: int) -> list[slice]:
+def portions(count: int) -> Iterator[slice]:
     """Cut so many pairs into portions that are looked at together; one at least."""
-    return [slice(begin, begin + _AT_ONCE) for begin in range(0, max(count, 1), _AT_ONCE)]
+    return slices(count, _AT_ONCE)
 
 
 @dataclass(slots=True, eq=False, repr=False)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ragged import slices
 from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.checking.wall_distance import wall_distance
 
@@ -25,7 +26,7 @@ def triangle_circles(mesh: Triangulation, least: float, where: NDArray[np.bool_]
     size, place = np.zeros(len(mesh.corners)), mesh.points[mesh.corners].mean(axis=1)
     if not where.any():
         return size, place
-    parts = [_candidates(mesh, begin) for begin in range(0, len(size), _AT_ONCE)]
+    parts = [_candidates(mesh, mesh.corners[some]) for some in slices(len(size), _AT_ONCE)]
     centres, most = (np.concatenate([part[k] for part in parts], axis=1) for k in (0, 1))
     bound: FloatArray = np.where(where & (mesh.corners < len(mesh.points) - 4).all(axis=1), most.max(axis=0), 0.0)
     known = bound.copy()
@@ -51,12 +52,12 @@ def _beside_larger(mesh: Triangulation, bound: FloatArray, known: FloatArray) ->
     return larger
 
 
-def _candidates(mesh: Triangulation, begin: int) -> tuple[FloatArray, FloatArray]:
+def _candidates(mesh: Triangulation, corners: IntArray) -> tuple[FloatArray, FloatArray]:
     """Two centres (2, n, 2) for some triangles, and how far they are (2, n) from the nearest corner, so from a wall.
 
     One is the centre of the circle around the triangle, if inside, the other that of the circle in it.
     """
-    p, q, r = (mesh.points[mesh.corners[begin : begin + _AT_ONCE, k]] for k in range(3))
+    p, q, r = (mesh.points[corner] for corner in corners.T)
     centres = _centres(p, q, r)
     far = (np.hypot(*(centres - corner).transpose(2, 0, 1)) for corner in (p, q, r))
     nearest: FloatArray = np.minimum(np.minimum(next(far), next(far)), next(far))

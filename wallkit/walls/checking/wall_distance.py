@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ragged import slices
 from wallkit.geometry.triangulation import Triangulation
 from wallkit.walls.checking.rooms_by_kernels import kernels_pay, wall_distances
 
@@ -21,8 +22,7 @@ def wall_distance(mesh: Triangulation, triangle: IntArray, place: FloatArray) ->
     if kernels_pay(mesh):
         return wall_distances(mesh, triangle, place)
     result = np.empty(len(place))
-    for begin in range(0, len(place), _AT_ONCE):
-        some = slice(begin, begin + _AT_ONCE)
+    for some in slices(len(place), _AT_ONCE):
         result[some] = _of_some(mesh, triangle[some], place[some])
     return result
 
