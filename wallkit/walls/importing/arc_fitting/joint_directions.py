@@ -16,11 +16,11 @@ look at the curve.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ragged import portions
 from wallkit.walls.importing.arc_fitting.biarcs import SAME, STRAIGHT, Biarcs, Spans, biarcs, deviations
 from wallkit.walls.importing.arc_fitting.curves import length
 from wallkit.walls.importing.arc_fitting.machine_code import lean_in_place
@@ -60,9 +60,8 @@ def _all_angles(chains: Chains, spans: Spans, arcs: Biarcs) -> FloatArray:
 
 def _portions(stretch: IntArray) -> Iterator[slice]:
     """Give portions of about _AT_ONCE spans, whole stretches each."""
-    begins = np.flatnonzero(np.diff(stretch, prepend=-1))
-    marks = begins[np.flatnonzero(np.diff(begins // _AT_ONCE, prepend=-1))].tolist()
-    return (slice(first, last) for first, last in pairwise([*marks, len(stretch)]))
+    offsets = np.append(np.flatnonzero(np.diff(stretch, prepend=-1)), len(stretch))
+    return (slice(offsets[first], offsets[stop]) for first, stop in portions(offsets, _AT_ONCE))
 
 
 def _angles(stretch: IntArray, off: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
