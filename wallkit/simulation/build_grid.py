@@ -67,8 +67,7 @@ class _Level:
     """(cells + 1, 4) see ``Cell``."""
     ids: NDArray[np.uint32]
     octants: NDArray[np.uint8]
-    """By cell, see ``Table``; for the first level alone, for discs alone, and not where cells list one thing on
-    average: then few of them are clear in any octant."""
+    """By cell, see ``Table``; for the first level alone, and for discs alone."""
     divided: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     parts: NDArray[Any] = field(default_factory=lambda: np.empty(0, dtype=BLOCK))
 
@@ -264,8 +263,7 @@ def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Lev
         block = Block(low[0], low[1], side, 1.0 / side, work.reach(side), columns, rows, 0, *span, most)
         blocks = np.array([block], dtype=BLOCK)
         edges, turns = _expected(work.distance, corners, end - corners, length, side)
-        octants = work.distance > 0.0 and edges + end - corners < columns * rows
-        table, entered = work.enter(blocks, model.ids, min(most, 2 * (edges + turns)), octants)
+        table, entered = work.enter(blocks, model.ids, min(most, 2 * (edges + turns)), work.distance > 0.0)
         if entered[0] <= most:
             work.budget -= int(entered[0])
             return work.sort(blocks, model.ids, table, entered, top=True)
