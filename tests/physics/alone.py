@@ -11,7 +11,7 @@ from wallkit.simulation.prepared import PreparedScene, prepare
 
 def flown(scene, index="grid", **limits):
     """Totals with a fine index, as surveys make it, or with none, and what the kernels see of the scene."""
-    modelled = Modelled(scene, index=index, machine_code=True, fine=True)
+    modelled = Modelled(scene, index=index, machine_code=True, limits=None)
     return survey(PreparedScene(scene, modelled, None), **limits), modelled
 
 

@@ -79,7 +79,7 @@ def test_a_window_of_time_leaves_out_no_contact_in_it(seed):
     for _ in range(400):
         a, b, place = rng.uniform(-100, 100, (3, 2))
         velocity, radius, bulge = rng.uniform(-60, 60, 2), float(rng.choice([0.0, 3.0])), float(rng.uniform(-3, 3))
-        lines = lines_of(np.array([a, b]), np.array([0]), np.array([1]))
+        lines = lines_of(np.array([a, b]), np.array([0, 2]), np.array([False]), np.zeros(2)).records
         arcs = in_lists(arcs_of(lines, np.array([bulge])))
         corners = [Corner(*a.tolist(), 0.0, 0.0)]
         flight = *place.tolist(), *velocity.tolist(), 0.0, -50.0

@@ -70,7 +70,7 @@ def test_a_flight_with_drag_that_misses_a_line_keeps_off_it():
         for _ in range(10):
             radius = float(rng.choice([0.0, 1.0, 10.0]))
             ends = there[rng.integers(len(there))] + rng.normal(size=(2, 2)) * 10 ** rng.uniform(0, 2)
-            (line,) = lines_of(ends, np.array([0]), np.array([1])).view(np.recarray)
+            (line,) = lines_of(ends, np.array([0, 2]), np.array([False]), np.zeros(2)).records.view(np.recarray)
             if _misses(line, radius, TOLERANCE, *hull, margin):
                 told += 1
                 along, length = (ends[1] - ends[0]) / np.hypot(*(ends[1] - ends[0])), np.hypot(*(ends[1] - ends[0]))

@@ -27,7 +27,8 @@ def ring(centre, radius, count, jag=0.0, seed=0):
 
 def modelled(walls, radius=0.0, *, index="grid", machine_code=False, fine=False, gravity=None):
     scene = Scene(walls, Balls([[1.0, 1.0]], [[1.0, 1.0]], radius), gravity=gravity)
-    return Modelled(scene, index=index, machine_code=machine_code, fine=fine)
+    limits = None if fine else (0.0, 0)
+    return Modelled(scene, index=index, machine_code=machine_code, limits=limits)
 
 
 def entries(model):

@@ -106,7 +106,7 @@ def test_the_same_bits_as_without_an_index(radius, bulge, holes):
 @pytest.mark.parametrize("radius", [0.0, 5.0])
 def test_interpreted_and_compiled_kernels_find_the_same_clearings(radius):
     scene = Scene(wavy(150, 0.03), Balls(np.zeros(2), [1.0, 0.0], radius))
-    one, other = (Modelled(scene, machine_code=code, fine=True).model for code in (False, True))
+    one, other = (Modelled(scene, machine_code=code, limits=None).model for code in (False, True))
     assert one.grid == other.grid
     assert (one.grid.octants, one.grid.departs) == ((QUADRANTS, 1) if radius == 0.0 else (OCTANTS, 0))
     assert one.clearings.tobytes() == other.clearings.tobytes()

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import wallkit
-from wallkit.simulation.prepared import expected_flights, prepare_once
+from wallkit.simulation import expected_flights as flights
+from wallkit.simulation.prepared import prepare_once
 
 EDGES = 400
 TURN = 2 * np.pi * np.arange(EDGES) / EDGES
@@ -33,6 +34,13 @@ def test_few_flights_get_large_cells_and_the_same_bits(radius):
 def test_many_flights_get_the_cells_of_prepare():
     many = scene(40)
     assert len(prepare_once(many, 1e5, 1 << 40).modelled.model.cells) == len(wallkit.prepare(many).modelled.model.cells)
+
+
+def expected_flights(scene, until, bounces):
+    walls = scene.walls
+    chords = np.hypot(*(walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]).T)
+    length = chords.sum() + chords[-1]  # the last wall alone is open
+    return flights.expected_flights(scene, walls.box(), length, until, bounces)
 
 
 def test_flights_are_estimated_by_the_mean_free_path():

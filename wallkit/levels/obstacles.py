@@ -76,7 +76,7 @@ def obstacles_of(walls: Walls, radius: float) -> Obstacles:
     """
     starts, ends = walls.edge_starts, walls.edge_ends
     a, b, bulge = walls.vertices[starts], walls.vertices[ends], walls.bulges[starts]
-    lines = lines_of(walls.vertices, starts, ends)
+    lines = lines_of(walls.vertices, walls.offsets, walls.closed, np.zeros(2)).records
     bulge = np.where(lines["length"] > 0.0, bulge, 0.0)
     at_end, at_start = (np.ascontiguousarray(normals.T) for normals in end_normals(lines, bulge))
     centre, around = circles(a, b, bulge)

@@ -10,7 +10,6 @@ that time: the walk through the cells may stop at the first cell that contains i
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -22,9 +21,9 @@ from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.index.cell_entries import ALL_OCTANTS, Table, describe, enter, sort
 from wallkit.kernels.index.empty_rectangles import clear, clear_ahead, clear_departures, octants_along
 from wallkit.kernels.intrinsics import AT_ONCE
-from wallkit.kernels.jit import compiled
-from wallkit.kernels.records import BLOCK, CELL, OCTANTS, QUADRANTS, Block, Grid, Model, in_lists
+from wallkit.kernels.records import BLOCK, CELL, OCTANTS, QUADRANTS, Block, Grid, Model
 from wallkit.simulation.aligned_arrays import on_cache_lines
+from wallkit.simulation.by_kernels import Kernels
 from wallkit.simulation.grid_chains import chains_in_cells
 
 MARGIN = 2.0**-16
@@ -38,6 +37,12 @@ FINE, COARSE, PER_EDGE = 0.2, 0.6, 0.8
 """Side of the cells before any is divided, measured: 0.8 of the mean length of an edge, so that a cell that lists
 something lists one or two. In units of sqrt(area / edges) it is at least 0.2 (25 cells an edge; more fall out of the
 cache), and at most 0.6 (where edges are long and many meet)."""
+WORTH_SMALL_CELLS = 12.0
+"""Flights an edge from which on the smaller cells pay, measured: they are 0.6 to 1.7 us an edge more to make (in a maze
+and in a curve of 10,000 lines), and a flight among them takes 40 to 120 ns less."""
+WORTH_DEPARTURES = 1.0
+"""Flights an edge from which on departures pay: they are some 90 ns an edge to make, and save 80 ns a flight (points
+in a curve of 10,000 lines)."""
 MOST_CELLS = 2.0**18
 """Beyond this many, which a cache may hold, there are at most two an edge: no slower to fly among, quicker to make."""
 WORTH_OCTANTS = 0.25
@@ -87,9 +92,10 @@ def build_grid(
     box: FloatArray,
     radii: tuple[float, float],
     extent: float,
+    length: float,
     *,
     machine_code: bool = False,
-    fine: bool = False,
+    flights: float = 0.0,
 ) -> tuple[Grid, NDArray[Any], NDArray[np.uint32], NDArray[np.int16]]:
     """Sort edges and corners into cells.
 
@@ -99,15 +105,17 @@ def build_grid(
         box: (2, 2) lowest and highest corner of a box that no edge reaches beyond.
         radii: smallest and largest distance of a centre at a contact.
         extent: largest absolute coordinate of a centre.
+        length: mean length of edges, of arcs that of their chords.
         machine_code: use compiled kernels; the same cells come of both.
-        fine: make small cells, where many flights are to come: there are more to make, and fewer entries to look at.
+        flights: so many are to come, an edge: many pay for small cells, of which there are more to make, and which
+            list fewer entries to look at.
 
     Returns:
         The grid, its cells (``CELL``), the ids that they list, and the clearings (see ``Model``).
     """
     work = _Work(model, fans, radii, extent, machine_code)
     finest = SMALLEST * extent
-    level: _Level | None = _first_level(work, model, box, fine)
+    level: _Level | None = _first_level(work, model, box, length, flights >= WORTH_SMALL_CELLS)
     levels = []
     while level is not None:
         levels.append(level)
@@ -117,7 +125,7 @@ def build_grid(
     shift = int(math.log2(top["side"] / unit))
     ids = np.concatenate([*(level.ids for level in levels), np.zeros(AT_ONCE, dtype=np.uint32)])
     size = int(top["columns"]), int(top["rows"])
-    octants, *kinds = work.octants(levels[0], fine)
+    octants, *kinds = work.octants(levels[0], flights)
     grid = Grid(float(top["x0"]), float(top["y0"]), unit, 1.0 / unit, shift, *size, *kinds)
     cells = _joined(work, levels, grid.packed)
     clearings = cells.view(np.int16) if grid.packed else work.clearings(grid)
@@ -147,18 +155,18 @@ def _joined(work: _Work, levels: list[_Level], packed: int) -> NDArray[Any]:
     return joined
 
 
-class _Work:
+class _Work(Kernels):
     """Kernels, compiled or not, and what they are given in every call."""
 
     def __init__(
         self, model: Model, fans: NDArray[Any], radii: tuple[float, float], extent: float, machine_code: bool
     ) -> None:
-        self.machine_code = machine_code
+        super().__init__(machine_code)
         self.budget = GROWTH * len(model.ids) + AT_LEAST
         self.distance, self._spread = sum(radii) / 2, (radii[1] - radii[0]) / 2
         self._rounding = extent * ROUNDING
         shared = model.lines, model.arcs, model.corners, fans
-        self._shared = shared if machine_code else in_lists(shared)
+        self._shared = self.given(shared)
         self._falls = model.gravity is not None
 
     def reach(self, side: Any) -> Any:
@@ -170,11 +178,11 @@ class _Work:
     ) -> tuple[Table, IntArray]:
         """Enter what blocks speak of, and note as many entries as there is room for: (the table, entries by block)."""
         cells = int((blocks["columns"] * blocks["rows"]).sum())
-        entered, found = self._zeros(len(blocks), np.int64), self._zeros(octants * cells, np.uint8)
-        counted, ids = self._room(room, np.uint32), self._room(room, np.uint32)
-        table = Table(self._zeros(4 * cells + 4, np.int32), found, counted, ids)
-        asked = (blocks, source) if self.machine_code else in_lists((blocks, source))
-        self._run(enter, *asked, *self._shared, self.distance, table, entered)
+        entered, found = self.zeros(len(blocks), np.int64), self.zeros(octants * cells, np.uint8)
+        counted, ids = self.room(room, np.uint32), self.room(room, np.uint32)
+        table = Table(self.zeros(4 * cells + 4, np.int32), found, counted, ids)
+        asked = self.given((blocks, source))
+        self.run(enter, *asked, *self._shared, self.distance, table, entered)
         return table, np.asarray(entered)
 
     def sort(
@@ -184,11 +192,11 @@ class _Work:
         count = int(entered.sum())
         if count > len(table.ids):
             table, _entered = self.enter(blocks, source, count, len(table.octants) > 0)
-        ids = self._room(count, np.uint32)
-        self._run(sort, table, ids)
+        ids = self.room(count, np.uint32)
+        self.run(sort, table, ids)
         # A straight flight asks how far the next entries are in parts of cells alone: elsewhere it has clearings.
         if self._falls or not top:
-            self._run(clear, blocks if self.machine_code else in_lists(blocks), table.numbers, top)
+            self.run(clear, self.given(blocks), table.numbers, top)
         numbers = np.asarray(table.numbers, dtype=np.int32).reshape(-1, 4)
         return _Level(blocks, numbers, np.asarray(ids, dtype=np.uint32), np.asarray(table.octants, dtype=np.uint8))
 
@@ -196,13 +204,13 @@ class _Work:
         """Write the cells of a level as ``Cell`` has them into the first four columns; ``ids`` come before theirs."""
         numbers = level.numbers.ravel()
         if self.machine_code:
-            self._run(describe, numbers, ids, farthest, rows.reshape(-1), 0, rows.shape[1])
+            self.run(describe, numbers, ids, farthest, rows.reshape(-1), 0, rows.shape[1])
             return
         cells = [0] * (len(numbers) - 4)
-        self._run(describe, numbers.tolist(), ids, farthest, cells, 0, 4)
+        self.run(describe, numbers.tolist(), ids, farthest, cells, 0, 4)
         rows[:, :4] = np.array(cells, dtype=np.uint32).reshape(-1, 4)
 
-    def octants(self, top: _Level, fine: bool) -> tuple[NDArray[np.uint8], int, int, int]:
+    def octants(self, top: _Level, flights: float) -> tuple[NDArray[np.uint8], int, int, int]:
         """Find in which octants flights may meet something in the cells of the first level: (their bits, octants, ...).
 
         The others are what ``Grid`` says of them. Few cells list something where walls are far apart: there flights are
@@ -216,44 +224,30 @@ class _Work:
             octants, count = octants | (octants >> np.uint8(4)), QUADRANTS
         sparse = len(listing) < SPARSE * cells
         packed = self.machine_code and cells > (WORTH_PACKING_SPARSE if sparse else WORTH_PACKING)
-        departs = fine and sparse and not packed and self.distance == 0.0
+        departs = flights >= WORTH_DEPARTURES and sparse and not packed and self.distance == 0.0
         return octants, count, int(departs), int(packed)
 
     def clearings(self, grid: Grid) -> Any:
         """Make room for clearings and departures by octant."""
-        return self._zeros((grid.octants + OCTANTS * grid.departs) * grid.columns * grid.rows, np.int16)
+        return self.zeros((grid.octants + OCTANTS * grid.departs) * grid.columns * grid.rows, np.int16)
 
     def clear(self, grid: Grid, octants: NDArray[np.uint8], clearings: Any) -> None:
         """Find the clearings ahead of each cell of the first level, in each octant."""
-        above = self._zeros(grid.columns, np.int16)
-        self._run(clear_ahead, octants if self.machine_code else in_lists(octants), grid, above, clearings)
+        above = self.zeros(grid.columns, np.int16)
+        self.run(clear_ahead, self.given(octants), grid, above, clearings)
 
     def depart(self, model: Model, top: _Level, grid: Grid, clearings: Any) -> None:
         """Find the clearings of balls that leave a wall."""
-        along = self._zeros(len(model.lines), np.uint8)
-        self._run(octants_along, *self._shared[:2], along)
+        along = self.zeros(len(model.lines), np.uint8)
+        self.run(octants_along, *self._shared[:2], along)
         chains = chains_in_cells(model, np.asarray(along, dtype=np.uint8), top.numbers, top.ids, top.listing)
-        listing_and_chains = top.listing, chains
-        if not self.machine_code:
-            listing_and_chains = in_lists(listing_and_chains)
-        self._run(clear_departures, *listing_and_chains, grid, clearings)
-
-    def _zeros(self, size: int, kind: Any) -> Any:
-        return np.zeros(size, dtype=kind) if self.machine_code else [0] * size
-
-    def _room(self, size: int, kind: Any) -> Any:
-        """Room for so many numbers, whatever is in it."""
-        return np.empty(size, dtype=kind) if self.machine_code else [0] * size
-
-    def _run(self, kernel: Callable[..., Any], *arguments: Any) -> Any:
-        return (compiled(kernel) if self.machine_code else kernel)(*arguments)
+        self.run(clear_departures, *self.given((top.listing, chains)), grid, clearings)
 
 
-def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Level:
+def _first_level(work: _Work, model: Model, box: FloatArray, length: float, fine: bool) -> _Level:
     """Enter all that the model's one cell lists; where that comes to too many entries, into larger cells."""
     first, arcs, corners, end = model.cells[0].tolist()
     width, height = (box[1] - box[0]).tolist()
-    length = _mean_length(model)
     side = _side(width, height, corners, length, fine)
     while True:
         beyond = work.distance + work.reach(side)
@@ -285,12 +279,6 @@ def _side(width: float, height: float, count: int, length: float, fine: bool) ->
     side = max(FINE * even, min(COARSE * even, PER_EDGE * length)) if fine else COARSE * even
     least = math.sqrt(width * height / max(MOST_CELLS, 2.0 * count))
     return max(side, least, longest / (4.0 * count + 64.0), longest * 2.0**-20)
-
-
-def _mean_length(model: Model) -> float:
-    """Mean length of edges, of arcs that of their chords."""
-    lengths = model.lines["length"]
-    return float(lengths.sum()) / max(int(np.count_nonzero(lengths)), 1)
 
 
 def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:

@@ -33,7 +33,7 @@ def roundings(scene: Scene, own: Any, course: Course, ball: int) -> tuple[FloatA
 
     _, path, bend, keep, _, _, _ = course
     begin = np.atleast_2d(np.asarray(scene.balls.position, dtype=np.float64))[ball]
-    origin = local_origin(scene.walls.vertices)
+    origin = local_origin(scene.walls.vertices, scene.walls.box())
     places = np.concatenate([begin[None], np.stack([own["x"], own["y"]], axis=1)]) - origin
     place = RMS_ROUNDING * np.hypot(*places[1:].T)
     plain = (bend == 0) & ((path[:, 3] == 0) | (path[:, 4] == 0)) & (keep == 1).all(axis=1)

@@ -9,13 +9,11 @@ from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.bulge_arcs import offset_of, radius_of
-from wallkit.kernels.records import ARC, CORNER, FAN, LINE, Arc, Corner, Line
+from wallkit.kernels.index.wall_records import LINE_SIZE, write_corners, write_lines
+from wallkit.kernels.records import ARC, CORNER, FAN, LINE, Arc, Line
 from wallkit.simulation.aligned_arrays import on_cache_lines
+from wallkit.simulation.by_kernels import Kernels
 
-SMOOTH = 2.0**-44
-"""Edges that meet at less than this angle (radians) have no corner: see ``scan_disc`` for how they overlap."""
-NEARLY_STRAIGHT = 2.0**-41
-"""Rounding of an edge in parts of its size, some 500 times: see ``corners_of``."""
 FLAT = 2.0**-44
 """An arc with a smaller bulge is its chord, to rounding."""
 
@@ -31,27 +29,48 @@ class Corners(NamedTuple):
     """Whether it can touch at all, but for rounding."""
 
 
+class Lines(NamedTuple):
+    """Edges, arcs among them by their chords.
+
+    Attributes:
+        records: (E,) ``LINE``.
+        wall: (E,) the wall of each.
+        around: how long those of closed walls are together.
+        along: how long those of open walls are.
+        measured: how many have a length.
+    """
+
+    records: NDArray[Any]
+    wall: IntArray
+    around: float
+    along: float
+    measured: int
+
+
 def columns(table: FloatArray) -> FloatArray:
     """(2, n) of (n, 2): passes over a column are many times as quick as over rows of two."""
     return np.ascontiguousarray(table.T)
 
 
-def lines_of(vertices: FloatArray, starts: IntArray, ends: IntArray) -> NDArray[Any]:
-    """Make a ``LINE`` of each edge, given by its vertices; without a length it has no normal."""
-    lines = on_cache_lines(len(starts), LINE)
-    x, y = columns(vertices)
-    ax, ay, bx, by = x[starts], y[starts], x[ends], y[ends]
-    dx, dy = bx - ax, by - ay
-    length = np.sqrt(dx * dx + dy * dy)
-    none = length == 0.0
-    with np.errstate(divide="ignore", invalid="ignore"):
-        nx, ny = dy / length, -dx / length
-        nx[none] = ny[none] = 0.0
-        twice = 2.0 / (nx * nx + ny * ny)
-    twice[none] = 0.0
-    for name, column in zip(Line._fields, (ax, ay, bx, by, nx, ny, length, twice), strict=True):
-        lines[name] = column
-    return lines
+def lines_of(
+    vertices: FloatArray,
+    offsets: IntArray,
+    closed: NDArray[np.bool_],
+    origin: FloatArray,
+    *,
+    machine_code: bool = False,
+) -> Lines:
+    """Make a ``LINE`` of each edge of walls, in coordinates local to an origin; see ``Walls`` for the arrays."""
+    kernels, count = Kernels(machine_code), len(vertices) - int(np.count_nonzero(~closed))
+    records, wall = on_cache_lines(count, LINE), np.empty(count, dtype=np.int64)
+    written = (
+        (records.view(np.float64), wall) if machine_code else (kernels.room(LINE_SIZE * count, float), [0] * count)
+    )
+    given = kernels.given((np.ravel(vertices), tuple(origin.tolist()), offsets, closed))
+    around, along, measured = kernels.run(write_lines, *given, *written)
+    if not machine_code:
+        records.view(np.float64)[:], wall[:] = written
+    return Lines(records, wall, around, along, measured)
 
 
 def arcs_of(lines: NDArray[Any], bulges: FloatArray) -> NDArray[Any] | None:
@@ -89,51 +108,29 @@ def no_corners() -> Corners:
 
 def corners_of(
     vertices: FloatArray,
+    offsets: IntArray,
+    closed: NDArray[np.bool_],
+    origin: FloatArray,
     lines: NDArray[Any],
     arcs: NDArray[Any] | None,
     bulges: FloatArray,
-    starts: IntArray,
-    ends: IntArray,
+    size: float,
     radius: float,
+    *,
+    machine_code: bool = False,
 ) -> Corners:
-    """Tell for each vertex where a disc can touch it: from one normal of its edges to the other.
-
-    Where the wall turns left the fan opens to its right, and the other way round; a free end has half a circle, a
-    vertex at an edge without length all of it.
-
-    On the other side a disc meets both edges before it meets the vertex, by radius * angle^2 / 2 farther away than
-    where the edges alone would hold it. Where that is not far above the rounding of the edges (of an arc as large as
-    its radius) a disc that rolls along one may pass the other unseen: there the vertex stands in for it, on ``both``
-    sides.
-    """
-    ux, uy, wx, wy = np.zeros((4, len(vertices)))  # normals of the edge that arrives, and of the one that leaves
-    (ux[ends], uy[ends]), (wx[starts], wy[starts]) = end_normals(lines, bulges)
-    corners = on_cache_lines(len(vertices), CORNER)
-    for name, column in zip(Corner._fields, (vertices[:, 0], vertices[:, 1], ux + wx, uy + wy), strict=True):
-        corners[name] = column
-    first, last = np.ones((2, len(vertices)), dtype=np.bool_)
-    first[ends], last[starts] = False, False
-    # Chosen by ``where``: a mask as an index takes ten times as long.
-    (ux, uy), (wx, wy) = (
-        (np.where(first, -wx, ux), np.where(first, -wy, uy)),
-        (np.where(last, -ux, wx), np.where(last, -uy, wy)),
-    )
-    cross = ux * wy - uy * wx
-    right = cross < 0.0
-    fans = np.zeros(len(vertices), dtype=FAN)
-    fans["ux"], fans["uy"] = np.where(right, -wx, ux), np.where(right, -wy, uy)
-    fans["wx"], fans["wy"] = np.where(right, -ux, wx), np.where(right, -uy, wy)
-    none = lines["length"] == 0.0
-    bare = np.concatenate([starts[none], ends[none]])
-    fans[bare] = 1.0, 0.0, 1.0, 0.0, 1.0, 0.0
-    size = np.full(len(vertices), np.abs(vertices).max(initial=0.0))
-    if arcs is not None:
-        size[ends] += arcs["radius"]
-        size[starts] += arcs["radius"]
-    fans["both"] = radius * cross * cross < NEARLY_STRAIGHT * size
-    opened = (np.abs(cross) > SMOOTH) | (ux * wx + uy * wy <= 0.0)
-    opened[bare] = True
-    return Corners(corners, fans, opened)
+    """Tell for each vertex where a disc can touch it, see ``write_corners``; ``bulges`` are those of the edges."""
+    kernels, count = Kernels(machine_code), len(vertices)
+    corners, fans = on_cache_lines(count, CORNER), np.empty(count, dtype=FAN)
+    opened: Any = np.empty(count, dtype=np.uint8)
+    flat = corners.view(np.float64), fans.view(np.float64)
+    written = (*flat, opened) if machine_code else (*([0.0] * len(one) for one in flat), [0] * count)
+    normals = None if arcs is None else np.concatenate(end_normals(lines, bulges)).T.reshape(-1)
+    given = kernels.given((np.ravel(vertices), tuple(origin.tolist()), offsets, closed, lines, normals, arcs))
+    kernels.run(write_corners, *given, size, radius, *written)
+    if not machine_code:
+        flat[0][:], flat[1][:], opened[:] = written
+    return Corners(corners, fans, opened.view(np.bool_))
 
 
 def end_normals(lines: NDArray[Any], bulges: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.kernels.records import JOINT, NO_HIT
 from wallkit.simulation.edge_records import FLAT, end_normals
+from wallkit.walls import Walls
 
 
-def joints_of(
-    vertices: FloatArray, lines: NDArray[Any], bulges: FloatArray, starts: IntArray, ends: IntArray
-) -> tuple[NDArray[Any], IntArray]:
+def joints_of(walls: Walls, origin: FloatArray, lines: NDArray[Any]) -> tuple[NDArray[Any], IntArray]:
     """Make a ``JOINT`` of each end of each edge, and name for each vertex one end of an edge that is there.
 
     End 2 e is where edge e begins, 2 e + 1 where it ends. Vertices at the same coordinates are one place, whatever wall
@@ -25,6 +24,8 @@ def joints_of(
     Returns:
         (2 E,) of ``JOINT``, and (V,) the lowest end at the place of each vertex, NO_HIT where there is none.
     """
+    starts, ends = walls.edge_starts, walls.edge_ends
+    vertices, bulges = walls.vertices - origin, walls.bulges[starts]
     _unique, place = np.unique(vertices, axis=0, return_inverse=True)
     place = place.reshape(-1)
     at_end, at_start = end_normals(lines, bulges)

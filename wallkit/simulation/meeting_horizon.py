@@ -153,7 +153,7 @@ class _Trust:
         from wallkit.simulation.modelled import local_origin
 
         walls, rows = self.scene.walls, self.rows
-        self.origin = local_origin(walls.vertices) if len(walls) else np.zeros(2)
+        self.origin = local_origin(walls.vertices, walls.box()) if len(walls) else np.zeros(2)
         self.bend, self.depth = np.zeros(len(rows)), np.full(len(rows), np.inf)
         self.keep, self.fresh = np.ones((len(rows), 2)), np.zeros((len(rows), 2))
         table = np.array([(m.tangential_restitution, m.restitution) for m in walls.materials]).reshape(-1, 2)

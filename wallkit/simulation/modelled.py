@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 from copy import copy
-from itertools import repeat
-from operator import is_
 from typing import Any
 
 import numpy as np
@@ -19,6 +17,7 @@ from wallkit.scene.scene import Balls, Scene, SceneError
 from wallkit.simulation.build_grid import build_grid
 from wallkit.simulation.damping import damping_of, slowing_of
 from wallkit.simulation.edge_records import arcs_of, columns, corners_of, lines_of, no_corners
+from wallkit.simulation.expected_flights import expected_flights
 from wallkit.simulation.joints import joints_of
 from wallkit.walls import Walls
 
@@ -33,6 +32,9 @@ below a part in 2^30 of the scene. For one from farther away all edges are asked
 LENGTHS, SPEEDS, FALLING = (1e-60, 1e60), (1e-153, 1e153), (1e-70, 1e70)
 """What the size of the walls may be, a speed (by itself, and times the size), and speed and gravity where there is
 gravity, if they are not 0: squares of products of two of them are numbers then, of arcs 2^42 times as large too."""
+
+Box = tuple[float, float, float, float]
+Range = tuple[float, float]
 
 
 class Modelled:
@@ -53,7 +55,7 @@ class Modelled:
         *,
         index: str = "auto",
         machine_code: bool = False,
-        fine: bool = False,
+        limits: tuple[float, float] | None = (0.0, 0),
         origin: FloatArray | None = None,
     ) -> None:
         """Model a scene.
@@ -63,36 +65,55 @@ class Modelled:
             index: ``"grid"``, ``"none"``, or ``"auto"``: a grid where there are many edges.
             machine_code: whether flights will be compiled anyway; then the index of a small scene is made by compiled
                 kernels, too.
-            fine: whether there will be many flights, see ``build_grid``.
+            limits: until when, and how many bounces, all balls fly once: the index is as fine as pays for that. None
+                where it serves many surveys.
             origin: (2,) of the local coordinates, where they are those of other walls; None for their own.
         """
-        self.box = box_around(scene.walls)
+        around = scene.walls.box()
+        self.box = box_around(scene.walls, around)
         self.radii = np.asarray(scene.balls.radius, dtype=np.float64)
         self.tallies = len(scene.walls)
         self.size = check_sizes(scene, self.box)
-        self.origin = local_origin(scene.walls.vertices) if origin is None else origin
-        self.model = self._made(scene, index, machine_code, fine)
+        self.origin = local_origin(scene.walls.vertices, around) if origin is None else origin
+        self.model = self._made(scene, around, index, machine_code, limits)
         self._lists: Model | None = None
         self._told: tuple[Told, Told] | None = None
 
-    def _made(self, scene: Scene, index: str, machine_code: bool, fine: bool) -> Model:
+    def _made(
+        self,
+        scene: Scene,
+        around: Box,
+        index: str,
+        machine_code: bool,
+        limits: tuple[float, float] | None,
+    ) -> Model:
         walls, radius = scene.walls, float(self.radii.max(initial=0.0))
-        vertices = (columns(walls.vertices) - self.origin[:, None]).T
-        starts, ends = walls.edge_starts, walls.edge_ends
-        edge_wall = np.repeat(np.arange(len(walls)), np.diff(walls.edge_offsets))
+        edges = len(walls.vertices) - int(np.count_nonzero(~walls.closed))
+        arcs_too, discs = walls.has_arcs, radius > 0.0
+        if index == "none" or (index == "auto" and edges <= BRUTE_FORCE):
+            machine_code = False
+        elif not machine_code:
+            machine_code = _machine_code_pays(edges + discs * len(walls.vertices), arcs_too)
+        polylines = walls.vertices, walls.offsets, walls.closed, self.origin
+        lines, edge_wall, closed_ones, open_ones, measured = lines_of(*polylines, machine_code=machine_code)
         corner_wall = np.repeat(np.arange(len(walls)), np.diff(walls.offsets))
-        lines, bulges = lines_of(vertices, starts, ends), walls.bulges[starts]
-        arcs = arcs_of(lines, bulges)
+        bulges, arcs = np.empty(0), None
+        if arcs_too:
+            bulges = walls.bulges[walls.edge_starts]
+            arcs = arcs_of(lines, bulges)
+        size = max(abs(one - origin) for one, origin in zip(around, 2 * self.origin.tolist(), strict=True))
         corners = no_corners()
-        if radius > 0.0:
+        if discs:
             least = float(self.radii[self.radii > 0.0].min())
-            corners = corners_of(vertices, lines, arcs, bulges, starts, ends, least)
-        is_arc = arcs["radius"] > 0.0 if arcs is not None else np.zeros(len(lines), dtype=np.bool_)
-        is_line = (lines["length"] > 0.0) & ~is_arc
-        kinds = [np.flatnonzero(which).astype(np.uint32) for which in (is_line, is_arc, corners.open)]
+            corners = corners_of(*polylines, lines, arcs, bulges, size, least, machine_code=machine_code)
+        is_line = lines["length"] > 0.0
+        kinds = [np.flatnonzero(is_line), np.empty(0, dtype=np.int64), np.flatnonzero(corners.open)]
+        if arcs is not None:
+            is_arc = arcs["radius"] > 0.0
+            kinds[:2] = np.flatnonzero(is_line & ~is_arc), np.flatnonzero(is_arc)
         gravity, slowing, sides = _gravity(scene), slowing_of(scene), _one_sided(scene)
-        joints, spokes = (None, None) if gravity is None else joints_of(vertices, lines, bulges, starts, ends)
-        ids = np.concatenate([*kinds, np.zeros(1, dtype=np.uint32)])
+        joints, spokes = (None, None) if gravity is None else joints_of(walls, self.origin, lines)
+        ids = np.concatenate([*kinds, np.zeros(1, dtype=np.int64)]).astype(np.uint32)
         model = Model(
             ids=ids,
             cells=_one_cell(*map(len, kinds)),
@@ -111,7 +132,7 @@ class Modelled:
             fans=corners.fans if sides is not None else None,
             gravity=gravity,
             damping=damping_of(scene),
-            extent=float(np.abs(vertices).max(initial=0.0)) + radius,
+            extent=size + radius,
             joints=joints,
             spokes=spokes,
             rolling=slowing.rolling,
@@ -127,10 +148,13 @@ class Modelled:
         if farthest > FAR * model.extent:
             return model
         box = np.array(self.box).reshape(2, 2) - self.origin
-        machine_code = machine_code or _machine_code_pays(len(ids), arcs is not None)
+        length, flights = closed_ones + open_ones, math.inf
+        if limits is not None:
+            flights = expected_flights(scene, around, length + open_ones, *limits) / edges
         grid, cells, ids, clearings = build_grid(
-            model, corners.fans, box, (least, radius), farthest, machine_code=machine_code, fine=fine
-        )
+            model, corners.fans, box, (least, radius), farthest, length / max(measured, 1),
+            machine_code=machine_code, flights=flights,
+        )  # fmt: skip
         return model._replace(ids=ids, cells=cells, grid=grid, clearings=clearings)
 
     def with_balls(self, balls: Balls) -> Modelled | None:
@@ -190,7 +214,7 @@ def _machine_code_pays(entries: int, arcs: bool) -> bool:
     return entries > WAITING_PAYS or (entries > LOADING_PAYS and index_at_hand(arcs))
 
 
-def check_sizes(scene: Scene, box: tuple[float, float, float, float]) -> float:
+def check_sizes(scene: Scene, box: Box) -> float:
     """Refuse what is so large or so small that squares of products of two of it are no numbers any more.
 
     Args:
@@ -229,50 +253,71 @@ def check_balls(balls: Balls, size: float, falls: bool) -> None:
     if falls:  # else a place is only added to, and a ball may come from anywhere
         farthest = float(np.abs(balls.position).max(initial=0.0))
         _check_range("a ball's coordinate", farthest, (0.0, LENGTHS[1]), "place it nearer to the walls")
-    speeds = np.hypot(*np.asarray(balls.velocity, dtype=np.float64).reshape(-1, 2).T)
-    moving = speeds[speeds > 0.0]
-    if len(moving):
-        least, most = float(moving.min()), float(moving.max())
-        fix = "take another unit of time, or 0"
-        for speed in (least, most):
-            _check_range("a speed", speed, FALLING if falls else SPEEDS, fix)
-        _check_range("a speed times the size of the walls", least * min(size or 1.0, 1.0), SPEEDS, fix)
-        _check_range("a speed times the size of the walls", most * max(size, 1.0), SPEEDS, fix)
+    # A speed is its larger component, or up to the root of 2 as much: where twice that may be, no length is worked out.
+    x, y = np.abs(columns(np.asarray(balls.velocity, dtype=np.float64)))
+    least, most = _extremes(np.maximum(x, y))
+    ranges = *_ranges_of_speeds(least, most, size, falls), *_ranges_of_speeds(2.0 * least, 2.0 * most, size, falls)
+    if not all(_is_known(number, limits) for _what, number, limits in ranges):
+        for what, number, limits in _ranges_of_speeds(*_extremes(np.hypot(x, y)), size, falls):
+            _check_range(what, number, limits, "take another unit of time, or 0")
 
 
-def _check_range(what: str, size: float, limits: tuple[float, float], fix: str) -> None:
-    if size != 0.0 and not limits[0] <= size <= limits[1]:
-        known = f"{what} is {size:g}, and is known to work from {limits[0]:g} to {limits[1]:g}"
+def _extremes(speeds: FloatArray) -> tuple[float, float]:
+    """Give the least and the most of the speeds that are not 0; 0 for both without any."""
+    most = float(speeds.max(initial=0.0))
+    least = float(speeds.min(initial=most))
+    return least or float(speeds[speeds > 0.0].min(initial=most)), most
+
+
+def _ranges_of_speeds(least: float, most: float, size: float, falls: bool) -> tuple[tuple[str, float, Range], ...]:
+    """List what speeds come to, and which range it must be in."""
+    alone, by_size = FALLING if falls else SPEEDS, "a speed times the size of the walls"
+    return (
+        ("a speed", least, alone),
+        ("a speed", most, alone),
+        (by_size, least * min(size or 1.0, 1.0), SPEEDS),
+        (by_size, most * max(size, 1.0), SPEEDS),
+    )
+
+
+def _is_known(number: float, limits: Range) -> bool:
+    return number == 0.0 or limits[0] <= number <= limits[1]
+
+
+def _check_range(what: str, number: float, limits: Range, fix: str) -> None:
+    if not _is_known(number, limits):
+        known = f"{what} is {number:g}, and is known to work from {limits[0]:g} to {limits[1]:g}"
         raise SceneError(known, code="beyond-numbers", fix=fix)
 
 
-def box_around(walls: Walls) -> tuple[float, float, float, float]:
-    """Box around the vertices, widened by what the arcs bow at most: half a chord times the bulge, or the circle."""
-    x0, y0, x1, y1 = walls.box()
+def box_around(walls: Walls, box: Box) -> Box:
+    """Widen the box around the vertices by what the arcs bow at most: half a chord times the bulge, or the circle."""
     if not walls.has_arcs:
-        return x0, y0, x1, y1
+        return box
+    x0, y0, x1, y1 = box
     chord = np.hypot(*(walls.vertices[walls.edge_ends] - walls.vertices[walls.edge_starts]).T)
     bulge = np.minimum(np.abs(walls.bulges[walls.edge_starts]), 1e200)  # larger circles are refused all the same
     bow = float((chord * bulge * np.where(bulge > 1.0, 1.0, 0.5)).max(initial=0.0))
     return x0 - bow, y0 - bow, x1 + bow, y1 + bow
 
 
-def local_origin(vertices: FloatArray) -> FloatArray:
+def local_origin(vertices: FloatArray, box: Box) -> FloatArray:
     """Choose an origin near the walls: coordinates relative to it are exact, and small far from (0, 0).
 
     It is a multiple of a power of two several times the scene's size, so that a scene shifted by a larger power
     of two has the same local coordinates, bit for bit. Where a subtraction would round, the origin stays (0, 0).
+    ``box`` is that of the vertices.
     """
     origin = np.zeros(2)
-    if len(vertices) == 0:
-        return origin
-    places = columns(vertices)
-    low = places.min(axis=1)
-    size = float((places.max(axis=1) - low).max())
+    low, high = np.array(box[:2]), np.array(box[2:])
+    size = float((high - low).max())
     if size <= 0.0 or not math.isfinite(size):
         return origin
     step = 2.0 ** (math.frexp(size)[1] + 2)
     origin = np.floor(low / step + 0.5) * step
+    if not origin.any():
+        return np.zeros(2)
+    places = columns(vertices)
     local = places - origin[:, None]
     back = places - local  # with the next line Knuth's exact remainder of a subtraction
     lost = (places - (local + back)) + (back - origin[:, None])
@@ -287,7 +332,7 @@ def _one_cell(lines: int, arcs: int, corners: int) -> NDArray[Any]:
 
 def _restitution(scene: Scene) -> FloatArray | None:
     materials = scene.walls.materials
-    same = bool(materials) and all(map(is_, materials, repeat(materials[0])))  # told at once, of a million too
+    same = materials == materials[:1] * len(materials)  # told at once where it is one object, of a million too
     different = materials[:1] if same else {id(m): m for m in materials}.values()
     if all(m.restitution == 1.0 and m.tangential_restitution == 1.0 for m in different):
         return None

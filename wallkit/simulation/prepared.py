@@ -22,9 +22,6 @@ from wallkit.simulation.sensors import modelled_sensors
 
 CLOSE_CELLS = 1 << 15
 """So many are always at hand: balls are then best taken as they come, one after the other in memory."""
-WORTH_SMALL_CELLS = 12.0
-"""Flights an edge from which on small cells pay, measured: they are 0.6 to 1.7 us an edge more to make (in a maze and
-in a curve of 10,000 lines), and a flight among them takes 40 to 120 ns less."""
 WORTH_A_QUICK_LOOK = 100
 """Balls from which on a compiled look for overlaps pays among few lines."""
 
@@ -63,11 +60,11 @@ def prepare(scene: Scene, *, check: bool = True) -> PreparedScene:
         SceneError: the scene cannot be simulated, or an argument is none of what may be.
     """
     of_type(scene, "scene", Scene, "a Scene", error=SceneError, code="bad-scene")
-    return _prepared(scene, Modelled(scene, machine_code=True, fine=True), check=check)
+    return _prepared(scene, Modelled(scene, machine_code=True, limits=None), check=check)
 
 
 def prepare_once(scene: Scene, until: float, bounces: int, *, check: bool = True) -> PreparedScene:
-    """Prepare a scene for one survey: with small cells only where so many flights are to come that they pay.
+    """Prepare a scene for one survey: its index is as fine as pays for the flights that are to come.
 
     Args:
         scene: as for :func:`prepare`.
@@ -75,39 +72,13 @@ def prepare_once(scene: Scene, until: float, bounces: int, *, check: bool = True
         bounces: most of a ball.
         check: as for :func:`prepare`.
     """
-    fine = expected_flights(scene, until, bounces) >= WORTH_SMALL_CELLS * len(scene.walls.edge_starts)
-    return _prepared(scene, Modelled(scene, machine_code=True, fine=fine), check=check)
-
-
-def expected_flights(scene: Scene, until: float, bounces: int) -> float:
-    """Estimate how many flights balls will make: a length of flight over the mean free path pi A / P, each.
-
-    A is the area of the walls' box, P the length of their chords, twice that of open ones, which have two sides, and
-    2 pi r more for the ends of an open one, around which centres of discs turn. That path is exact for points in a room
-    that balls mix well in; here it decides on speed alone. Under gravity balls are as quick as they will be in the
-    middle of the time.
-    """
-    walls, balls = scene.walls, scene.balls
-    x, y = columns(walls.vertices)
-    starts, ends = walls.edge_starts, walls.edge_ends
-    dx, dy = x[ends] - x[starts], y[ends] - y[starts]
-    sides = np.repeat(np.where(walls.closed, 1.0, 2.0), np.diff(walls.edge_offsets))
-    low_x, low_y, high_x, high_y = walls.box()
-    turns = 2 * np.pi * float(np.mean(balls.radius)) * np.count_nonzero(~walls.closed) if len(balls) else 0.0
-    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        length = float(np.sqrt(dx * dx + dy * dy) @ sides) + turns
-        path = np.pi * (high_x - low_x) * (high_y - low_y) / max(length, 1e-300)
-        vx, vy = columns(np.asarray(balls.velocity, dtype=np.float64))
-        speed = np.sqrt(vx * vx + vy * vy)
-        if scene.gravity is not None:
-            speed = speed + np.hypot(*scene.gravity) * until / 2
-        return float(np.fmin(speed * until / path, bounces).sum())
+    return _prepared(scene, Modelled(scene, machine_code=True, limits=(until, bounces)), check=check)
 
 
 def prepare_again(ready: PreparedScene, balls: Balls, *, check: bool = True) -> PreparedScene:
     """Prepare a scene with other balls: what was made of its walls is kept where it serves these, too."""
     scene = replace(ready.scene, balls=balls)
-    modelled = ready.modelled.with_balls(balls) or Modelled(scene, machine_code=True, fine=True)
+    modelled = ready.modelled.with_balls(balls) or Modelled(scene, machine_code=True, limits=None)
     return _prepared(scene, modelled, check=check)
 
 

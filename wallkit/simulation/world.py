@@ -80,7 +80,7 @@ class World:
         self._lost = 0.0  # what the sum of the frames loses to rounding
         self._stepper: Together | Overlapping | None = None  # what moves the balls where no contact is foreseen here
         if scene.meeting or way == "overlap":
-            self._size = check_sizes(scene, box_around(scene.walls))
+            self._size = check_sizes(scene, box_around(scene.walls, scene.walls.box()))
             self._stepper = _stepper_of(scene, way, compile)
             return
         self._flights = Flights(scene, mode="compiled" if compile else "interpreted")
