@@ -124,7 +124,7 @@ def corners_of(
     corners, fans = on_cache_lines(count, CORNER), np.empty(count, dtype=FAN)
     opened: Any = np.empty(count, dtype=np.uint8)
     flat = corners.view(np.float64), fans.view(np.float64)
-    written = (*flat, opened) if machine_code else (*([0.0] * len(one) for one in flat), [0] * count)
+    written: Any = (*flat, opened) if machine_code else (*([0.0] * len(one) for one in flat), [0] * count)
     normals = None if arcs is None else np.concatenate(end_normals(lines, bulges)).T.reshape(-1)
     given = kernels.given((np.ravel(vertices), tuple(origin.tolist()), offsets, closed, lines, normals, arcs))
     kernels.run(write_corners, *given, size, radius, *written)
