@@ -22,7 +22,7 @@ from wallkit.kernels.index.cell_entries import ALL_OCTANTS, Table, describe, ent
 from wallkit.kernels.index.empty_rectangles import clear, clear_ahead, clear_departures, octants_along
 from wallkit.kernels.intrinsics import AT_ONCE
 from wallkit.kernels.records import BLOCK, CELL, OCTANTS, QUADRANTS, Block, Grid, Model
-from wallkit.simulation.aligned_arrays import on_cache_lines
+from wallkit.simulation.aligned_arrays import keep_freed_memory, on_cache_lines
 from wallkit.simulation.by_kernels import Kernels
 from wallkit.simulation.grid_chains import chains_in_cells
 
@@ -113,6 +113,7 @@ def build_grid(
     Returns:
         The grid, its cells (``CELL``), the ids that they list, and the clearings (see ``Model``).
     """
+    keep_freed_memory()
     work = _Work(model, fans, radii, extent, machine_code)
     finest = SMALLEST * extent
     level: _Level | None = _first_level(work, model, box, length, flights >= WORTH_SMALL_CELLS)
@@ -216,13 +217,18 @@ class _Work(Kernels):
         The others are what ``Grid`` says of them. Few cells list something where walls are far apart: there flights are
         long, and departures pay.
         """
-        octants, count, cells, listing = top.octants, OCTANTS, len(top.numbers) - 1, top.listing
-        if not len(octants):
-            octants, count = np.zeros(cells, dtype=np.uint8), QUADRANTS
-            octants[listing] = ALL_OCTANTS
-        elif np.unpackbits(octants[listing, None], axis=1).mean() > 1.0 - WORTH_OCTANTS:
-            octants, count = octants | (octants >> np.uint8(4)), QUADRANTS
-        sparse = len(listing) < SPARSE * cells
+        octants, count, cells = top.octants, OCTANTS, len(top.numbers) - 1
+        if len(octants):
+            # By how many bits are set: none where nothing is listed, for no edge is along all octants.
+            sizes = np.bincount(octants, minlength=1 << OCTANTS)
+            listing, clear = cells - int(sizes[0]), OCTANTS * cells - int(sizes @ _BITS) - OCTANTS * int(sizes[0])
+            if clear < WORTH_OCTANTS * OCTANTS * listing:
+                octants, count = octants | (octants >> np.uint8(4)), QUADRANTS
+        else:
+            lists = top.numbers[1:, 0] != top.numbers[:-1, 0]
+            listing, count = int(np.count_nonzero(lists)), QUADRANTS
+            octants = lists * np.uint8(ALL_OCTANTS)
+        sparse = listing < SPARSE * cells
         packed = self.machine_code and cells > (WORTH_PACKING_SPARSE if sparse else WORTH_PACKING)
         departs = flights >= WORTH_DEPARTURES and sparse and not packed and self.distance == 0.0
         return octants, count, int(departs), int(packed)
@@ -324,6 +330,10 @@ def _parts(work: _Work, level: _Level, cells: IntArray, finest: float) -> NDArra
     blocks["end"] = numbers[cells + 1, 0]
     blocks["most"] = 2 * entries << bits
     return blocks
+
+
+_BITS = np.unpackbits(np.arange(1 << OCTANTS, dtype=np.uint8)[:, None], axis=1).sum(axis=1)
+"""By number: how many of its bits are set."""
 
 
 def _starts(sizes: IntArray) -> IntArray:
