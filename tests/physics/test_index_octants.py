@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from alone import assert_same_bits, flown
 
-from wallkit import Balls, Scene, Walls
+from wallkit import Balls, Scene, Walls, survey
 from wallkit.kernels.index.grid import clearing, departures_of, octant_of, per_speed
 from wallkit.kernels.records import HALF, OCTANTS, QUADRANTS, WIDEST
 from wallkit.scene.start_overlaps import clearances
 from wallkit.simulation import build_grid
 from wallkit.simulation.modelled import Modelled
+from wallkit.simulation.prepared import prepare_once
 
 LIMITS = {"until": 40.0, "bounces": 60}
 
@@ -101,6 +102,17 @@ def test_the_same_bits_as_without_an_index(radius, bulge, holes):
     walls = wavy(150, bulge, holes)
     scene = Scene(walls, balls_inside(walls, radius))
     assert_same_bits(*(flown(scene, index, **LIMITS)[0] for index in ("grid", "none")))
+
+
+@pytest.mark.parametrize("bulge", [0.0, 0.001])
+def test_departures_from_cells_that_are_divided_change_no_bit(bulge):
+    walls = wavy(3000, bulge, 3)
+    scene = Scene(walls, balls_inside(walls, 0.0))
+    few = {"until": 1e3, "bounces": 40}  # four flights an edge: few enough for large cells, where edges crowd
+    once = prepare_once(scene, *few.values())
+    assert once.modelled.model.grid.departs == 1
+    assert once.modelled.model.grid.shift > 0
+    assert_same_bits(survey(once, **few), flown(scene, "none", **few)[0])
 
 
 @pytest.mark.parametrize("radius", [0.0, 5.0])

@@ -11,20 +11,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.kernels.index.cell_chains import chains_in_cells
 from wallkit.kernels.index.cell_entries import ALL_OCTANTS, Table, describe, enter, sort
-from wallkit.kernels.index.empty_rectangles import clear, clear_ahead, clear_departures, octants_along
+from wallkit.kernels.index.empty_rectangles import clear, clear_ahead, clear_departures
 from wallkit.kernels.intrinsics import AT_ONCE
 from wallkit.kernels.records import BLOCK, CELL, OCTANTS, QUADRANTS, Block, Grid, Model
 from wallkit.simulation.aligned_arrays import keep_freed_memory, on_cache_lines
 from wallkit.simulation.by_kernels import Kernels
-from wallkit.simulation.grid_chains import chains_in_cells
 
 MARGIN = 2.0**-16
 """Of the side of a cell: far above the rounding of its border, which is given by a number below 2^30 (2^-23)."""
@@ -75,11 +74,6 @@ class _Level:
     """By cell, see ``Table``; for the first level alone, and for discs alone."""
     divided: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     parts: NDArray[Any] = field(default_factory=lambda: np.empty(0, dtype=BLOCK))
-
-    @cached_property
-    def listing(self) -> IntArray:
-        """The cells that list something."""
-        return np.flatnonzero(np.diff(self.numbers[:, 0]))
 
     def block_of(self, cells: IntArray) -> NDArray[Any]:
         """Give the block that each cell is in."""
@@ -244,10 +238,12 @@ class _Work(Kernels):
 
     def depart(self, model: Model, top: _Level, grid: Grid, clearings: Any) -> None:
         """Find the clearings of balls that leave a wall."""
-        along = self.zeros(len(model.lines), np.uint8)
-        self.run(octants_along, *self._shared[:2], along)
-        chains = chains_in_cells(model, np.asarray(along, dtype=np.uint8), top.numbers, top.ids, top.listing)
-        self.run(clear_departures, *self.given((top.listing, chains)), grid, clearings)
+        (lines, arcs, _corners, _fans), edges, cells = self._shared, len(model.lines), grid.columns * grid.rows
+        chain, listing = self.room(edges, np.int32), self.room(cells, np.int32)
+        chains, along = self.zeros(4 * cells, np.int32), self.room(edges, np.uint8)
+        listed = self.given((model.edge_wall, top.numbers.ravel(), top.ids))
+        count = self.run(chains_in_cells, lines, arcs, *listed, along, chain, listing, chains)
+        self.run(clear_departures, listing, count, chains, grid, clearings)
 
 
 def _first_level(work: _Work, model: Model, box: FloatArray, length: float, fine: bool) -> _Level:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from wallkit.kernels.impact.arc_impact import is_wide, to_end
-from wallkit.kernels.index.cell_entries import ALL_OCTANTS, LATEST, octants_against
+from wallkit.kernels.index.cell_chains import MANY, pair_of
+from wallkit.kernels.index.cell_entries import LATEST
 from wallkit.kernels.index.grid import clearing_at, clearings_of, departures_of
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import HALF, OCTANTS, WIDEST
 
 STRETCH = 4
 """Cells of a chain that a rectangle takes in, along and across: more make few longer."""
-MANY = -1
-"""In place of a chain: what a cell lists is not of one, or none."""
 
 
 @kernel
@@ -102,31 +100,16 @@ def is_larger(wide, high, than_wide, than_high):
 
 
 @kernel
-def octants_along(lines, arcs, along):
-    """Find the octants that lie along all outward normals of each edge: their bits, none for what has no normal."""
-    for e in range(len(lines)):
-        ux, uy = lines[e].nx, lines[e].ny
-        wx, wy = ux, uy
-        wide = False
-        if arcs is not None:
-            if arcs[e].radius > 0.0:
-                fx, fy = to_end(arcs[e])
-                per = (1.0 if arcs[e].sweep > 0.0 else -1.0) / arcs[e].radius
-                ux, uy, wx, wy = per * arcs[e].sx, per * arcs[e].sy, per * fx, per * fy
-                wide = is_wide(arcs[e].sweep)
-        along[e] = 0 if wide else ALL_OCTANTS - octants_against(ux, uy, wx, wy)
-
-
-@kernel
-def clear_departures(listing, chains, grid, clearings):
+def clear_departures(listing, count, chains, grid, clearings):
     """Find a large rectangle, for each octant, in which a ball that leaves a wall in a cell meets nothing.
 
-    Its cells list nothing at all, or edges of one chain alone (see ``wallkit.simulation.grid_chains``), which it
+    Its cells list nothing at all, or edges of one chain alone (see ``cell_chains``), which it
     leaves. It begins with a few cells of the chain, along the row or the column, and goes on as the clearings of empty
     ones do.
 
     Args:
         listing: the cells that list something.
+        count: of them.
         chains: for each pair of opposite octants, by cell: the chain of all that it lists, 0 for nothing, or MANY.
         grid: not packed, with clearings for the quadrants.
         clearings: departures are written, for cells of one chain.
@@ -134,7 +117,7 @@ def clear_departures(listing, chains, grid, clearings):
     columns, rows, cells = grid.columns, grid.rows, grid.columns * grid.rows
     for octant in range(OCTANTS):
         step, rise, plane, pair = 1 - 2 * (octant & 1), 1 - (octant & 2), (octant & 3) * cells, pair_of(octant) * cells
-        for k in range(len(listing)):
+        for k in range(count):
             cell = listing[k]
             if chains[pair + cell] != MANY:
                 column, row = cell % columns, cell // columns
@@ -143,13 +126,6 @@ def clear_departures(listing, chains, grid, clearings):
                 if is_larger(broad, tall, wide, high):
                     wide, high = broad, tall
                 clearings[departures_of(grid, octant) + cell] = wide + (high << HALF)
-
-
-@kernel
-def pair_of(octant):
-    """Number the four pairs of opposite octants."""
-    # Opposite octants differ in both signs. Their parity, and which component is the larger, name the pair.
-    return ((octant ^ (octant >> 1)) & 1) + ((octant >> 2) << 1)
 
 
 @rare_kernel
