@@ -136,9 +136,9 @@ def _arc(block, x, y, radius, ux, uy, wx, wy, wide, facing, kind, item, entry, c
     facing = facing if radius > SMALL * block.side + block.reach else 0.0
     if wide == 0.0 and not small and ux * wx + uy * wy > -0.5:
         return _chords(block, x, y, radius, ux, uy, wx, wy, facing, kind, item, entry, count, table)
-    mx, my = _half_way(ux, uy, wx, wy, wide)
     if small:
         # The box holds the ends, and each extreme of the circle that is in the arc: as near to its middle m as u is.
+        mx, my = _towards(ux, uy, wx, wy, wide)
         edge = mx * ux + my * uy  # directions as near to the middle are in the arc
         left, right = -1.0 if -mx >= edge else min(ux, wx), 1.0 if mx >= edge else max(ux, wx)
         low, high = -1.0 if -my >= edge else min(uy, wy), 1.0 if my >= edge else max(uy, wy)
@@ -146,6 +146,7 @@ def _arc(block, x, y, radius, ux, uy, wx, wy, wide, facing, kind, item, entry, c
             left, right, low, high = right, left, high, low
         return _box(block, x + radius * left, x + radius * right, y + radius * low, y + radius * high,
                     kind, item, entry, ALL_OCTANTS, count, table)  # fmt: skip
+    mx, my = _half_way(ux, uy, wx, wy, wide)
     if wide == 0.0:
         count = _chords(block, x, y, radius, ux, uy, mx, my, facing, kind, item, entry, count, table)
         return _chords(block, x, y, radius, mx, my, wx, wy, facing, kind, item, entry, count, table)
@@ -181,15 +182,18 @@ def octants_against(ux, uy, wx, wy):
 
 
 @kernel
-def _half_way(ux, uy, wx, wy, wide):
-    """Direction half way from u counter-clockwise to w: along their sum, or beside their difference."""
+def _towards(ux, uy, wx, wy, wide):
+    """A vector half way from u counter-clockwise to w, of any length: their sum, or their difference turned."""
     # u + w, or, beyond a right angle, where that cancels, w - u turned by a quarter to the right.
     if ux * wx + uy * wy <= 0.0:
-        mx, my = wy - uy, ux - wx
-    else:
-        mx, my = ux + wx, uy + wy
-        if wide != 0.0:
-            mx, my = -mx, -my
+        return wy - uy, ux - wx
+    return (ux + wx, uy + wy) if wide == 0.0 else (-ux - wx, -uy - wy)
+
+
+@kernel
+def _half_way(ux, uy, wx, wy, wide):
+    """Direction half way from u counter-clockwise to w."""
+    mx, my = _towards(ux, uy, wx, wy, wide)
     length = math.sqrt(mx * mx + my * my)
     return mx / length, my / length
 
@@ -232,8 +236,16 @@ def _box(block, left, right, low, high, kind, item, entry, octants, count, table
     low, high = (low - reach - block.y0) * per_side, (high + reach - block.y0) * per_side
     if right < 0.0 or left >= block.columns or high < 0.0 or low >= block.rows:
         return count
-    for column in range(int(max(left, 0.0)), int(min(right, block.columns - 0.5)) + 1):
-        count = _rows(block, column, low, high, kind, item, entry, octants, count, table)
+    column, row = int(max(left, 0.0)), int(max(low, 0.0))
+    columns = int(min(right, block.columns - 0.5)) + 1 - column
+    rows = int(min(high, block.rows - 0.5)) + 1 - row
+    # One loop over all its cells, not a loop of loops: their ends are what the processor predicts wrongly.
+    at, k = 4 * (block.first + column + block.columns * row), 0
+    for _cell in range(columns * rows):
+        count = _enter_cell(at, kind, item, entry, octants, count, table)
+        k += 1
+        at += 4 if k < columns else 4 * (block.columns + 1 - columns)
+        k = k if k < columns else 0
     return count
 
 
@@ -264,19 +276,27 @@ def _line(block, ax, ay, bx, by, reach, kind, item, entry, octants, count, table
 @kernel
 def _rows(block, column, bottom, top, kind, item, entry, octants, count, table):
     """Enter what a column holds between two heights, given in cells; one of them at least is in the block."""
-    numbers, lowest = table.numbers, int(max(bottom, 0.0))
+    lowest = int(max(bottom, 0.0))
     at = 4 * (block.first + column + block.columns * lowest)
     for _row in range(lowest, int(min(top, block.rows - 0.5)) + 1):
-        # The latest entry stands in the cell, so that chords and sides that overlap are entered once.
-        if numbers[at + LATEST] != item + 1:
-            numbers[at + LATEST] = item + 1
-            numbers[at + kind] += 1
-            if count < len(table.ids):
-                table.counted[count], table.ids[count] = at + kind, entry
-            count += 1
-        if len(table.octants) > 0:
-            table.octants[at >> 2] |= octants
+        count = _enter_cell(at, kind, item, entry, octants, count, table)
         at += 4 * block.columns
+    return count
+
+
+@kernel
+def _enter_cell(at, kind, item, entry, octants, count, table):
+    """Enter into the cell whose numbers begin ``at`` a place."""
+    # The latest entry stands in the cell, so that chords and sides that overlap are entered once.
+    numbers = table.numbers
+    if numbers[at + LATEST] != item + 1:
+        numbers[at + LATEST] = item + 1
+        numbers[at + kind] += 1
+        if count < len(table.ids):
+            table.counted[count], table.ids[count] = at + kind, entry
+        count += 1
+    if len(table.octants) > 0:
+        table.octants[at >> 2] |= octants
     return count
 
 
