@@ -52,12 +52,12 @@ def nothing_found(ready: PreparedScene) -> NDArray[np.int64]:
 @contextmanager
 def _fly_in_step(ready: PreparedScene, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
     """Give what a thread does to fly balls in lockstep, until none is left: counts of bounces."""
-    model, start, radius = ready.modelled.model, _start(ready), _radius(ready)
+    told, start, radius = ready.modelled.told, _start(ready), _radius(ready)
 
     def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
-        scratch = _scratch(len(model.ids))
+        scratch = _scratch(len(ready.modelled.model.ids))
         return lambda stop: compiled(fly_in_step)(
-            model, model.gravity, radius, start, queue, stop, until, limit, hits, outcome, scratch
+            *told, radius, start, queue, stop, until, limit, hits, outcome, scratch
         )
 
     with _from_one_counter(ready, batches) as work:
@@ -67,7 +67,7 @@ def _fly_in_step(ready: PreparedScene, until: float, limit: int, outcome: Outcom
 @contextmanager
 def _fly_as_waves(ready: PreparedScene, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
     """Give what a thread does to fly balls as a wave through the grid, until none is left: counts of bounces."""
-    model, start, radius = ready.modelled.model, _start(ready), _radius(ready)
+    told, start, radius = ready.modelled.told, _start(ready), _radius(ready)
     order = np.arange(len(ready.modelled.radii)) if ready.order is None else ready.order
 
     def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
@@ -80,7 +80,7 @@ def _fly_as_waves(ready: PreparedScene, until: float, limit: int, outcome: Outco
             np.empty(MET, dtype=np.int64),
         )
         return lambda stop: compiled(fly_wave)(
-            model, radius, start, order, queue, stop, until, limit, hits, outcome, scratch
+            told[0], radius, start, order, queue, stop, until, limit, hits, outcome, scratch
         )
 
     with _from_one_counter(ready, batches) as work:
@@ -90,7 +90,7 @@ def _fly_as_waves(ready: PreparedScene, until: float, limit: int, outcome: Outco
 @contextmanager
 def _fly_falling(ready: PreparedScene, until: float, limit: int, outcome: Outcome, _threads: int) -> Iterator[Work]:
     """Give what a thread does to fly balls as a wave under gravity, until none is left: counts of bounces."""
-    model, start, radius = ready.modelled.model, _start(ready), _radius(ready)
+    told, start, radius = ready.modelled.told, _start(ready), _radius(ready)
     order = np.arange(len(ready.modelled.radii)) if ready.order is None else ready.order
 
     def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
@@ -105,7 +105,7 @@ def _fly_falling(ready: PreparedScene, until: float, limit: int, outcome: Outcom
             np.empty(0),
         )
         return lambda stop: compiled(fly_falling_wave)(
-            model, model.gravity, radius, start, order, queue, stop, until, limit, hits, outcome, scratch
+            *told, radius, start, order, queue, stop, until, limit, hits, outcome, scratch
         )
 
     with _from_one_counter(ready, batches) as work:
@@ -187,14 +187,12 @@ def _fly(
     ready: PreparedScene, radii: FloatArray, states: FloatArray, counts: NDArray[np.int64], until: float, limit: int,
     found: NDArray[np.int64],
 ) -> None:  # fmt: skip
-    model, tallies = ready.modelled.model, ready.modelled.tallies
+    told, tallies = ready.modelled.told, ready.modelled.tallies
     if ready.sensors is None:
-        compiled(fly_all)(model, model.gravity, radii, states, counts, until, limit, found, np.empty(0), 1)
+        compiled(fly_all)(*told, radii, states, counts, until, limit, found, np.empty(0), 1)
         return
-    pull, log = None if model.gravity is None else np.empty(2), np.empty(LOGGED * LOG_STRIDE)
-    compiled(fly_sensed)(
-        model, model.gravity, pull, ready.sensors, tallies, radii, states, counts, until, limit, found, log, LOGGED
-    )
+    pull, log = None if ready.modelled.model.gravity is None else np.empty(2), np.empty(LOGGED * LOG_STRIDE)
+    compiled(fly_sensed)(*told, pull, ready.sensors, tallies, radii, states, counts, until, limit, found, log, LOGGED)
 
 
 def _parts(count: int, threads: int) -> list[slice]:
