@@ -51,7 +51,7 @@ def test_the_quick_look_among_many_edges_misses_nothing(offset, count):
         radii = random.uniform(0.1, 4.0, count) / count
         scene = Scene(walls, Balls(position, np.ones((count, 2)), radii))
         modelled = Modelled(scene, index="none")
-        given = (np.asarray(item).tolist() for item in ball_cells(position - modelled.origin, radii))
+        given = (np.asarray(item).tolist() for item in ball_cells(position, tuple(modelled.origin.tolist()), radii))
         quick = all_clear_in_cells(modelled.lists.lines, modelled.model.extent, *given)
         assert quick == (not _overlaps(scene))
         clear, found = clear + quick, found + (not quick)

@@ -144,7 +144,7 @@ class Modelled:
         least = float(self.radii.min(initial=radius))
         if model.one_sided is not None:
             least = 0.0  # a disc may stand across a wall that it came through
-        farthest = float(np.abs(np.asarray(scene.balls.position) - self.origin).max(initial=model.extent))
+        farthest = max(model.extent, _farthest(scene.balls, self.origin))
         if farthest > FAR * model.extent:
             return model
         box = np.array(self.box).reshape(2, 2) - self.origin
@@ -159,9 +159,9 @@ class Modelled:
 
     def with_balls(self, balls: Balls) -> Modelled | None:
         """Give the same model with other balls; None if it must be made anew, for other radii or from farther away."""
-        radii, off = np.asarray(balls.radius), np.abs(np.asarray(balls.position) - self.origin)
+        radii = np.asarray(balls.radius)
         check_balls(balls, self.size, self.model.gravity is not None)
-        if not (len(radii) and len(self.radii) and off.max() <= self.model.extent):
+        if not (len(radii) and len(self.radii) and _farthest(balls, self.origin) <= self.model.extent):
             return None
         if (radii.min(), radii.max()) != (self.radii.min(), self.radii.max()):
             return None
@@ -260,6 +260,15 @@ def check_balls(balls: Balls, size: float, falls: bool) -> None:
     if not all(_is_known(number, limits) for _what, number, limits in ranges):
         for what, number, limits in _ranges_of_speeds(*_extremes(np.hypot(x, y)), size, falls):
             _check_range(what, number, limits, "take another unit of time, or 0")
+
+
+def _farthest(balls: Balls, origin: FloatArray) -> float:
+    """Give the largest absolute local coordinate of the balls; 0 without any."""
+    farthest = 0.0
+    for column, origin_of in zip(np.asarray(balls.position).T, origin.tolist(), strict=True):
+        if len(column):
+            farthest = max(farthest, abs(float(column.min()) - origin_of), abs(float(column.max()) - origin_of))
+    return farthest
 
 
 def _extremes(speeds: FloatArray) -> tuple[float, float]:

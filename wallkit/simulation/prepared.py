@@ -108,18 +108,20 @@ def _surely_clear(scene: Scene, modelled: Modelled) -> bool:
         return False
     if not radii.any():
         return True
+    origin = tuple(modelled.origin.tolist())
     if model.grid is None:
-        origin = tuple(modelled.origin.tolist())
         return bool(compiled(all_clear)(model.lines, model.extent, origin, np.ravel(scene.balls.position), radii))
-    position = scene.balls.position - modelled.origin
-    return bool(compiled(all_clear_in_cells)(model.lines, model.extent, *ball_cells(position, radii)))
+    return bool(
+        compiled(all_clear_in_cells)(model.lines, model.extent, *ball_cells(scene.balls.position, origin, radii))
+    )
 
 
-def ball_cells(position: FloatArray, radii: FloatArray) -> tuple[Any, ...]:
-    """Give ``all_clear_in_cells`` what it needs of balls at (n, 2) local positions, and room to work in."""
+def ball_cells(position: FloatArray, origin: tuple[float, float], radii: FloatArray) -> tuple[Any, ...]:
+    """Give ``all_clear_in_cells`` what it needs of balls at (n, 2) positions, and room to work in."""
     x, y = position.T
-    box = float(x.min()), float(y.min()), float(x.max() - x.min()), float(y.max() - y.min())
-    return np.ravel(position), radii, box, np.zeros(2 * len(x) + 3, dtype=np.int64), np.empty(3 * len(x))
+    low_x, low_y = float(x.min()) - origin[0], float(y.min()) - origin[1]
+    box = low_x, low_y, float(x.max()) - origin[0] - low_x, float(y.max()) - origin[1] - low_y
+    return origin, np.ravel(position), radii, box, np.zeros(2 * len(x) + 3, dtype=np.int64), np.empty(3 * len(x))
 
 
 def _neighbours_together(position: FloatArray) -> NDArray[np.int64]:

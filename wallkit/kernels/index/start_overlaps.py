@@ -42,15 +42,16 @@ def all_clear(lines, extent, origin, position, radii):
 
 
 @kernel
-def all_clear_in_cells(lines, extent, position, radii, box, ends, sorted_balls):
+def all_clear_in_cells(lines, extent, origin, position, radii, box, ends, sorted_balls):
     """Tell the same where there are many edges: each asks only the balls in the cells about it.
 
     Args:
         lines: all edges; one without length is as good as touched.
         extent: of the scene, see ``Model``.
-        position: (2 n,), x and y in turn, in local coordinates.
+        origin: (x0, y0) of the local coordinates.
+        position: (2 n,), x and y in turn, in the scene's coordinates.
         radii: (n,).
-        box: (x, y, width, height) of the positions.
+        box: (x, y, width, height) of the positions, local.
         ends: (2 n + 3,) whole numbers, 0, to work with: cells are no more than 2 n + 1.
         sorted_balls: (3 n,) floats to work with.
     """
@@ -61,52 +62,58 @@ def all_clear_in_cells(lines, extent, position, radii, box, ends, sorted_balls):
     reach = largest + MARGIN * (largest + extent)
     # side^2 >= w h / n and side >= (w + h) / n, so (w / side + 1)(h / side + 1) <= 2 n + 1 cells, about a ball each.
     side = max(max(math.sqrt(width * height / len(radii)), (width + height) / len(radii)), reach)
-    columns, rows = int(width / side) + 1, int(height / side) + 1
-    _sort(position, radii, left, low, side, columns, columns * rows, ends, sorted_balls)
+    per_side = 1.0 / side
+    columns, rows = int(width * per_side) + 1, int(height * per_side) + 1
+    _sort(position, origin, radii, left, low, per_side, columns, columns * rows, ends, sorted_balls)
+    # What grows with x also grows with x in cells, as rounded: no ball falls out of the range that is looked through.
     for k in range(len(lines)):
         line = lines[k]
-        first, last = (min(line.ax, line.bx) - reach - left) / side, (max(line.ax, line.bx) + reach - left) / side
-        bottom, top = (min(line.ay, line.by) - reach - low) / side, (max(line.ay, line.by) + reach - low) / side
+        first, last = min(line.ax, line.bx) - reach - left, max(line.ax, line.bx) + reach - left
+        bottom, top = min(line.ay, line.by) - reach - low, max(line.ay, line.by) + reach - low
+        first, last, bottom, top = first * per_side, last * per_side, bottom * per_side, top * per_side
         if last < 0.0 or first >= columns or top < 0.0 or bottom >= rows:
             continue
         first_column, last_column = int(max(first, 0.0)), int(min(last, columns - 0.5))
+        near = 0
         for row in range(int(max(bottom, 0.0)), int(min(top, rows - 0.5)) + 1):
             cell = row * columns
-            if _any_near(line, extent, sorted_balls, ends[cell + first_column], ends[cell + last_column + 1]):
-                return False
+            near += _count_near(line, extent, sorted_balls, ends[cell + first_column], ends[cell + last_column + 1])
+        if near > 0:
+            return False
     return True
 
 
 @kernel
-def _sort(position, radii, left, low, side, columns, cells, ends, sorted_balls):
+def _sort(position, origin, radii, left, low, per_side, columns, cells, ends, sorted_balls):
     """Sort balls by cell, counting first: those of cell c come from ends[c] to ends[c + 1]."""
     # Counting sort. Counts stand two places on; summed up they are where each cell begins, one place on; and filling a
     # cell moves that to where the next one begins.
+    x0, y0 = origin
     for i in range(len(radii)):
-        ends[_cell(position, i, left, low, side, columns) + 2] += 1
+        ends[_cell(position[2 * i] - x0, position[2 * i + 1] - y0, left, low, per_side, columns) + 2] += 1
     for cell in range(cells):
         ends[cell + 2] += ends[cell + 1]
     for i in range(len(radii)):
-        cell = _cell(position, i, left, low, side, columns)
+        x, y = position[2 * i] - x0, position[2 * i + 1] - y0
+        cell = _cell(x, y, left, low, per_side, columns)
         at = 3 * ends[cell + 1]
-        sorted_balls[at], sorted_balls[at + 1] = position[2 * i], position[2 * i + 1]
-        sorted_balls[at + 2] = radii[i]
+        sorted_balls[at], sorted_balls[at + 1], sorted_balls[at + 2] = x, y, radii[i]
         ends[cell + 1] += 1
 
 
 @kernel
-def _cell(position, i, left, low, side, columns):
-    return int((position[2 * i + 1] - low) / side) * columns + int((position[2 * i] - left) / side)
+def _cell(x, y, left, low, per_side, columns):
+    return int((y - low) * per_side) * columns + int((x - left) * per_side)
 
 
 @kernel
-def _any_near(line, extent, balls, start, stop):
-    """Tell whether an edge may touch one of the balls from start to stop."""
+def _count_near(line, extent, balls, start, stop):
+    """Count the balls from start to stop that an edge may touch."""
+    near = 0
     for i in range(start, stop):
         ex, ey = balls[3 * i] - line.ax, balls[3 * i + 1] - line.ay
         off, along = ex * line.nx + ey * line.ny, ey * line.nx - ex * line.ny
         beyond = max(max(-along, along - line.length), 0.0)
         reach = balls[3 * i + 2] + MARGIN * (balls[3 * i + 2] + extent)
-        if not off * off + beyond * beyond > reach * reach:
-            return True
-    return False
+        near += 0 if off * off + beyond * beyond > reach * reach else 1
+    return near
