@@ -76,9 +76,10 @@ class _Level:
     divided: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     parts: NDArray[Any] = field(default_factory=lambda: np.empty(0, dtype=BLOCK))
 
-    def block_of(self, cells: IntArray) -> NDArray[Any]:
-        """Give the block that each cell is in."""
-        return self.blocks[np.searchsorted(self.blocks["first"], cells, side="right") - 1]
+    def of_blocks(self, cells: IntArray, *names: str) -> tuple[NDArray[Any], ...]:
+        """Give numbers of the block that each cell is in."""
+        which = np.searchsorted(self.blocks["first"], cells, side="right") - 1
+        return tuple(self.blocks[name][which] for name in names)
 
 
 def build_grid(
@@ -288,7 +289,7 @@ def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:
     """Divide the crowded cells of a level, those that it helps, as far as the budget goes; None without any."""
     counts = np.diff(level.numbers[:, 0])
     cells = np.flatnonzero(counts > CROWDED)
-    cells = cells[level.block_of(cells)["side"] >= 2.0 * finest]
+    cells = cells[level.of_blocks(cells, "side")[0] >= 2.0 * finest]
     if not len(cells):
         return None
     blocks = _parts(work, level, cells, finest)
@@ -310,14 +311,15 @@ def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:
 
 def _parts(work: _Work, level: _Level, cells: IntArray, finest: float) -> NDArray[Any]:
     """Make a block of each cell, with a quarter as many parts as it has entries, or as many."""
-    parents, numbers = level.block_of(cells), level.numbers
+    numbers = level.numbers
+    x0, y0, side, first, columns = level.of_blocks(cells, "x0", "y0", "side", "first", "columns")
     entries = numbers[cells + 1, 0] - numbers[cells, 0]
-    room = np.floor(np.log2(parents["side"] / finest))
+    room = np.floor(np.log2(side / finest))
     bits = np.clip(np.floor(np.log2(entries) / 2), 1, np.minimum(room, MOST_BITS)).astype(np.int64)
-    row, column = np.divmod(cells - parents["first"], parents["columns"])
+    row, column = np.divmod(cells - first, columns)
     blocks = np.zeros(len(cells), dtype=BLOCK)
-    blocks["x0"], blocks["y0"] = (parents[o] + at * parents["side"] for o, at in (("x0", column), ("y0", row)))
-    blocks["side"] = np.ldexp(parents["side"], -bits)
+    blocks["x0"], blocks["y0"] = x0 + column * side, y0 + row * side
+    blocks["side"] = np.ldexp(side, -bits)
     blocks["per_side"] = 1.0 / blocks["side"]
     blocks["reach"] = work.reach(blocks["side"])
     blocks["columns"] = blocks["rows"] = 1 << bits
