@@ -162,7 +162,8 @@ class _Work(Kernels):
         self.budget = GROWTH * len(model.ids) + AT_LEAST
         self.distance, self._spread = sum(radii) / 2, (radii[1] - radii[0]) / 2
         self._rounding = extent * ROUNDING
-        shared = model.lines, model.arcs, model.corners, fans
+        corners = (model.corners, fans) if len(fans) else (None, None)
+        shared = model.lines, model.arcs, *corners
         self._shared = self.given(shared)
         self._falls = model.gravity is not None
 
@@ -242,7 +243,7 @@ class _Work(Kernels):
         """Find the clearings of balls that leave a wall."""
         (lines, arcs, _corners, _fans), edges, cells = self._shared, len(model.lines), grid.columns * grid.rows
         chain, listing = self.room(edges, np.int32), self.room(cells, np.int32)
-        chains, along = self.zeros(4 * cells, np.int32), self.room(edges, np.uint8)
+        chains, along = self.zeros(4 * cells, np.int32), self.room(edges, np.uint16)
         listed = self.given((model.edge_wall, top.numbers.ravel(), top.ids))
         count = self.run(chains_in_cells, lines, arcs, *listed, along, chain, listing, chains)
         self.run(clear_departures, listing, count, chains, grid, clearings)

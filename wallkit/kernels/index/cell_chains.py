@@ -10,7 +10,10 @@ from __future__ import annotations
 from wallkit.kernels.impact.arc_impact import is_wide, to_end
 from wallkit.kernels.index.cell_entries import ALL_OCTANTS, octants_against
 from wallkit.kernels.jit import kernel
+from wallkit.kernels.records import OCTANTS
 
+JOINED, ROUND = 1 << OCTANTS, 2 << OCTANTS
+"""Bits beside those of octants, see ``_look_along``."""
 MANY = -1
 """In place of a chain: what a cell lists is not of one, or none."""
 
@@ -25,7 +28,7 @@ def chains_in_cells(lines, arcs, edge_wall, numbers, ids, along, chain, listing,
         edge_wall: likewise.
         numbers: four of each cell, see ``Table``, sorted.
         ids: that they list.
-        along: (E,) to work with: the octants that lie along all normals of an edge.
+        along: (E,) to work with, of 16 bits: the octants that lie along all normals of an edge, and how it is joined.
         chain: (E,) to work with.
         listing: written: the cells that list something.
         chains: written, by pair and cell: the number of the chain, 0 where nothing is listed, MANY where it is of
@@ -34,14 +37,14 @@ def chains_in_cells(lines, arcs, edge_wall, numbers, ids, along, chain, listing,
     Returns:
         How many cells list something.
     """
-    _octants_along(lines, arcs, along)
+    _look_along(lines, arcs, edge_wall, along)
     cells, count = len(numbers) // 4 - 1, 0
     for cell in range(cells):
         if numbers[4 * cell] != numbers[4 * cell + 4]:
             listing[count] = cell
             count += 1
-    for pair in range(4):
-        _number_chains(lines, edge_wall, along, octant_of_pair(pair), chain)
+    for pair in range(len(chains) // cells):
+        _number_chains(edge_wall, along, octant_of_pair(pair), chain)
         for k in range(count):
             cell = listing[k]
             first = numbers[4 * cell]
@@ -68,8 +71,13 @@ def octant_of_pair(pair):
 
 
 @kernel
-def _octants_along(lines, arcs, along):
-    """Find the octants that lie along all outward normals of each edge: their bits, none for what has no normal."""
+def _look_along(lines, arcs, edge_wall, along):
+    """Find the octants that lie along all outward normals of each edge: their bits, none for what has no normal.
+
+    Added is JOINED where an edge goes on from the one before, of its wall, and ROUND where the first one goes on from
+    it.
+    """
+    first = 0
     for e in range(len(lines)):
         ux, uy = lines[e].nx, lines[e].ny
         wx, wy = ux, uy
@@ -80,39 +88,35 @@ def _octants_along(lines, arcs, along):
                 per = (1.0 if arcs[e].sweep > 0.0 else -1.0) / arcs[e].radius
                 ux, uy, wx, wy = per * arcs[e].sx, per * arcs[e].sy, per * fx, per * fy
                 wide = is_wide(arcs[e].sweep)
-        along[e] = 0 if wide else ALL_OCTANTS - octants_against(ux, uy, wx, wy)
+        bits = 0 if wide else ALL_OCTANTS - octants_against(ux, uy, wx, wy)
+        if e > 0 and edge_wall[e] == edge_wall[e - 1]:
+            bits += JOINED * int((lines[e - 1].bx == lines[e].ax) & (lines[e - 1].by == lines[e].ay))
+        else:
+            first = e
+        # Of the edges of a wall the last one that says so is asked.
+        bits += ROUND * int((lines[e].bx == lines[first].ax) & (lines[e].by == lines[first].ay))
+        along[e] = bits
 
 
 @kernel
-def _number_chains(lines, edge_wall, along, octant, chain):
+def _number_chains(edge_wall, along, octant, chain):
     """Number the chains of edges, from 1, for an octant and the opposite one: by edge, MANY for none."""
-    start, latest = 0, 0
-    for e in range(len(lines)):
-        if e > start and edge_wall[e] != edge_wall[start]:
-            start = e
-        goes_on = e > start and _goes_on(lines, along, octant, e - 1, e)
-        latest += 0 if goes_on else 1
-        chain[e] = latest
-        ends = e + 1 == len(lines) or edge_wall[e + 1] != edge_wall[start]
-        if ends and chain[start] != latest and _goes_on(lines, along, octant, e, start):
-            # The last chain of a closed wall goes on in its first one.
-            k = e
-            while chain[k] == latest:
-                chain[k] = chain[start]
-                k -= 1
-    for e in range(len(lines)):
-        if _side(along[e], octant) == 0:
-            chain[e] = MANY
-
-
-@kernel
-def _goes_on(lines, along, octant, before, after):
-    """Tell whether an edge is joined to the one before, and on the same side."""
-    joined = (lines[before].bx == lines[after].ax) & (lines[before].by == lines[after].ay)
-    return joined and _side(along[before], octant) == _side(along[after], octant)
-
-
-@kernel
-def _side(along, octant):
-    """1 for an edge whose normals lie along an octant, -1 for one whose normals lie against it, else 0."""
-    return ((int(along) >> octant) & 1) - ((int(along) >> (octant ^ 3)) & 1)
+    first, latest, before = 0, 0, 0
+    for e in range(len(edge_wall)):
+        bits = int(along[e])
+        # Along the octant, or against it, or neither.
+        side = ((bits >> octant) & 1) + 2 * ((bits >> (octant ^ 3)) & 1)
+        if edge_wall[e] != edge_wall[first]:
+            first = e
+        if bits & JOINED == 0 or side != before:
+            latest += 1
+        chain[e], before = latest if side > 0 else MANY, side
+        ends = e + 1 == len(edge_wall) or edge_wall[e + 1] != edge_wall[first]
+        if ends and bits & ROUND != 0 and chain[first] != MANY:
+            # The last chain of a closed wall goes on in its first one, if both are on the same side.
+            begins = int(along[first])
+            if ((begins >> octant) & 1) + 2 * ((begins >> (octant ^ 3)) & 1) == side:
+                k = e
+                while chain[k] == latest and k > first:
+                    chain[k] = chain[first]
+                    k -= 1

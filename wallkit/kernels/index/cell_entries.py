@@ -53,7 +53,7 @@ def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
     """Enter edges and corners into the cells of blocks; with no ``ids`` they are only counted.
 
     Blocks speak of ids of ``source``; lines, arcs, their numbers and corners are those of ``Model``, and ``fans`` has
-    a ``Fan`` for each vertex. ``distance`` is that of a centre at a contact. Written are the ``table``, and how many
+    a ``Fan`` for each vertex; both are None for points, which meet no corner. ``distance`` is that of a centre at a contact. Written are the ``table``, and how many
     are ``entered`` by block: more than ``most`` where it was given up.
 
     The functions below take how many entries there are so far, and return how many there are then.
@@ -69,7 +69,7 @@ def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
                 _prefetch_cells(block, source[k + AHEAD], k + AHEAD >= block.corners, lines, corners, table.numbers)
             if k < block.arcs:
                 count = _enter_line(block, lines[source[k]], distance, k, source[k], count, table)
-            elif k >= block.corners:
+            elif corners is not None and k >= block.corners:
                 corner, fan = corners[source[k]], fans[source[k]]
                 # Which way such a fan opens is rounding: both ways are entered.
                 if fan.both > 0.0:
@@ -85,7 +85,7 @@ def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
 @kernel
 def _prefetch_cells(block, entry, is_corner, lines, corners, numbers):
     """Prefetch the cell in the middle of what is entered soon, and those above and below it."""
-    if is_corner:
+    if corners is not None and is_corner:
         x, y = corners[entry].x, corners[entry].y
     else:
         line = lines[entry]

@@ -74,12 +74,10 @@ def all_clear_in_cells(lines, extent, origin, position, radii, box, ends, sorted
         if last < 0.0 or first >= columns or top < 0.0 or bottom >= rows:
             continue
         first_column, last_column = int(max(first, 0.0)), int(min(last, columns - 0.5))
-        near = 0
         for row in range(int(max(bottom, 0.0)), int(min(top, rows - 0.5)) + 1):
             cell = row * columns
-            near += _count_near(line, extent, sorted_balls, ends[cell + first_column], ends[cell + last_column + 1])
-        if near > 0:
-            return False
+            if _any_near(line, extent, sorted_balls, ends[cell + first_column], ends[cell + last_column + 1]):
+                return False
     return True
 
 
@@ -107,13 +105,13 @@ def _cell(x, y, left, low, per_side, columns):
 
 
 @kernel
-def _count_near(line, extent, balls, start, stop):
-    """Count the balls from start to stop that an edge may touch."""
-    near = 0
+def _any_near(line, extent, balls, start, stop):
+    """Tell whether an edge may touch one of the balls from start to stop."""
     for i in range(start, stop):
         ex, ey = balls[3 * i] - line.ax, balls[3 * i + 1] - line.ay
         off, along = ex * line.nx + ey * line.ny, ey * line.nx - ex * line.ny
         beyond = max(max(-along, along - line.length), 0.0)
         reach = balls[3 * i + 2] + MARGIN * (balls[3 * i + 2] + extent)
-        near += 0 if off * off + beyond * beyond > reach * reach else 1
-    return near
+        if not off * off + beyond * beyond > reach * reach:
+            return True
+    return False
