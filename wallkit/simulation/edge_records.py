@@ -117,6 +117,7 @@ def corners_of(
     size: float,
     radius: float,
     *,
+    across: bool = False,
     machine_code: bool = False,
 ) -> Corners:
     """Tell for each vertex where a disc can touch it, see ``write_corners``; ``bulges`` are those of the edges."""
@@ -127,7 +128,7 @@ def corners_of(
     written: Any = (*flat, opened) if machine_code else (*([0.0] * len(one) for one in flat), [0] * count)
     normals = None if arcs is None else np.concatenate(end_normals(lines, bulges)).T.reshape(-1)
     given = kernels.given((np.ravel(vertices), tuple(origin.tolist()), offsets, closed, lines, normals, arcs))
-    kernels.run(write_corners, *given, size, radius, *written)
+    kernels.run(write_corners, *given, size, radius, int(across), *written)
     if not machine_code:
         flat[0][:], flat[1][:], opened[:] = written
     return Corners(corners, fans, opened.view(np.bool_))

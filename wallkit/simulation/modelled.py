@@ -89,7 +89,7 @@ class Modelled:
     ) -> Model:
         walls, radius = scene.walls, float(self.radii.max(initial=0.0))
         edges = len(walls.vertices) - int(np.count_nonzero(~walls.closed))
-        arcs_too, discs = walls.has_arcs, radius > 0.0
+        arcs_too, discs, sides = walls.has_arcs, radius > 0.0, _one_sided(scene)
         if index == "none" or (index == "auto" and edges <= BRUTE_FORCE):
             machine_code = False
         elif not machine_code:
@@ -105,13 +105,15 @@ class Modelled:
         corners = no_corners()
         if discs:
             least = float(self.radii[self.radii > 0.0].min())
-            corners = corners_of(*polylines, lines, arcs, bulges, size, least, machine_code=machine_code)
+            corners = corners_of(
+                *polylines, lines, arcs, bulges, size, least, across=sides is not None, machine_code=machine_code
+            )
         is_line = lines["length"] > 0.0
         kinds = [np.flatnonzero(is_line), np.empty(0, dtype=np.int64), np.flatnonzero(corners.open)]
         if arcs is not None:
             is_arc = arcs["radius"] > 0.0
             kinds[:2] = np.flatnonzero(is_line & ~is_arc), np.flatnonzero(is_arc)
-        gravity, slowing, sides = _gravity(scene), slowing_of(scene), _one_sided(scene)
+        gravity, slowing = _gravity(scene), slowing_of(scene)
         joints, spokes = (None, None) if gravity is None else joints_of(walls, self.origin, lines)
         ids = np.concatenate([*kinds, np.zeros(1, dtype=np.int64)]).astype(np.uint32)
         model = Model(

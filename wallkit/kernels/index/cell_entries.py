@@ -53,8 +53,8 @@ def enter(blocks, source, lines, arcs, corners, fans, distance, table, entered):
     """Enter edges and corners into the cells of blocks; with no ``ids`` they are only counted.
 
     Blocks speak of ids of ``source``; lines, arcs, their numbers and corners are those of ``Model``, and ``fans`` has
-    a ``Fan`` for each vertex; both are None for points, which meet no corner. ``distance`` is that of a centre at a contact. Written are the ``table``, and how many
-    are ``entered`` by block: more than ``most`` where it was given up.
+    a ``Fan`` for each vertex; both are None for points, which meet no corner. ``distance`` is that of a centre at a
+    contact. Written are the ``table``, and how many are ``entered`` by block: more than ``most`` where it was given up.
 
     The functions below take how many entries there are so far, and return how many there are then.
     """

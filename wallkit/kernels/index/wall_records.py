@@ -63,7 +63,7 @@ def write_lines(vertices, origin, offsets, closed, lines, edge_wall):
 
 
 @kernel
-def write_corners(vertices, origin, offsets, closed, lines, normals, arcs, size, radius, corners, fans, opened):
+def write_corners(vertices, origin, offsets, closed, lines, normals, arcs, size, radius, across, corners, fans, opened):
     """Tell for each vertex where a disc can touch it: from one normal of its edges to the other.
 
     Where the wall turns left the fan opens to its right, and the other way round; a free end has half a circle, a
@@ -84,6 +84,8 @@ def write_corners(vertices, origin, offsets, closed, lines, normals, arcs, size,
         arcs: ``Arc`` by edge; None where all are lines.
         size: largest absolute local coordinate.
         radius: of the smallest disc.
+        across: 1 where discs may stand across walls, which one-sided ones let in from behind; else 0. Those touch a
+            free end from all around.
         corners: (4 V,) written, see ``Corner``.
         fans: (6 V,) written, see ``Fan``.
         opened: (V,) written: 1 where a disc can touch the vertex at all, but for rounding; else 0.
@@ -118,6 +120,7 @@ def write_corners(vertices, origin, offsets, closed, lines, normals, arcs, size,
             elif not leaves:
                 wx, wy = -ux, -uy
             cross = ux * wy - uy * wx
+            known = across == 0 and not (arrives and leaves)
             opened[first + k] = int(bare or abs(cross) > SMOOTH or ux * wx + uy * wy <= 0.0)
             if cross < 0.0:
                 ux, uy, wx, wy = -wx, -wy, -ux, -uy
@@ -126,7 +129,7 @@ def write_corners(vertices, origin, offsets, closed, lines, normals, arcs, size,
             at = FAN_SIZE * (first + k)
             fans[at + FAN_AT.ux], fans[at + FAN_AT.uy], fans[at + FAN_AT.wx], fans[at + FAN_AT.wy] = ux, uy, wx, wy
             fans[at + FAN_AT.wide] = 1.0 if bare else 0.0
-            fans[at + FAN_AT.both] = 1.0 if radius * cross * cross < NEARLY_STRAIGHT * rounded else 0.0
+            fans[at + FAN_AT.both] = 1.0 if radius * cross * cross < NEARLY_STRAIGHT * rounded and not known else 0.0
         edge += edges
 
 
