@@ -178,7 +178,7 @@ class Cell(NamedTuple):
 class Fan(NamedTuple):
     """The directions in which a disc can touch a vertex: from u counter-clockwise to w; ``wide`` is 1 for all.
 
-    ``both`` is 1 where it may, by rounding, touch it in the opposite directions too, and at the free end of an edge that
+    ``both`` is 1 where it may touch it in the opposite directions too: by rounding, and at the free end of an edge that
     a disc may stand across.
     """
 
