@@ -132,7 +132,7 @@ class Flights:
             modelled: of this very scene, where it is known.
         """
         self.scene = scene
-        self.modelled = Modelled(scene, index=index) if modelled is None else modelled
+        self.modelled = Modelled(scene, index=index, machine_code=mode == "compiled") if modelled is None else modelled
         self.mode = mode
         position, velocity = np.asarray(scene.balls.position), np.asarray(scene.balls.velocity)
         self.start: FloatArray = np.hstack([position, velocity]).astype(np.float64)
