@@ -100,3 +100,14 @@ def test_nothing_leaves_a_jagged_room_by_its_valleys(seed, radius, restitution, 
         totals = survey(scene, until=100.0, bounces=20_000)
         # 1e-7 is far above the rounding of a hundred units and far below any way out
         assert shapely.contains_xy(room.buffer(1e-7), totals.position).all()
+
+
+@pytest.mark.parametrize("mode", ["interpreted", "compiled"])
+@pytest.mark.parametrize("radius", [0.0, 1.0, 9.0])
+def test_a_ball_falls_from_the_middle_of_a_round_room(radius, mode):
+    # no direction is normal to the wall there: it falls by R - r, in sqrt(2 (R - r) / g)
+    room = Walls.from_polylines([[[-10.0, 0.0], [10.0, 0.0]]], bulges=[[-1.0, -1.0]])
+    scene = Scene(room, Balls([[0.0, 0.0]], [[0.0, 0.0]], radius), gravity=(0.0, -8.0))
+    contact = simulate(scene, bounces=1, mode=mode).contacts[0]
+    assert contact["time"] == pytest.approx(np.sqrt((10.0 - radius) / 4.0), rel=1e-14)
+    assert contact["y"] == pytest.approx(radius - 10.0, rel=1e-14)

@@ -26,7 +26,7 @@ from wallkit.kernels.flight.pendulum import period
 from wallkit.kernels.flight.point_in_corner import came_from, touching
 from wallkit.kernels.flight.slowed_contact import slows
 from wallkit.kernels.flight.vertex import free_side
-from wallkit.kernels.impact.contact_normal import normal_at
+from wallkit.kernels.impact.contact_normal import is_middle, normal_at
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
 from wallkit.kernels.index.grid import home
 from wallkit.kernels.jit import kernel, rare_kernel
@@ -132,6 +132,8 @@ def _laid_on(model, gravity, radius, x, y, vx, vy, last, tolerance):
     cell = model.cells[home(model, model.grid, x, y)]
     for k in range(cell.first, cell.corners):
         edge = int(model.ids[k])
+        if is_middle(model.arcs, edge, x, y):
+            continue
         nx, ny, _twice = normal_at(model, model.arcs, edge, x, y)
         out = 1.0 if radius == 0.0 else _is_out(model, model.arcs, edge, x, y)
         if radius == 0.0:  # a point is on the side from which it is pressed

@@ -22,6 +22,15 @@ def normal_at(model, arcs, edge, x, y):
 
 
 @kernel
+def is_middle(arcs, edge, x, y):
+    """Tell whether a place is the middle of an arc's circle, from which no direction is normal to it."""
+    if arcs is None:
+        return False
+    arc = arcs[edge]
+    return arc.radius > 0.0 and x - arc.ax + arc.sx == 0.0 and y - arc.ay + arc.sy == 0.0
+
+
+@kernel
 def outward(arcs, edge):
     """1 where ``normal_at`` points to the outward side of an edge's wall, else -1."""
     if arcs is not None:
