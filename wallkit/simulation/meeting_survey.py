@@ -29,7 +29,7 @@ def fly_together(ready: PreparedScene, until: float, limit: int, outcome: Outcom
     scene = ready.scene
     crossings = np.zeros((0, 2), dtype=np.int64)
     if ready.sensors is not None and scene.sensors is not None:
-        run = with_crossings(simulate_meeting(scene, until, limit, mode="compiled"))
+        run = with_crossings(simulate_meeting(scene, until, limit, mode="compiled"), "compiled")
         final, endings, bounces = run.final, np.array(run.ending, dtype=np.int64), run.bounces
         walls = run.contacts["wall"][run.contacts["kind"] <= ContactKind.VERTEX]
         hits = np.bincount(walls, minlength=len(scene.walls)).astype(np.int64)

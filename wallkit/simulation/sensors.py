@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
@@ -10,11 +9,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.kernels.flight.sensors import crosses_too, next_crossing, outward
+from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.kernels.compile_aside import at_hand
+from wallkit.kernels.flight.sensors import (
+    CROSSING,
+    CROSSING_STRIDE,
+    crosses_too,
+    next_crossing,
+    note_crossings,
+    outward,
+)
 from wallkit.kernels.flight.sensors_on_circles import next_crossing_round
 from wallkit.kernels.index.grid import home
+from wallkit.kernels.jit import compile_for
 from wallkit.kernels.records import NO_HIT
+from wallkit.kernels.signatures import kinds_of
 from wallkit.scene.scene import Balls, Scene, falls
+from wallkit.simulation.by_kernels import Kernels
 from wallkit.simulation.damping import slowing_of
 from wallkit.simulation.gliding import guides
 from wallkit.simulation.modelled import Modelled
@@ -22,43 +33,56 @@ from wallkit.simulation.motion import Motion
 from wallkit.simulation.run import CONTACT, ContactKind, Run, in_order
 from wallkit.walls import Walls
 
+WORTH_LOADING, WORTH_COMPILING = 1_000, 30_000
+"""Flights from which on compiled kernels pay where they are at hand, and from which on it pays to wait for a compiler:
+interpreted ones take some 8 us a flight."""
 
-def with_crossings(run: Run) -> Run:
+
+def with_crossings(run: Run, mode: str = "auto") -> Run:
     """Add to a run's contacts the crossings of its scene's sensors, in order of time.
 
     A crossing has the kind ``ENTER`` where the centre goes against the sensor's outward normal (into a closed one) and
     ``EXIT`` where it goes along it; wall and edge are those of the sensor, the velocity is that of the ball, which
     it keeps, and the normal is the outward one.
+
+    Args:
+        run: without them.
+        mode: as for ``simulate``; all give the same bits.
     """
     sensors = sensors_of(run.scene)
     if sensors is None:
         return run
-    rows = [
-        row
-        for ball in range(len(run.final))
-        for flight in _flights(run, ball)
-        for row in sensors.crossings_on(ball, *flight)
-    ]
-    return Run(run.scene, together(run.contacts, rows), run.final, run.ending, run.start) if rows else run
+    crossed = sensors.crossings_of(run, mode)
+    return Run(run.scene, _joined(run.contacts, crossed), run.final, run.ending, run.start) if len(crossed) else run
 
 
 def together(contacts: NDArray[Any], rows: list[tuple[Any, ...]]) -> NDArray[Any]:
     """Give contacts together with rows of ``CONTACT``, by time."""
-    crossed = np.zeros(len(rows), dtype=contacts.dtype)
+    return _joined(contacts, np.array(rows, dtype=CONTACT))
+
+
+def _joined(contacts: NDArray[Any], crossed: NDArray[Any]) -> NDArray[Any]:
+    """Give contacts together with crossings, (k,) of ``CONTACT``, by time."""
+    more = np.zeros(len(crossed), dtype=contacts.dtype)
     if "other" in (contacts.dtype.names or ()):
-        crossed["other"] = -1
-    for name, column in zip(CONTACT.names or (), zip(*rows, strict=True), strict=True):
-        crossed[name] = column
-    return in_order(np.concatenate([contacts, crossed]))
+        more["other"] = -1
+    for name in CONTACT.names or ():
+        more[name] = crossed[name]
+    return in_order(np.concatenate([contacts, more]))
 
 
-def _flights(run: Run, ball: int) -> Iterator[tuple[Motion, int, float, float]]:
-    """Give the flights of a ball: what it does, the row of that, from when and until when."""
-    own = run.contacts_of(ball)
-    motion = Motion.after(run.scene, run.start[ball], own, guides(run.scene.walls, own))
-    times = [0.0, *own["time"].tolist(), float(run.final[ball]["time"])]
-    for row, (since, until) in enumerate(itertools.pairwise(times)):
-        yield motion, row, since, until
+def _flights(run: Run) -> tuple[list[Motion], IntArray, FloatArray]:
+    """Give what the balls of a run do, and of each flight, ball by ball: (m,) its ball, (m, 2) from when until when."""
+    owns = [run.contacts_of(ball) for ball in range(len(run.final))]
+    motions = [
+        Motion.after(run.scene, start, own, guides(run.scene.walls, own))
+        for start, own in zip(run.start, owns, strict=True)
+    ]
+    ends = zip(owns, run.final["time"].tolist(), strict=True)
+    since = np.concatenate([part for own in owns for part in ([0.0], own["time"])])
+    until = np.concatenate([part for own, end in ends for part in (own["time"], [end])])
+    ball = np.repeat(np.arange(len(owns)), [1 + len(own) for own in owns])
+    return motions, ball, np.column_stack([since, until])
 
 
 def sensors_of(scene: Scene) -> Sensors | None:
@@ -83,6 +107,61 @@ class Sensors:
     def __init__(self, scene: Scene, walls: Walls) -> None:
         self._modelled = modelled_sensors(scene, walls)
         self._wall, self._edge = self._modelled.index_of_edge(Scene(walls))
+
+    def crossings_of(self, run: Run, mode: str) -> NDArray[Any]:
+        """Give what the balls of a run cross, (k,) of ``CONTACT``: ball by ball, flight by flight, each in order."""
+        motions, ball, spans = _flights(run)
+        state, pull, bend = (np.concatenate([getattr(one, of) for one in motions]) for of in ("state", "pull", "bend"))
+        flights = np.column_stack([state[:, 0:2] - self._modelled.origin, state[:, 2:4], spans])
+        pulled, bent = pull.any(axis=1) | (self._modelled.model.drag is not None), bend != 0.0
+        found, numbers = [np.empty(0, dtype=CONTACT)], [np.empty(0, dtype=np.int64)]
+        for asked, pulls in ((~pulled & ~bent, None), (pulled & ~bent, pull[pulled & ~bent])):
+            if asked.any():
+                rows = self._noted(flights[asked], pulls, mode)
+                numbers.append(np.flatnonzero(asked)[rows[:, CROSSING.flight].astype(np.int64)])
+                found.append(self._contacts(rows, ball[numbers[-1]]))
+        for flight in np.flatnonzero(bent).tolist():
+            of = int(ball[flight])
+            row = flight - int(np.searchsorted(ball, of))
+            told = list(self.crossings_on(of, motions[of], row, *spans[flight].tolist()))
+            numbers.append(np.full(len(told), flight))
+            found.append(np.array(told, dtype=CONTACT))
+        crossed: NDArray[Any] = np.concatenate(found)[np.argsort(np.concatenate(numbers), kind="stable")]
+        return crossed
+
+    def _noted(self, flights: FloatArray, pulls: FloatArray | None, mode: str) -> FloatArray:
+        """Give rows of ``Crossing``, for (m, 6) flights as ``note_crossings`` has them."""
+        machine_code = mode == "compiled" or (mode == "auto" and self._compiles(len(flights), pulls is not None))
+        kernels, model = Kernels(machine_code), self._modelled.model if machine_code else self._modelled.lists
+        given = kernels.given((flights.ravel(), None if pulls is None else pulls.ravel()))
+        pull = None if pulls is None else kernels.room(2, np.float64)
+        parts, flight, room = [], 0, 2 * len(flights) + 16
+        while flight < len(flights):
+            rows = kernels.room(room * CROSSING_STRIDE, np.float64)
+            flight, count = kernels.run(note_crossings, model, pull, *given, flight, rows)
+            parts.append(np.array(rows, dtype=np.float64).reshape(room, CROSSING_STRIDE)[:count])
+            room *= 2
+        return np.concatenate(parts)
+
+    def _compiles(self, flights: int, pulled: bool) -> bool:
+        if flights > WORTH_COMPILING:
+            return True
+        pull = np.empty(2) if pulled else None
+        kinds = kinds_of((self._modelled.model, pull, np.empty(6), pull, 0, np.empty(9)))
+        return flights > WORTH_LOADING and at_hand(compile_for, note_crossings, *kinds)
+
+    def _contacts(self, rows: FloatArray, ball: IntArray) -> NDArray[Any]:
+        """Make ``CONTACT`` of rows of ``Crossing``, and their balls."""
+        contacts = np.zeros(len(rows), dtype=CONTACT)
+        for name in ("time", "vx", "vy", "nx", "ny"):
+            contacts[name] = rows[:, getattr(CROSSING, name)]
+        for place, name in enumerate(("x", "y")):
+            contacts[name] = contacts[f"p{name}"] = rows[:, getattr(CROSSING, name)] + self._modelled.origin[place]
+        edge = rows[:, CROSSING.edge].astype(np.int64)
+        enters = contacts["vx"] * contacts["nx"] + contacts["vy"] * contacts["ny"] < 0.0
+        contacts["ball"], contacts["wall"], contacts["edge"] = ball, self._wall[edge], self._edge[edge]
+        contacts["kind"] = np.where(enters, ContactKind.ENTER, ContactKind.EXIT)
+        return contacts
 
     def crossings_on(
         self, ball: int, motion: Motion, row: int, since: float, until: float

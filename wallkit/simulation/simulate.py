@@ -94,7 +94,7 @@ def simulate(
         check_apart(scene)
         from wallkit.simulation.meeting_run import simulate_meeting
 
-        return with_crossings(simulate_meeting(scene, limit_time, limit_bounces, mode=mode, progress=progress))
+        return with_crossings(simulate_meeting(scene, limit_time, limit_bounces, mode=mode, progress=progress), mode)
     return flown(Flights(scene, mode=mode), limit_time, limit_bounces, progress)
 
 
@@ -109,7 +109,7 @@ def flown(flights: Flights, until: float, bounces: int, progress: Callable[[floa
             if progress is not None:
                 progress(flights.part_done(ball, until, bounces))
     contacts = flights.contacts(logs, owners)
-    return with_crossings(Run(flights.scene, contacts, flights.final(), flights.endings(), flights.start))
+    return with_crossings(Run(flights.scene, contacts, flights.final(), flights.endings(), flights.start), flights.mode)
 
 
 class Flights:

@@ -8,6 +8,7 @@ it, and a vertex on the path has one side for all edges that meet there. So what
 from __future__ import annotations
 
 import math
+from typing import Any, NamedTuple
 
 from wallkit.kernels.flight.damping import free_time, slowed
 from wallkit.kernels.flight.flight import fly, normal_of
@@ -22,6 +23,24 @@ from wallkit.kernels.impact.contact_normal import normal_at
 from wallkit.kernels.index.grid import home
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import COUNT, EDGE, FREE, LOG, LOG_STRIDE, NO_HIT, RUNNING, SLIDE, STATE
+
+
+class Crossing(NamedTuple):
+    """The columns of a crossing that is noted: ``rows[row * CROSSING_STRIDE + CROSSING.time]``."""
+
+    flight: Any
+    time: Any
+    x: Any
+    y: Any
+    vx: Any
+    vy: Any
+    nx: Any
+    ny: Any
+    """Outward unit normal of the sensor there."""
+    edge: Any
+
+
+CROSSING, CROSSING_STRIDE, FLIGHT_STRIDE = Crossing(*range(9)), 9, 6
 
 
 @kernel
@@ -112,18 +131,71 @@ def _turn(arcs, edge):
 @kernel
 def count_crossings(sensors, pull, x, y, vx, vy, since, until, found, first):
     """Count what one flight crosses: into found[first + 2 s] where it enters sensor s, into the next where it exits."""
+    _cross(sensors, pull, x, y, vx, vy, since, until, found, first, None, 0, 0)
+
+
+@kernel
+def note_crossings(sensors, pull, flights, pulls, first, rows):
+    """Note what flights cross, one after the other, each in order.
+
+    Args:
+        sensors: their model.
+        pull: scratch of 2 floats; None where nothing pulls.
+        flights: (6 m,) of each x, y, vx, vy, since and until, local to the sensors.
+        pulls: (2 m,) accelerations.
+        first: the flight to begin with.
+        rows: flat, written: see ``Crossing``.
+
+    Returns:
+        The flight to go on with, m at the end, and how many rows are written; one whose rows find no room is begun
+        again.
+    """
+    count = 0
+    for flight in range(first, len(flights) // FLIGHT_STRIDE):
+        at, before = FLIGHT_STRIDE * flight, count
+        if pull is not None:
+            pull[0], pull[1] = pulls[2 * flight], pulls[2 * flight + 1]
+        count = _cross(
+            sensors, pull, flights[at], flights[at + 1], flights[at + 2], flights[at + 3], flights[at + 4],
+            flights[at + 5], None, 0, rows, flight, count,
+        )  # fmt: skip
+        if CROSSING_STRIDE * count > len(rows):
+            return flight, before
+    return len(flights) // FLIGHT_STRIDE, count
+
+
+@kernel
+def _cross(sensors, pull, x, y, vx, vy, since, until, found, first, rows, flight, count):
+    """Find what one flight crosses; it is counted or, with ``rows``, noted behind ``count`` of them: how many then."""
     time, lost, last = since, 0.0, NO_HIT
     tolerance = 2.0**-47 * max(max(abs(x), abs(y)), sensors.extent)
     while vx != 0.0 or vy != 0.0 or pull is not None:
         x, y, vx, vy, time, lost, last = next_crossing(sensors, pull, x, y, vx, vy, time, lost, until, last, tolerance)
         if last == NO_HIT:
             break
-        _count(sensors, last, x, y, vx, vy, found, first)
+        count = _tell(sensors, last, time + lost, x, y, vx, vy, found, first, rows, flight, count)
         # Where edges meet the search names one of them; the others that are crossed there are asked for.
         cell = sensors.cells[home(sensors, sensors.grid, x, y)]
         for k in range(cell.first, cell.corners):
             if crosses_too(sensors, sensors.ids[k], last, x, y, vx, vy, tolerance):
-                _count(sensors, sensors.ids[k], x, y, vx, vy, found, first)
+                count = _tell(sensors, sensors.ids[k], time + lost, x, y, vx, vy, found, first, rows, flight, count)
+    return count
+
+
+@kernel
+def _tell(sensors, edge, time, x, y, vx, vy, found, first, rows, flight, count):
+    """Count a crossing, or note it; rows for which there is no room are only counted."""
+    if rows is None:
+        _count(sensors, edge, x, y, vx, vy, found, first)
+        return count
+    at = CROSSING_STRIDE * count
+    if at + CROSSING_STRIDE <= len(rows):
+        nx, ny = outward(sensors, edge, x, y)
+        rows[at + CROSSING.flight], rows[at + CROSSING.time] = float(flight), time
+        rows[at + CROSSING.x], rows[at + CROSSING.y] = x, y
+        rows[at + CROSSING.vx], rows[at + CROSSING.vy] = vx, vy
+        rows[at + CROSSING.nx], rows[at + CROSSING.ny], rows[at + CROSSING.edge] = nx, ny, float(edge)
+    return count + 1
 
 
 @kernel
