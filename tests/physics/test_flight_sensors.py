@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from wallkit import Balls, ContactKind, Run, Scene, Walls, simulate, survey
+from wallkit.simulation import sensors as sensors_module
 from wallkit.simulation.run import in_order
 from wallkit.simulation.sensors import _flights, sensors_of
 
@@ -59,8 +60,9 @@ def test_a_border_that_two_sensors_share_is_left_and_entered_at_once(start, velo
 
 
 @pytest.mark.parametrize("mode", ["interpreted", "compiled"])
-def test_a_hundred_sensors_that_one_flight_crosses_are_told_in_order(mode):
-    # more than there is room for at first; the second ball comes the other way and falls
+def test_a_hundred_sensors_that_one_flight_crosses_are_told_in_order(mode, monkeypatch):
+    # more than there is room for at first
+    monkeypatch.setattr(sensors_module, "AT_ONCE", 16)
     place = np.linspace(-49.5, 49.5, 100)
     sensors = Walls.from_polylines([[[x, -90], [x, 90]] for x in place], closed=False)
     scene = Scene(FIELD, Balls([[-90, 0], [90, 0]], [[20, 0], [-30, 0]], 0.5), sensors=sensors)

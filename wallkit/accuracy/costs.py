@@ -57,10 +57,9 @@ def _with_horizon(scene: Scene, bounces: int) -> int:
 
 
 def _sensed(scene: Scene, bounces: int) -> int:
-    """Sensors are asked after the run, in Python: a hundredth of the bounces is enough to time them."""
     from wallkit.simulation.simulate import simulate
 
-    return int(simulate(scene, bounces=max(bounces // 100, 1), mode="compiled").bounces[0])
+    return int(simulate(scene, bounces=bounces, mode="compiled").bounces[0])
 
 
 def _with_sensor() -> Scene:

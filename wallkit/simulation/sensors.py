@@ -37,6 +37,9 @@ WORTH_LOADING, WORTH_COMPILING = 1_000, 30_000
 """Flights from which on compiled kernels pay where they are at hand, and from which on it pays to wait for a compiler:
 interpreted ones take some 8 us a flight."""
 
+AT_ONCE = 1 << 15
+"""Crossings that are found together: 2 MB."""
+
 
 def with_crossings(run: Run, mode: str = "auto") -> Run:
     """Add to a run's contacts the crossings of its scene's sensors, in order of time.
@@ -135,12 +138,13 @@ class Sensors:
         kernels, model = Kernels(machine_code), self._modelled.model if machine_code else self._modelled.lists
         given = kernels.given((flights.ravel(), None if pulls is None else pulls.ravel()))
         pull = None if pulls is None else kernels.room(2, np.float64)
-        parts, flight, room = [], 0, 2 * len(flights) + 16
+        parts, flight, room = [], 0, min(2 * len(flights) + 16, AT_ONCE)
         while flight < len(flights):
-            rows = kernels.room(room * CROSSING_STRIDE, np.float64)
+            rows, before = kernels.room(room * CROSSING_STRIDE, np.float64), flight
             flight, count = kernels.run(note_crossings, model, pull, *given, flight, rows)
-            parts.append(np.array(rows, dtype=np.float64).reshape(room, CROSSING_STRIDE)[:count])
-            room *= 2
+            parts.append(np.array(rows, dtype=np.float64).reshape(room, CROSSING_STRIDE)[:count].copy())
+            if flight == before:
+                room *= 2  # one flight crosses more than that
         return np.concatenate(parts)
 
     def _compiles(self, flights: int, pulled: bool) -> bool:
