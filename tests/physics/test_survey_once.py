@@ -1,12 +1,14 @@
 """A survey whose index is made for it alone: cells as fine as its flights pay for, and the same bits."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import wallkit
 from wallkit.simulation import expected_flights as flights
+from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.prepared import prepare_once
 
 EDGES = 400
@@ -34,6 +36,14 @@ def test_few_flights_get_large_cells_and_the_same_bits(radius):
 def test_many_flights_get_the_cells_of_prepare():
     many = scene(40)
     assert len(prepare_once(many, 1e5, 1 << 40).modelled.model.cells) == len(wallkit.prepare(many).modelled.model.cells)
+
+
+def test_under_gravity_few_flights_go_through_the_cells_of_a_run():
+    # the way along a wall is rounded at the borders of cells: a survey ends where a run does, to the bit
+    falling = replace(scene(40, 2.0), gravity=(0.0, -30.0))
+    once, run = prepare_once(falling, 1.0, 1 << 40).modelled.model, Modelled(falling).model
+    assert once.grid == run.grid
+    assert once.cells.tobytes() == run.cells.tobytes()
 
 
 def expected_flights(scene, until, bounces):

@@ -36,7 +36,8 @@ FINE, COARSE, PER_EDGE, ONCE = 0.2, 0.6, 0.8, 0.8
 """Side of the cells before any is divided, measured: 0.8 of the mean length of an edge, so that a cell that lists
 something lists one or two. In units of sqrt(area / edges) it is at least 0.2 (25 cells an edge; more fall out of the
 cache), and at most 0.6 (where edges are long and many meet). For few flights, by which an index is paid once, it is 0.8
-of that unit: in curves and mazes of 10,000 lines a third fewer cells to make than at 0.6, and flights as quick."""
+of that unit, without gravity: in curves and mazes of 10,000 lines there are half as many cells to make as at 0.6, and
+flights are as quick. Under gravity the way along a wall is gone cell by cell, and rounded at each of their borders."""
 WORTH_SMALL_CELLS = 12.0
 """Flights an edge from which on the smaller cells pay, measured: they are 0.8 to 1.8 us an edge more to make in a curve
 of 10,000 lines, 0.1 us in a maze, and a flight among them takes some 60 ns less, and 4 ns."""
@@ -88,7 +89,6 @@ def build_grid(
     box: FloatArray,
     radii: tuple[float, float],
     extent: float,
-    length: float,
     *,
     machine_code: bool = False,
     flights: float = 0.0,
@@ -101,7 +101,6 @@ def build_grid(
         box: (2, 2) lowest and highest corner of a box that no edge reaches beyond.
         radii: smallest and largest distance of a centre at a contact.
         extent: largest absolute coordinate of a centre.
-        length: mean length of edges, of arcs that of their chords.
         machine_code: use compiled kernels; the same cells come of both.
         flights: so many are to come, an edge: many pay for small cells, of which there are more to make, and which
             list fewer entries to look at.
@@ -112,7 +111,7 @@ def build_grid(
     keep_freed_memory()
     work = _Work(model, fans, radii, extent, machine_code)
     finest = SMALLEST * extent
-    level: _Level | None = _first_level(work, model, box, length, flights >= WORTH_SMALL_CELLS)
+    level: _Level | None = _first_level(work, model, box, flights >= WORTH_SMALL_CELLS)
     levels = []
     while level is not None:
         levels.append(level)
@@ -249,11 +248,12 @@ class _Work(Kernels):
         self.run(clear_departures, listing, count, chains, grid, clearings)
 
 
-def _first_level(work: _Work, model: Model, box: FloatArray, length: float, fine: bool) -> _Level:
+def _first_level(work: _Work, model: Model, box: FloatArray, fine: bool) -> _Level:
     """Enter all that the model's one cell lists; where that comes to too many entries, into larger cells."""
     first, arcs, corners, end = model.cells[0].tolist()
     width, height = (box[1] - box[0]).tolist()
-    side = _side(width, height, corners, length, fine)
+    length = _mean_length(model)
+    side = _side(width, height, corners, length, fine, model.gravity is not None)
     while True:
         beyond = work.distance + work.reach(side)
         low, high = box[0] - beyond, box[1] + beyond
@@ -279,11 +279,19 @@ def _expected(distance: float, edges: int, corners: int, length: float, side: fl
     return math.ceil(along), math.ceil(corners * (1.0 + cells * math.pi * distance))
 
 
-def _side(width: float, height: float, count: int, length: float, fine: bool) -> float:
+def _side(width: float, height: float, count: int, length: float, fine: bool, falls: bool) -> float:
     longest, even = max(width, height), math.sqrt(width * height / count)
-    side = max(FINE * even, min(COARSE * even, PER_EDGE * length)) if fine else ONCE * even
+    side = COARSE * even if falls else ONCE * even
+    if fine:
+        side = max(FINE * even, min(COARSE * even, PER_EDGE * length))
     least = math.sqrt(width * height / max(MOST_CELLS, 2.0 * count))
     return max(side, least, longest / (4.0 * count + 64.0), longest * 2.0**-20)
+
+
+def _mean_length(model: Model) -> float:
+    """Mean length of edges, of arcs that of their chords."""
+    lengths = model.lines["length"]
+    return float(lengths.sum()) / max(int(np.count_nonzero(lengths)), 1)
 
 
 def _next_level(work: _Work, level: _Level, finest: float) -> _Level | None:

@@ -37,14 +37,12 @@ class Lines(NamedTuple):
         wall: (E,) the wall of each.
         around: how long those of closed walls are together.
         along: how long those of open walls are.
-        measured: how many have a length.
     """
 
     records: NDArray[Any]
     wall: IntArray
     around: float
     along: float
-    measured: int
 
 
 def columns(table: FloatArray) -> FloatArray:
@@ -67,10 +65,10 @@ def lines_of(
         (records.view(np.float64), wall) if machine_code else (kernels.room(LINE_SIZE * count, float), [0] * count)
     )
     given = kernels.given((np.ravel(vertices), tuple(origin.tolist()), offsets, closed))
-    around, along, measured = kernels.run(write_lines, *given, *written)
+    around, along = kernels.run(write_lines, *given, *written)
     if not machine_code:
         records.view(np.float64)[:], wall[:] = written
-    return Lines(records, wall, around, along, measured)
+    return Lines(records, wall, around, along)
 
 
 def arcs_of(lines: NDArray[Any], bulges: FloatArray) -> NDArray[Any] | None:

@@ -89,31 +89,31 @@ class Modelled:
     ) -> Model:
         walls, radius = scene.walls, float(self.radii.max(initial=0.0))
         edges = len(walls.vertices) - int(np.count_nonzero(~walls.closed))
-        arcs_too, discs, sides = walls.has_arcs, radius > 0.0, _one_sided(scene)
+        arcs_too, discs, sides, gravity = walls.has_arcs, radius > 0.0, _one_sided(scene), _gravity(scene)
         if index == "none" or (index == "auto" and edges <= BRUTE_FORCE):
             machine_code = False
         elif not machine_code:
             machine_code = _machine_code_pays(edges + discs * len(walls.vertices), arcs_too)
         polylines = walls.vertices, walls.offsets, walls.closed, self.origin
-        lines, edge_wall, closed_ones, open_ones, measured = lines_of(*polylines, machine_code=machine_code)
+        lines, edge_wall, closed_ones, open_ones = lines_of(*polylines, machine_code=machine_code)
         corner_wall = np.repeat(np.arange(len(walls)), np.diff(walls.offsets))
         bulges, arcs = np.empty(0), None
         if arcs_too:
             bulges = walls.bulges[walls.edge_starts]
             arcs = arcs_of(lines, bulges)
         size = max(abs(one - origin) for one, origin in zip(around, 2 * self.origin.tolist(), strict=True))
+        # Under gravity the way along a wall is gone cell by cell, and rounded there: its cells list what they did.
+        across = sides is not None or gravity is not None
         corners = no_corners()
         if discs:
             least = float(self.radii[self.radii > 0.0].min())
-            corners = corners_of(
-                *polylines, lines, arcs, bulges, size, least, across=sides is not None, machine_code=machine_code
-            )
+            corners = corners_of(*polylines, lines, arcs, bulges, size, least, across=across, machine_code=machine_code)
         is_line = lines["length"] > 0.0
         kinds = [np.flatnonzero(is_line), np.empty(0, dtype=np.int64), np.flatnonzero(corners.open)]
         if arcs is not None:
             is_arc = arcs["radius"] > 0.0
             kinds[:2] = np.flatnonzero(is_line & ~is_arc), np.flatnonzero(is_arc)
-        gravity, slowing = _gravity(scene), slowing_of(scene)
+        slowing = slowing_of(scene)
         joints, spokes = (None, None) if gravity is None else joints_of(walls, self.origin, lines)
         ids = np.concatenate([*kinds, np.zeros(1, dtype=np.int64)]).astype(np.uint32)
         model = Model(
@@ -150,13 +150,12 @@ class Modelled:
         if farthest > FAR * model.extent:
             return model
         box = np.array(self.box).reshape(2, 2) - self.origin
-        length, flights = closed_ones + open_ones, math.inf
+        flights = math.inf
         if limits is not None:
-            flights = expected_flights(scene, around, length + open_ones, *limits) / edges
+            flights = expected_flights(scene, around, closed_ones + 2.0 * open_ones, *limits) / edges
         grid, cells, ids, clearings = build_grid(
-            model, corners.fans, box, (least, radius), farthest, length / max(measured, 1),
-            machine_code=machine_code, flights=flights,
-        )  # fmt: skip
+            model, corners.fans, box, (least, radius), farthest, machine_code=machine_code, flights=flights
+        )
         return model._replace(ids=ids, cells=cells, grid=grid, clearings=clearings)
 
     def with_balls(self, balls: Balls) -> Modelled | None:

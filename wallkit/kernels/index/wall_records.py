@@ -30,10 +30,10 @@ def write_lines(vertices, origin, offsets, closed, lines, edge_wall):
         edge_wall: (E,) written: the wall of each edge.
 
     Returns:
-        How long the edges of closed walls are together, those of open ones, and how many have a length.
+        How long the edges of closed walls are together, and those of open ones.
     """
     x0, y0 = origin
-    around, along, count, edge = 0.0, 0.0, 0, 0
+    around, along, edge = 0.0, 0.0, 0
     for wall in range(len(closed)):
         first, end = offsets[wall], offsets[wall + 1]
         bx, by = vertices[2 * first] - x0, vertices[2 * first + 1] - y0
@@ -47,7 +47,6 @@ def write_lines(vertices, origin, offsets, closed, lines, edge_wall):
             if length > 0.0:
                 nx, ny = dy / length, -dx / length
                 twice = 2.0 / (nx * nx + ny * ny)
-                count += 1
             if closed[wall]:
                 around += length
             else:
@@ -59,7 +58,7 @@ def write_lines(vertices, origin, offsets, closed, lines, edge_wall):
             lines[at + LINE_AT.length], lines[at + LINE_AT.twice] = length, twice
             edge_wall[edge] = wall
             edge += 1
-    return around, along, count
+    return around, along
 
 
 @kernel
