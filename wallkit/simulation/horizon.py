@@ -46,6 +46,7 @@ some rounding of a place over the speed of the last of them, is seen nowhere els
 
 from __future__ import annotations
 
+import contextlib
 import math
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -67,7 +68,7 @@ from wallkit.kernels.flight.error_growth import (
     stretch,
 )
 from wallkit.kernels.impact.leaving import LEVEL_SPEED
-from wallkit.kernels.jit import compile_for, compiled
+from wallkit.kernels.jit import NotCompiledError, compile_for, compiled, never_compiling
 from wallkit.kernels.signatures import kinds_of
 from wallkit.scene.scene import Scene
 from wallkit.simulation.contact_errors import SURE, Course, drawing_errors, roundings
@@ -192,17 +193,22 @@ def _promised(known: FloatArray, rms: FloatArray) -> FloatArray:
     return TWICE * known + SURE * rms
 
 
-def _errors(scene: Scene, own: Any, ball: int, source: ErrorSource) -> tuple[FloatArray, FloatArray]:
-    """(2, n) errors of the place of each contact, and of the velocity after it: known, and the root mean square."""
+def _errors(
+    scene: Scene, own: Any, ball: int, source: ErrorSource, at_hand: bool = False
+) -> tuple[FloatArray, FloatArray]:
+    """(2, n) errors of the place of each contact, and of the velocity after it: known, and the root mean square.
+
+    What is ``at_hand`` of machine code is used for few contacts, too.
+    """
     if len(own) > 2 * FIRST:  # chaos has multiplied them beyond all numbers long before
-        first = _errors(scene, own[:FIRST], ball, source)
+        first = _errors(scene, own[:FIRST], ball, source, at_hand=len(own) > COMPILED_FROM)
         if math.isinf(first[1][0, -1]):
             known, rms = (np.pad(part, ((0, 0), (0, len(own) - FIRST)), constant_values=np.inf) for part in first)
             return known, rms
     with np.errstate(over="ignore", invalid="ignore"):  # as compiled kernels do
         carried = _carried(scene, own, ball, source)
         variance, sums = carried[-2:]
-        _kernel(carry, len(own))(*carried)
+        _carry(carried, len(own), at_hand)
     for table in (variance, sums):
         table[~(table >= 0.0)] = np.inf  # overflown on the way: beyond any promise
     # a ball that stands is exactly still; one that damping slowed down has lost as much of its error as of its speed
@@ -247,6 +253,15 @@ def growth(scene: Scene, own: Any, ball: int = 0) -> FloatArray:
     logs = np.zeros(len(own))
     _kernel(stretch, len(own))(*_course(scene, own, ball), np.array([0.6, 0.3, 0.2, 0.7]), logs)
     return logs
+
+
+def _carry(carried: tuple[Any, ...], contacts: int, at_hand: bool) -> None:
+    """Carry errors along: interpreted where few contacts would have to wait for a compiler."""
+    if at_hand:
+        with contextlib.suppress(NotCompiledError), never_compiling():
+            compiled(carry)(*carried)
+            return
+    _kernel(carry, contacts)(*carried)
 
 
 def _kernel(function: Any, contacts: int) -> Any:

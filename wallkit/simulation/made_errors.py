@@ -109,12 +109,14 @@ def made_errors(
     if scene.drag or damping_of(scene) is not None or not flown.any():
         return made, known
     rows, told = np.flatnonzero(flown), _told(scene, own, ball)
+    with np.errstate(all="ignore"):  # an edge without length has no normal, and is not met
+        edges = _Edges(scene, edges_of(scene.walls, own))
     joins = np.isin(np.concatenate([path[1:, 5], [ENDS]]), (STOPS, SLOWS))
     radius = float(np.broadcast_to(np.asarray(scene.balls.radius), len(scene.balls))[ball])
     for some in np.array_split(rows, 1 + len(rows) // BLOCK):
         bounces = path[some, 5] == BOUNCES
         with np.errstate(all="ignore"):  # what overflows is no number, and not known
-            gap = _gap(scene, own[some], path[some, 3:5], radius)
+            gap = _gap(scene, own[some], edges.at(some), path[some, 3:5], radius)
             found, late = _errors(scene, told[some], told[some + 1], gap, keep[some], bounces)
             if joins[some].any():
                 found[:, 2:4] -= _off_the_wall(gap, told[some + 1, 1:3], joins[some])
@@ -137,12 +139,11 @@ def _errors(
     scene: Scene, then: FloatArray, now: FloatArray, gap: Gap, keep: FloatArray, bounces: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray]:
     """Errors as of :func:`made_errors`, and by how much later than told what is met is met."""
-    gravity = np.broadcast_to(np.asarray(scene.gravity or (0.0, 0.0), dtype=np.float64), (len(then), 2))
-    time, g = Double.of(now[:, 0]).minus(Double.of(then[:, 0])), Vector.of(gravity)
-    place, velocity = Vector.of(then[:, 1:3]), Vector.of(then[:, 3:5])
-    gained = g.times(time)
-    place = place.plus(velocity.plus(Vector(gained.x.scaled(0.5), gained.y.scaled(0.5))).times(time))
-    velocity = velocity.plus(gained)
+    g = None
+    if scene.gravity is not None:
+        g = Vector.of(np.broadcast_to(np.asarray(scene.gravity, dtype=np.float64), (len(then), 2)))
+    time = Double.of(now[:, 0]).minus(Double.of(then[:, 0]))
+    place, velocity = _flown(Vector.of(then[:, 1:3]), Vector.of(then[:, 3:5]), g, time)
     # One step of Newton's to where the gap is 0; it is off by late^2, a rounding of a rounding.
     beyond, normal = gap.at(place)
     late = np.where(bounces, -beyond.rounded() / normal.dot(velocity).rounded(), 0.0)
@@ -156,11 +157,23 @@ def _errors(
     ), late
 
 
-def _moved(place: Vector, velocity: Vector, g: Vector, time: FloatArray) -> tuple[Vector, Vector]:
+def _flown(place: Vector, velocity: Vector, g: Vector | None, time: Double) -> tuple[Vector, Vector]:
+    """Place and velocity a time later: p + (v + g t / 2) t, v + g t."""
+    if g is None:
+        return place.plus(velocity.times(time)), velocity
+    gained = g.times(time)
+    half = velocity.plus(Vector(gained.x.scaled(0.5), gained.y.scaled(0.5)))
+    return place.plus(half.times(time)), velocity.plus(gained)
+
+
+def _moved(place: Vector, velocity: Vector, g: Vector | None, time: FloatArray) -> tuple[Vector, Vector]:
     """Place and velocity a time later, so short that its own rounding matters no more."""
     t = Double.of(time)
+    moved = place.plus(velocity.times(t))
+    if g is None:
+        return moved, velocity
     gained = g.times(t)
-    return place.plus(velocity.times(t)).plus(gained.times(Double.of(0.5 * time))), velocity.plus(gained)
+    return moved.plus(gained.times(Double.of(0.5 * time))), velocity.plus(gained)
 
 
 def _turned(velocity: Vector, normal: Vector, keep: FloatArray, bounces: NDArray[np.bool_]) -> Vector:
@@ -183,25 +196,46 @@ def _off_the_wall(gap: Gap, places: FloatArray, joins: NDArray[np.bool_]) -> Flo
     return part[:, None] * n
 
 
-def _gap(scene: Scene, own: NDArray[Any], normals: FloatArray, radius: float) -> Gap:
+class _Edges:
+    """a, m and K of the edges that a ball has met, each worked out once."""
+
+    def __init__(self, scene: Scene, edge: IntArray) -> None:
+        walls, starts, ends = scene.walls, scene.walls.edge_starts, scene.walls.edge_ends
+        met = np.zeros(len(starts), dtype=np.bool_)
+        met[edge] = True
+        used, number = np.flatnonzero(met), np.cumsum(met) - 1
+        self._which = number[edge]
+        start = starts[used]
+        k = Double.of(walls.bulges[start] if walls.has_arcs else np.zeros(len(used)))
+        self._a, b = Vector.of(walls.vertices[start]), Vector.of(walls.vertices[ends[used]])
+        chord, square, one = b.minus(self._a), k.times(k), Double.of(np.ones(len(used)))
+        size = chord.dot(chord).root().times(one.plus(square))
+        right = Vector(chord.y, chord.x.scaled(-1.0)).times(one.minus(square))
+        m = right.minus(chord.times(k.scaled(2.0)))
+        self._m, self._bend = Vector(m.x.over(size), m.y.over(size)), k.scaled(4.0).over(size)
+
+    def at(self, rows: IntArray) -> tuple[Vector, Vector, Double]:
+        """Those of the edges of some contacts."""
+        which = self._which[rows]
+
+        def of(numbers: Double) -> Double:
+            return Double(numbers.high[which], numbers.low[which])
+
+        return Vector(*map(of, self._a)), Vector(*map(of, self._m)), of(self._bend)
+
+
+def _gap(
+    scene: Scene, own: NDArray[Any], edges: tuple[Vector, Vector, Double], normals: FloatArray, radius: float
+) -> Gap:
     """What each contact's ball has met; for a row that is no bounce, something harmless."""
-    walls = scene.walls
-    edge, corner = edges_of(walls, own), own["edge"] < 0
-    start = walls.edge_starts[edge]
-    k = Double.of(walls.bulges[start] if walls.has_arcs else np.zeros(len(own)))
-    a, b = Vector.of(walls.vertices[start]), Vector.of(walls.vertices[walls.edge_ends[edge]])
-    chord, square, one = b.minus(a), k.times(k), Double.of(np.ones(len(own)))
-    size = chord.dot(chord).root().times(one.plus(square))
-    right = Vector(chord.y, chord.x.scaled(-1.0)).times(one.minus(square))
-    m = right.minus(chord.times(k.scaled(2.0)))
-    m, bend = Vector(m.x.over(size), m.y.over(size)), k.scaled(4.0).over(size)
+    (a, m, bend), corner = edges, own["edge"] < 0
     r = Double.of(np.full(len(own), radius))
     place = np.stack([own["x"], own["y"]], axis=1)
     out = m.rounded() + bend.rounded()[:, None] * (place - a.rounded())
     side = Double.of(np.sign((out * normals).sum(axis=1)))
     touch = side.times(r).plus(bend.times(r).times(r).scaled(0.5))
     if corner.any():
-        vertex = Vector.of(walls.vertices[_vertices_of(scene, own[corner], radius)])
+        vertex = Vector.of(scene.walls.vertices[_vertices_of(scene, own[corner], radius)])
         none = Double.of(np.zeros(np.count_nonzero(corner)))
         r = Double.of(np.full(np.count_nonzero(corner), radius))
         bent = Double.of(np.ones(len(r.high))).over(r)
