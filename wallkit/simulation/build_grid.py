@@ -32,12 +32,14 @@ ROUNDING = 2.0**-39
 under gravity may be off (``FALLING_TOLERANCE``)."""
 SMALLEST = 2.0**-28
 """Side of the smallest cells, in parts of the largest coordinate: what ROUNDING adds to them is 2^-11 of their side."""
-FINE, COARSE, PER_EDGE, ONCE = 0.2, 0.6, 0.8, 0.8
+FINE, COARSE, PER_EDGE = 0.2, 0.6, 0.8
 """Side of the cells before any is divided, measured: 0.8 of the mean length of an edge, so that a cell that lists
 something lists one or two. In units of sqrt(area / edges) it is at least 0.2 (25 cells an edge; more fall out of the
-cache), and at most 0.6 (where edges are long and many meet). For few flights, by which an index is paid once, it is 0.8
-of that unit, without gravity: in curves and mazes of 10,000 lines there are half as many cells to make as at 0.6, and
-flights are as quick. Under gravity the way along a wall is gone cell by cell, and rounded at each of their borders."""
+cache), and at most 0.6 (where edges are long and many meet)."""
+ONCE, MANY = 0.8, 1_000
+"""Side, in the same units, of the cells among so many edges or more for few flights without gravity: in curves and
+mazes of 3,000 lines and more that are half as many cells to make as at 0.6, and flights are as quick. Under gravity the
+way along a wall is gone cell by cell, and rounded at each of their borders."""
 WORTH_SMALL_CELLS = 12.0
 """Flights an edge from which on the smaller cells pay, measured: they are 0.8 to 1.8 us an edge more to make in a curve
 of 10,000 lines, 0.1 us in a maze, and a flight among them takes some 60 ns less, and 4 ns."""
@@ -281,7 +283,7 @@ def _expected(distance: float, edges: int, corners: int, length: float, side: fl
 
 def _side(width: float, height: float, count: int, length: float, fine: bool, falls: bool) -> float:
     longest, even = max(width, height), math.sqrt(width * height / count)
-    side = COARSE * even if falls else ONCE * even
+    side = ONCE * even if count >= MANY and not falls else COARSE * even
     if fine:
         side = max(FINE * even, min(COARSE * even, PER_EDGE * length))
     least = math.sqrt(width * height / max(MOST_CELLS, 2.0 * count))
