@@ -110,10 +110,10 @@ def _telling(points: FloatArray) -> NDArray[np.bool_]:
     kept = np.ones(len(points), dtype=np.bool_)
     if len(points) < 3:
         return kept
-    way = np.diff(points, axis=0)
-    x, y = way.T
-    length = np.hypot(x, y)
-    turn = np.abs(np.arctan2(x[:-1] * y[1:] - y[:-1] * x[1:], x[:-1] * x[1:] + y[:-1] * y[1:]))
+    with np.errstate(invalid="ignore", over="ignore"):  # what has no place is left out later
+        x, y = np.diff(points, axis=0).T
+        length = np.hypot(x, y)
+        turn = np.abs(np.arctan2(x[:-1] * y[1:] - y[:-1] * x[1:], x[:-1] * x[1:] + y[:-1] * y[1:]))
     passed = np.floor(np.cumsum(np.sqrt(turn * np.maximum(length[1:], length[:-1]) / (2 * _OFF))))
     kept[1:-1] = np.diff(passed, prepend=0.0) != 0.0
     return kept
