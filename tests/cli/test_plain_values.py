@@ -1,5 +1,6 @@
 """Plain values reach a command as Typer itself gives them, and nothing is imported that would convert them."""
 
+import os
 import subprocess
 import sys
 from typing import Annotated, Literal
@@ -75,15 +76,35 @@ def test_a_command_is_given_what_typer_gives_it(words):
     assert said(True, words.split()) == said(False, words.split())
 
 
-def test_a_small_simulation_imports_nothing_that_converts_values():
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["samples/lagoon.ai", "--ball", "396,150", "--radius", "2.5", "--bounces", "20", "--no-meeting"],
+        ["samples/room.svg", "--bounces", "50"],  # with contacts at corners, which the horizon looks up
+    ],
+)
+def test_a_small_simulation_imports_nothing_heavy(words):
+    late = "{'pydantic', 'rich', 'llvmlite', 'scipy', 'numpy.ma', 'PIL', 'json'}"
     code = (
-        "import sys; sys.argv = ['wallkit', 'simulate', 'samples/lagoon.ai', '--ball', '396,150', '--radius', '2.5', "
-        "'--bounces', '20', '--no-meeting']\n"
+        f"import sys; sys.argv = ['wallkit', 'simulate', *{words}]\n"
         "from wallkit.cli import main\n"
-        "late = {'pydantic', 'rich', 'llvmlite', 'scipy', 'numpy.ma', 'PIL'}\n"
         "try: main()\n"
-        "finally: print(late & set(sys.modules), file=sys.stderr)\n"
+        f"finally: print({late} & set(sys.modules), file=sys.stderr)\n"
     )
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert result.returncode == 0, result.stderr
     assert result.stderr.splitlines()[-1] == "set()"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="nothing tells how many threads there are")
+def test_a_command_begins_no_threads_for_matrices():
+    # Of OpenBLAS, as it is imported with NumPy; Linux tells how many threads a process has.
+    code = (
+        "import sys; sys.argv = ['wallkit', 'simulate', 'samples/room.svg', '--bounces', '5']\n"
+        "from wallkit.cli import main\n"
+        "try: main()\n"
+        "finally: print(open('/proc/self/status').read().partition('Threads:')[2].split()[0], file=sys.stderr)\n"
+    )
+    environment = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+    assert result.stderr.splitlines()[-1] == "1", result.stderr

@@ -48,7 +48,7 @@ def test_a_film_shows_the_sensors_where_they_are(run):
     (x, top), (_, bottom) = frames.frame.points(np.array([(60.0, 60.0), (60.0, 10.0)]))
     assert len(rows) > 0.4 * (bottom - top)  # dashed: a little more than half of it is there
     assert np.abs(columns + 0.5 - x).max() <= 1.5  # a line as wide as a pixel, smoothed
-    assert top - 1 <= rows.min() <= rows.max() <= bottom + 1
+    assert top - 1 <= rows.min() + 0.5 <= rows.max() + 0.5 <= bottom + 1  # middles: half the pen, and half a ramp
 
 
 def test_the_caption_says_how_fast_and_how_much(run):

@@ -7,6 +7,7 @@ left to Typer, errors included.
 
 from __future__ import annotations
 
+import inspect
 import re
 from collections.abc import Callable
 from functools import cached_property
@@ -27,8 +28,12 @@ class _Plain:
 
     @cached_property
     def _hints(self) -> dict[str, Any]:
-        """Types that the command says for its parameters, by name, with what is said about them."""
-        return get_type_hints(self.callback, include_extras=True) if self.callback is not None else {}
+        """Types that the command says for its parameters, by name, with what is said about them.
+
+        Typer wraps the command. From Python 3.14 on that loses annotations which were set by hand, as those of commands
+        that are given the options of the import are.
+        """
+        return {} if self.callback is None else get_type_hints(inspect.unwrap(self.callback), include_extras=True)
 
     def get_params(self, ctx: Any) -> list[Any]:
         """Give the parameters, --help among them; each leaves plain values as they are."""

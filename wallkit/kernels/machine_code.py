@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import hashlib
-import json
 import os
 import struct
 import sys
@@ -87,6 +86,8 @@ def needs_of(module: Any) -> tuple[str, ...]:
 
 def read(file: Path) -> Code | None:
     """Read machine code: None where there is none, or not the whole of it, or where it needs what is not here."""
+    import json  # late: small runs need no machine code
+
     try:
         told, _, image = file.read_bytes().partition(b"\n")
         symbol, result, needs, check = json.loads(told)
@@ -97,6 +98,8 @@ def read(file: Path) -> Code | None:
 
 
 def _check_of(code: Code) -> int:
+    import json
+
     return zlib.crc32(code.image, zlib.crc32(json.dumps([code.symbol, code.result, code.needs]).encode()))
 
 
@@ -110,6 +113,8 @@ def _provided(needs: tuple[str, ...]) -> bool:
 
 def write(file: Path, code: Code) -> None:
     """Write machine code, as a whole or not at all; where nothing can be written it is not."""
+    import json
+
     told = json.dumps([code.symbol, code.result, code.needs, _check_of(code)])
     part = file.with_name(f"{file.name}.{os.getpid()}-{threading.get_ident()}")
     with contextlib.suppress(OSError):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from typing import Literal
 
@@ -25,6 +24,8 @@ def kind_of(data: bytes) -> FileKind:
 
 
 def _format_of(data: bytes) -> str:
+    import json  # late: drawings do not need it
+
     try:
         return str(json.loads(data.decode("utf-8-sig")).get("format", ""))
     except (ValueError, RecursionError, AttributeError):

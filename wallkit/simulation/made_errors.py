@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.arrays import FloatArray, IntArray, distinct
 from wallkit.geometry.double_double import Double
 from wallkit.kernels.flight.error_growth import BOUNCES, ENDS, LEAVES, SLOWS, STOPS
 from wallkit.scene.scene import Scene
@@ -249,7 +249,7 @@ def _vertices_of(scene: Scene, own: NDArray[Any], radius: float) -> IntArray:
     walls = scene.walls
     x, y = own["x"] - radius * own["nx"], own["y"] - radius * own["ny"]
     found = np.zeros(len(own), dtype=np.int64)
-    for wall in np.unique(own["wall"]):
+    for wall in distinct(own["wall"]).tolist():
         mine = np.flatnonzero(own["wall"] == wall)
         of_wall = np.arange(walls.offsets[wall], walls.offsets[wall + 1])
         places = walls.vertices[of_wall]

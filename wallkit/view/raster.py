@@ -4,23 +4,42 @@ from __future__ import annotations
 
 import functools
 import math
+from typing import NamedTuple
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from wallkit.geometry.arrays import FloatArray
+from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.path_segments import polylines
+from wallkit.view.areas import fill, ring
 from wallkit.view.canvas import Bitmap, Canvas, Disc, Item, Label, Shape
-from wallkit.view.masks import Mask, fill, ring, stroke
-from wallkit.view.pixels import Pixels
-from wallkit.view.theme import STYLES, Theme, colour, ramp
+from wallkit.view.cover import Mask
+from wallkit.view.pixels import Pixels, number_of
+from wallkit.view.strokes import strokes
+from wallkit.view.theme import RAMP_STEPS, STYLES, Theme, colour, ramp
 
+_TOGETHER = 100
+"""Points of strokes that are looked for at once, about: those of many points take their time alone as well."""
 _ANCHORS = {"start": "ls", "middle": "ms", "end": "rs"}
 
 
 def png(canvas: Canvas, theme: Theme = "light", scale: float = 2.0) -> bytes:
     """Give the picture as a PNG file of ``scale`` pixels a pixel of the canvas."""
     return Raster(canvas.width, canvas.height, theme, scale).drawn(canvas.items).pixels.png()
+
+
+class _Stroke(NamedTuple):
+    """Polylines in pixels, and the pen that draws them."""
+
+    lines: list[FloatArray]
+    width: float
+    pen: str
+    opacity: float
+
+    @property
+    def round_ends(self) -> bool:
+        """Faint lines that follow each other would show the disc behind their ends twice."""
+        return self.opacity >= 1.0
 
 
 class Raster:
@@ -37,11 +56,12 @@ class Raster:
         self.theme: Theme = theme
         size = max(1, math.ceil(width * scale)), max(1, math.ceil(height * scale))
         self.pixels = Pixels(*size, colour("paper", theme))
+        self._waiting: list[_Stroke] = []
 
     def copied(self) -> Raster:
         """Give pixels of their own with the same content, so that one background serves many frames."""
         other = Raster.__new__(Raster)
-        other.zoom, other.theme, other.pixels = self.zoom, self.theme, self.pixels.copied()
+        other.zoom, other.theme, other.pixels, other._waiting = self.zoom, self.theme, self.pixels.copied(), []
         return other
 
     def drawn(self, items: list[Item]) -> Raster:
@@ -49,12 +69,15 @@ class Raster:
         for item in items:
             if isinstance(item, Shape):
                 self._shape(item)
-            elif isinstance(item, Disc):
+                continue
+            self._draw_waiting()
+            if isinstance(item, Disc):
                 self._disc(item)
             elif isinstance(item, Label):
                 self._label(item)
             else:
                 self._bitmap(item)
+        self._draw_waiting()
         return self
 
     def _shape(self, shape: Shape) -> None:
@@ -62,8 +85,8 @@ class Raster:
         style = STYLES[shape.style]
         hue = None if shape.step is None else ramp(shape.step, self.theme)
         if style.fill:
-            mask = fill(lines, self.pixels.size)
-            self.pixels.paint(mask, hue or colour(style.fill, self.theme), shape.opacity)
+            self._draw_waiting()
+            self.pixels.paint(fill(lines, self.pixels.size), hue or colour(style.fill, self.theme), shape.opacity)
         pen = hue or (style.stroke and colour(style.stroke, self.theme))
         if not pen:
             return
@@ -71,8 +94,26 @@ class Raster:
             dash, gap = style.dash[0] * self.zoom, style.dash[1] * self.zoom
             lines = [piece for line in lines for piece in _dashes(line, dash, gap)]
         if lines:
-            width, opaque = style.width * self.zoom, shape.opacity >= 1.0
-            self.pixels.paint(stroke(lines, width, self.pixels.size, round_ends=opaque), pen, shape.opacity)
+            self._wait(_Stroke(lines, style.width * self.zoom, pen, shape.opacity))
+
+    def _wait(self, stroke: _Stroke) -> None:
+        """Let a stroke wait for others of the same pen: to look for the pixels of all at once costs less."""
+        if self._waiting and (
+            stroke.width != self._waiting[0].width
+            or stroke.round_ends != self._waiting[0].round_ends
+            or sum(len(line) for each in self._waiting for line in each.lines) > _TOGETHER
+        ):
+            self._draw_waiting()
+        self._waiting.append(stroke)
+
+    def _draw_waiting(self) -> None:
+        """Draw the strokes that wait, in order."""
+        waiting, self._waiting = self._waiting, []
+        if waiting:
+            width, round_ends = waiting[0].width, waiting[0].round_ends
+            spots = strokes([each.lines for each in waiting], width, self.pixels.size, round_ends=round_ends)
+            for each, cover in zip(waiting, spots, strict=True):
+                self.pixels.paint(cover, each.pen, each.opacity)
 
     def _disc(self, disc: Disc) -> None:
         style = STYLES[disc.style]
@@ -102,18 +143,22 @@ class Raster:
         self.pixels.paint(Mask(np.asarray(letters), left, top), hue)
 
     def _bitmap(self, cells: Bitmap) -> None:
-        """Paint the cells of each colour at once."""
+        """Give each pixel the colour of the cell that its middle is in."""
         steps = np.array(cells.rows, dtype=np.int64, ndmin=2)
-        width, height = self.pixels.size
+        (top, rows), (left, columns) = (
+            _cells(start * self.zoom, cells.size * self.zoom, count, pixels)
+            for start, count, pixels in zip((cells.y, cells.x), steps.shape, self.pixels.size[::-1], strict=True)
+        )
+        hues = np.array([number_of(ramp(step, self.theme)) for step in range(RAMP_STEPS)], dtype=np.uint32)
+        shown = steps[np.ix_(rows, columns)]
+        self.pixels.paint_each(left, top, hues[shown], shown >= 0, cells.opacity)
 
-        def cell_of(start: float, count: int, pixels: int) -> FloatArray:
-            return np.asarray(np.floor(((np.arange(pixels) + 0.5) / self.zoom - start) / cells.size).clip(-1, count))
 
-        column, row = cell_of(cells.x, steps.shape[1], width), cell_of(cells.y, steps.shape[0], height)
-        around = np.pad(steps, 1, constant_values=-1)
-        shown = around[np.ix_(row.astype(int) + 1, column.astype(int) + 1)]
-        for step in np.unique(steps[steps >= 0]).tolist():
-            self.pixels.paint(Mask((shown == step) * np.uint8(255), 0, 0), ramp(step, self.theme), cells.opacity)
+def _cells(start: float, side: float, count: int, pixels: int) -> tuple[int, IntArray]:
+    """Give the first of a row's pixels whose middle is in one of ``count`` cells, and the cell of each from it on."""
+    cell = np.floor((np.arange(pixels) + 0.5 - start) / side)
+    first, stop = np.searchsorted(cell, (0, count)).tolist()
+    return first, cell[first:stop].astype(np.int64)
 
 
 @functools.lru_cache(maxsize=16)

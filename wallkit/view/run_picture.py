@@ -360,12 +360,9 @@ def _draw_ends(canvas: Canvas, flight: Tracks, frame: Frame) -> None:
 
 def _draw_key(canvas: Canvas, low: str, high: str, width: float) -> None:
     """Draw the ramp with its ends' values at the foot's right."""
-    length, height = 128.0, 8.0
+    side, length = 4.0, 4.0 * RAMP_STEPS
     x0, y0 = width - MARGIN - length - 8 * len(high) - 8, canvas.height - 22
-    for step in range(RAMP_STEPS):
-        x = x0 + step * length / RAMP_STEPS
-        box: list[Command] = [("M", x, y0 + height / 2), ("L", x + length / RAMP_STEPS, y0 + height / 2)]
-        canvas.add(Shape("key", box, step=step))
+    canvas.add(Bitmap(x0, y0, side, [list(range(RAMP_STEPS))] * 2))
     canvas.add(Label("note", x0 - 8, y0 + 8, low, anchor="end"), Label("note", x0 + length + 8, y0 + 8, high))
 
 

@@ -65,7 +65,6 @@ STYLES: dict[str, Style] = {
     "apart": Style(stroke="error", width=2.0),
     "apart-words": Style(fill="error"),
     "ghost": Style(width=1.0),
-    "key": Style(width=8.0),
     "ball": Style(fill="paper", stroke="ink", width=1.8),
     "arrow": Style(stroke="ink", width=1.8),
     "end": Style(fill="ink", stroke="paper", width=1.0),

@@ -1,4 +1,4 @@
-"""Masks and pixels, judged by areas and distances of shapely, by whole numbers, and by Pillow's reader of PNG."""
+"""Covers and pixels, judged by areas and distances of shapely, by whole numbers, and by Pillow's reader of PNG."""
 
 import io
 
@@ -8,8 +8,9 @@ import shapely
 from PIL import Image
 
 from wallkit.view import pixels as picture
-from wallkit.view.masks import fill, ring, stroke
+from wallkit.view.areas import fill, ring
 from wallkit.view.pixels import Pixels
+from wallkit.view.strokes import stroke, strokes
 
 SIZE = (300, 200)
 
@@ -19,12 +20,11 @@ def star(points, x=150.0, y=100.0):
     return np.stack([x + 90 * np.cos(angle), y + 90 * np.sin(angle)], axis=1)
 
 
-def whole(mask):
-    """The mask on the whole picture, as parts of a pixel."""
-    result = np.zeros((SIZE[1], SIZE[0]))
-    rows, columns = mask.cover.shape
-    result[mask.top : mask.top + rows, mask.left : mask.left + columns] = mask.cover / 255
-    return result
+def whole(cover):
+    """What is covered, as parts of a pixel: white on black."""
+    paper = Pixels(*SIZE, "#000000")
+    paper.paint(cover, "#ffffff")
+    return (paper.values & 255) / 255
 
 
 def distances(shape):
@@ -32,19 +32,33 @@ def distances(shape):
     return shapely.distance(shape, shapely.points(x, y))
 
 
-@pytest.mark.parametrize("width", [1.0, 2.0, 2.6, 3.0, 4.0, 5.0, 16.0])
-@pytest.mark.parametrize("angle", [0, 3, 17, 45, 60, 89, 90, 133])
-def test_a_stroke_is_as_wide_as_its_pen_in_every_direction(width, angle):
+def shares(shape):
+    """What each pixel shares with an area, by shapely."""
+    x, y = np.meshgrid(np.arange(SIZE[0]), np.arange(SIZE[1]))
+    result = shapely.contains_xy(shape, x + 0.5, y + 0.5).astype(float)
+    rim = shape.boundary
+    shapely.prepare(rim)
+    near = shapely.dwithin(rim, shapely.points(x + 0.5, y + 0.5), 0.75)  # a pixel reaches 0.71 from its middle
+    x, y = x[near], y[near]
+    result[y, x] = shapely.area(shapely.intersection(shapely.box(x, y, x + 1, y + 1), shape))
+    return result
+
+
+@pytest.mark.parametrize("width", [0.6, 1.0, 2.0, 2.6, 3.0, 4.0, 5.0, 16.0])
+@pytest.mark.parametrize("angle", [0, 3, 17, 45, 60, 89, 90, 133, 200, 271])
+@pytest.mark.parametrize("round_ends", [True, False])
+def test_a_stroke_is_as_wide_as_its_pen_in_every_direction(width, angle, round_ends):
     way = 80 * np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
     line = np.array([150.3, 100.2]) + np.stack([-way, way])
-    cover = whole(stroke([line], width, SIZE))
-    away = distances(shapely.LineString(line))
-    # A pixel reaches 0.71 from its middle. Ends and lines are off by half a fine pixel each, 0.5 in all, and so is the
-    # number of lines, which is half of that, 0.13, on each side.
-    assert (cover[away < width / 2 - 1.4] == 1).all()
-    assert (cover[away > width / 2 + 1.4] == 0).all()
-    ends = np.pi * width * width / 4
-    assert cover.sum() == pytest.approx(160 * width + ends, abs=160 * 0.26 + ends)
+    cover = whole(stroke([line], width, SIZE, round_ends=round_ends))
+    shape = shapely.LineString(line)
+    pen = shape.buffer(width / 2, cap_style="round" if round_ends else "flat", quad_segs=64)
+    # What the square of a pixel shares with the pen is known to shapely. Along a slanted rim that is a curve where ours
+    # is a straight ramp: 1/8 apart; across a thin pen's two rims and at corners twice as much; and in sixteenths.
+    assert np.abs(cover - shares(pen)).max() < 0.3
+    # Along the line the ramps add up; what is left are two ends, and the sixteenths, which a line that is as steep
+    # as a whole number of pixels repeats: 1/32 at most on each rim.
+    assert cover.sum() == pytest.approx(pen.area, abs=2 / 32 * shape.length + 0.5)
 
 
 def test_a_stroke_through_a_thousand_points_has_no_holes_and_no_hairs():
@@ -68,6 +82,44 @@ def test_a_stroke_far_beyond_the_picture_is_clipped():
     cover = whole(stroke([np.array([(150.0, 100.0), (1e7, 100.0)])], 2.0, SIZE))
     assert (cover[99:101, 152:] == 1).all()
     assert stroke([np.array([(900.0, 100.0), (950.0, 100.0)])], 2.0, SIZE) is None
+
+
+def test_groups_of_strokes_are_what_each_is_alone():
+    rng = np.random.default_rng(5)
+    groups = [[rng.uniform(-20, 320, (n, 2)) for n in (2, 5, 1)[: 1 + k % 3]] for k, n in enumerate((2, 3, 9, 40, 2))]
+    for round_ends in (True, False):
+        together = strokes(groups, 2.6, SIZE, round_ends=round_ends)
+        alone = [stroke(lines, 2.6, SIZE, round_ends=round_ends) for lines in groups]
+        for one, other in zip(together, alone, strict=True):
+            assert (whole(one) == whole(other)).all()
+
+
+def test_a_long_stroke_is_what_its_parts_are():
+    # So long that its pixels are looked at in many portions; each segment alone is in one or two.
+    line = np.random.default_rng(3).uniform((0, 0), SIZE, (400, 2))
+    parts = [whole(stroke([line[k : k + 2]], 2.6, SIZE)) for k in range(len(line) - 1)]
+    assert (whole(stroke([line], 2.6, SIZE)) == np.max(parts, axis=0)).all()
+
+
+def test_a_curve_is_drawn_where_it_is_however_many_points_it_has():
+    angle = np.linspace(0, 2 * np.pi, 20_001)
+    line = np.stack([150.2 + 70 * np.cos(angle), 100.4 + 70 * np.sin(angle)], axis=1)
+    hoop = shapely.Point(150.2, 100.4).buffer(71.5, 720).difference(shapely.Point(150.2, 100.4).buffer(68.5, 720))
+    # Points may be left out as far as that moves the line by a tenth of a pixel; the rest as above, at one rim.
+    assert np.abs(whole(stroke([line], 3.0, SIZE)) - shares(hoop)).max() < 0.1 + 0.15
+
+
+def test_what_has_no_place_is_not_drawn():
+    nan, inf = float("nan"), float("inf")
+    seen = np.array([(20.0, 20.0), (60.0, 40.0)])
+    lines = [np.array([(10.0, 10.0), (nan, 50.0), (50.0, 10.0)]), seen, np.array([(0.0, 0.0), (inf, 3.0), (-inf, inf), (1e300, -1e300), (5.0, -1e300)])]
+    assert (whole(stroke(lines, 2.0, SIZE)) == whole(stroke([seen], 2.0, SIZE))).all()
+    assert stroke([lines[0]], 2.0, SIZE) is None
+
+
+def test_a_point_alone_is_a_dot():
+    dot = whole(stroke([np.array([(30.4, 40.7)])], 5.0, SIZE))
+    assert dot == pytest.approx(whole(ring(30.4, 40.7, 2.5, 0.0, SIZE)), abs=1 / 32 + 1 / 255)
 
 
 def test_a_fill_covers_the_area_of_its_polygon():
@@ -115,13 +167,13 @@ def test_colours_are_mixed_to_the_nearest_whole_number(hue):
 
 @pytest.mark.parametrize("opacity", [1.0, 0.6])
 def test_few_pixels_and_many_are_painted_alike(monkeypatch, opacity):
-    masks = [fill([star(7)], SIZE), stroke([star(5)], 3.0, SIZE), ring(20, 30, 12, 8, SIZE)]
+    covers = [fill([star(7)], SIZE), stroke([star(5)], 3.0, SIZE), ring(20, 30, 12, 8, SIZE)]
     results = []
     for small in (0, 10**9):
         monkeypatch.setattr(picture, "_SMALL", small)
         paper = Pixels(*SIZE, "#fcfbf8")
-        for mask in masks:
-            paper.paint(mask, "#1f66ad", opacity)
+        for cover in covers:
+            paper.paint(cover, "#1f66ad", opacity)
         results.append(paper.values)
     assert (results[0] == results[1]).all()
 
