@@ -42,7 +42,8 @@ def beside(commit: str, *, same_environment: bool = False) -> Iterator[tuple[Bui
 
     Args:
         commit: as git names it.
-        same_environment: run it with the packages of this environment, and not with those that pip chooses for it now.
+        same_environment: run it with the packages of this environment, and not with those that pip chooses for it now;
+            builds of before our own compiler need Numba there.
     """
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -112,7 +112,11 @@ def test_a_curve_is_drawn_where_it_is_however_many_points_it_has():
 def test_what_has_no_place_is_not_drawn():
     nan, inf = float("nan"), float("inf")
     seen = np.array([(20.0, 20.0), (60.0, 40.0)])
-    lines = [np.array([(10.0, 10.0), (nan, 50.0), (50.0, 10.0)]), seen, np.array([(0.0, 0.0), (inf, 3.0), (-inf, inf), (1e300, -1e300), (5.0, -1e300)])]
+    lines = [
+        np.array([(10.0, 10.0), (nan, 50.0), (50.0, 10.0)]),
+        seen,
+        np.array([(0.0, 0.0), (inf, 3.0), (-inf, inf), (1e300, -1e300), (5.0, -1e300)]),
+    ]
     assert (whole(stroke(lines, 2.0, SIZE)) == whole(stroke([seen], 2.0, SIZE))).all()
     assert stroke([lines[0]], 2.0, SIZE) is None
 

@@ -11,6 +11,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from wallkit.geometry.arrays import FloatArray, IntArray
 from wallkit.geometry.path_segments import polylines
+from wallkit.simulation.aligned_arrays import keep_freed_memory
 from wallkit.view.areas import fill, ring
 from wallkit.view.canvas import Bitmap, Canvas, Disc, Item, Label, Shape
 from wallkit.view.cover import Mask
@@ -52,6 +53,7 @@ class Raster:
     """
 
     def __init__(self, width: float, height: float, theme: Theme, scale: float) -> None:
+        keep_freed_memory()
         self.zoom = scale
         self.theme: Theme = theme
         size = max(1, math.ceil(width * scale)), max(1, math.ceil(height * scale))
