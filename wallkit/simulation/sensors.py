@@ -53,7 +53,7 @@ def with_crossings(run: Run, mode: str = "auto") -> Run:
         mode: as for ``simulate``; all give the same bits.
     """
     sensors = sensors_of(run.scene)
-    if sensors is None:
+    if sensors is None or not len(run.final):
         return run
     crossed = sensors.crossings_of(run, mode)
     return Run(run.scene, _joined(run.contacts, crossed), run.final, run.ending, run.start) if len(crossed) else run
