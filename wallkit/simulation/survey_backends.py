@@ -76,7 +76,7 @@ def _fly_as_waves(ready: PreparedScene, until: float, limit: int, outcome: Outco
             on_cache_lines(WAVES * FLOATS, np.float64).reshape(WAVES, FLOATS),
             on_cache_lines(WAVES * INTEGERS, np.int64).reshape(WAVES, INTEGERS),
             on_cache_lines(WAVES * COUNTS, np.uint32).reshape(WAVES, COUNTS),
-            on_cache_lines(LISTED, np.uint32),
+            on_cache_lines(WAVES * LISTED, np.uint32).reshape(WAVES, LISTED),
             np.empty(MET, dtype=np.int64),
         )
         return lambda stop: compiled(fly_wave)(
