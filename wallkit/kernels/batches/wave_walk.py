@@ -40,7 +40,7 @@ from wallkit.kernels.batches.wave_columns import (
     W,
 )
 from wallkit.kernels.batches.wave_pairs import fill_up, list_cell, pair_all
-from wallkit.kernels.index.grid import clearing_at, is_divided, leaf, moves_to_next, top_at
+from wallkit.kernels.index.grid import clearing_at, is_divided, leaf, moves_to_next, top_number
 from wallkit.kernels.intrinsics import AT_ONCE, look_up, lowest, prefetch, prefetch_far
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import HALF, WIDEST
@@ -82,11 +82,10 @@ def decide(s, q, grid):
         # A contact before the border is final, and beyond the grid there is nothing more to find.
         turns = outside | (s[BEST + i] <= time)
         goes = (s[FLIES + i] == 1.0) & ((asking >> i) & 1 == 0)
-        column, row = int(0.0 if outside else x), int(0.0 if outside else y)
-        s[COLUMN + i], s[ROW + i] = float(column), float(row)
-        top = top_at(grid, column, row)
-        q[TOP + i] = top << grid.packed
-        q[AT + i] = clearing_at(grid, q[OCTANT + i], top)
+        column, row = np.floor(0.0 if outside else x), np.floor(0.0 if outside else y)
+        s[COLUMN + i], s[ROW + i] = column, row
+        q[TOP + i] = top_number(grid, column, row) * float(1 << grid.packed)
+        q[AT + i] = clearing_at(grid, q[OCTANT + i], q[TOP + i] >> grid.packed)
         q[CROSSES + i] = int(goes & (not turns))
         # Nothing met and nothing touched: its flight ends free.
         free = (s[FEATURE + i] == NONE) & (s[TOUCHED + i] == 0.0)
@@ -121,13 +120,14 @@ def _cross_clearings(model, s, q):
 @kernel
 def _enter(model, s, q, i):
     """Enter the cell at the column and row of a ball: its number."""
-    top = q[TOP + i]
-    return _enter_part(model, s, q, i) if is_divided(model.cells[top]) else int(top)
+    if is_divided(model.cells[q[TOP + i]]):
+        _enter_part(model, s, q, i)
+    return q[TOP + i]
 
 
 @rare_kernel
 def _enter_part(model, s, q, i):
-    """Enter a part of a divided cell, with the borders ahead as in ``grid.ahead``: its number."""
+    """Enter a part of a divided cell, which takes the place of that, with the borders ahead as in ``grid.ahead``."""
     column, row = int(s[COLUMN + i]), int(s[ROW + i])
     cell, shift = leaf(model.cells, model.grid, column, row)
     far = moves_to_next(model.cells[cell]) << shift
@@ -136,7 +136,7 @@ def _enter_part(model, s, q, i):
     column, row = (column >> shift) << shift, (row >> shift) << shift
     s[BORDER_X + i] = float(column + (far if s[PER_U + i] > 0.0 else near))
     s[BORDER_Y + i] = float(row + (far if s[PER_W + i] > 0.0 else near))
-    return cell
+    q[TOP + i] = cell
 
 
 @kernel

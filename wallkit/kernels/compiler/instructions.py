@@ -85,15 +85,16 @@ def _fetch(
     """One load for each record, and one store for each column."""
     size = records.type.dtype.itemsize // 8
     floats, words = f"<{size} x double>", f"<{size} x i32>"
-    found, rows = "poison", []
     if ids.type.dtype.itemsize != 4:
         raise UnknownError("ids of another size")
     # A record is one cache line: whole rows are loaded, and turned into columns in registers.
-    for j in range(size):
-        _kind, number = _read(to, ids, _index(to, first, j))
-        found = to.emit(f"insertelement {words} {found}, i32 {number}, i32 {j}")
-        row = unchecked_place(to, records, to.emit(f"zext i32 {number} to i64"))
-        rows.append(to.emit(f"load {floats}, ptr {row}, align 8"))
+    found = to.emit(f"load {words}, ptr {unchecked_place(to, ids, _index(to, first))}, align 4")
+    rows = [
+        to.emit(
+            f"load {floats}, ptr {unchecked_place(to, records, _read_index(to, ids, _index(to, first, j)))}, align 8"
+        )
+        for j in range(size)
+    ]
     numbers = [to.emit(f"uitofp {words} {found} to {floats}"), *_transposed(to, floats, rows)]
     for k, begin in wanted:  # LLVM leaves out what nobody wants
         place = unchecked_place(to, columns, _index(to, where, begin))
