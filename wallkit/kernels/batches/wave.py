@@ -124,11 +124,12 @@ class WaveScratch(NamedTuple):
 
 
 @kernel
-def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outcome, scratch):
+def fly_wave(model, lists, radius, start, order, queue, stop, until, limit, hits, outcome, scratch):
     """Fly balls of one radius until none is left; as ``flight.fly`` does.
 
     Args:
         model: the scene; with a grid, without gravity.
+        lists: what cells list, see ``note_short_lists``; of length 0 where that does not pay.
         radius: of all balls; None for points.
         start: the balls, see ``Start``.
         order: of the balls, best neighbours one after the other.
@@ -149,7 +150,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
         _clear(b, s, q)
         for i in range(LANES):
             flying += _board(model, radius, b, s, n, q, i, start, order, queue, stop, until, limit, outcome)
-        cross(model, radius, s, q, scratch.pairs[wave], far)
+        cross(model, lists, radius, s, q, scratch.pairs[wave], far)
     if far:
         pair_rest(model, radius, scratch.counts[0], scratch.pairs[0], (0, 0, 0))
     # A turn: times of impact of pairs, way through the cells, bounces, lanes that end their ball, and the next pairs.
@@ -161,7 +162,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
         meet(model, radius, b, s, q, pairs)
         turning, ending = decide(s, q, model.grid)
         if len(model.cells) > NEAR_CELLS:
-            prefetch_cells(model, q, far)
+            prefetch_cells(model, lists, q, far)
         if far:
             pair_rest(model, radius, scratch.counts[wave], scratch.pairs[wave], (0, 0, 0))
             prefetch_listed(model, scratch.counts[wave], scratch.pairs[wave])
@@ -175,7 +176,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
             flying += _board(model, radius, b, s, n, q, i, start, order, queue, stop, until, limit, outcome) - 1
         if met >= LANES:
             met = _count(model, scratch.met, met, hits)
-        cross(model, radius, s, q, pairs, far)
+        cross(model, lists, radius, s, q, pairs, far)
     _count(model, scratch.met, met, hits)
 
 

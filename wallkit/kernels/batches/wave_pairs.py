@@ -26,6 +26,44 @@ from wallkit.kernels.batches.wave_columns import (
 from wallkit.kernels.intrinsics import AT_ONCE, lowest, pair_up
 from wallkit.kernels.jit import kernel, rare_kernel
 
+SHORT, LONGEST, LONG = 8, 7, (1 << 32) - 1
+"""Numbers of a cell in the short lists: how many lines it lists and, from the bit SHORT on, how many corners, or LONG
+for more than LONGEST in all; then their ids."""
+
+
+@kernel
+def note_short_lists(cells, ids, lists):
+    """Note what cells list where that is short, lines and corners: all that a wave asks of one is on one cache line.
+
+    Args:
+        cells: with the divided ones, which count as LONG, but not their parts.
+        ids: see ``Model``; no arcs.
+        lists: written, SHORT numbers a cell; AT_ONCE more at the end.
+    """
+    end_of_all = len(lists) - AT_ONCE
+    for c in range(end_of_all // SHORT):
+        first: Any = np.int64(cells[c].first)
+        corners, end = np.int64(cells[c].corners), np.int64(cells[c].end)
+        if (end < first) | (end - first > LONGEST):
+            lists[SHORT * c] = LONG
+        else:
+            lists[SHORT * c] = (corners - first) + ((end - corners) << SHORT)
+            # As many as fit, at once; what is too much is written over by the next cell.
+            pair_up(ids, first, 0, lists, SHORT * c + 1, end_of_all)
+
+
+@kernel
+def list_short(radius, lists, cell, i, pairs, listed):
+    """Pair a ball with the short list of a cell, as ``list_cell`` does."""
+    lines, arcs, corners = listed
+    count, first = lists[SHORT * cell], SHORT * cell + 1
+    pair_up(lists, first, i, pairs, LINE_IDS + lines, LINE_MOVERS + lines)
+    lines += int(count & LONGEST)
+    if radius is not None:
+        pair_up(lists, first + (count & LONGEST), i, pairs, CORNER_IDS + corners, CORNER_MOVERS + corners)
+        corners += int(count >> SHORT)
+    return lines, arcs, corners
+
 
 @kernel
 def list_cell(model, radius, cell, i, pairs, listed):

@@ -39,7 +39,7 @@ from wallkit.kernels.batches.wave_columns import (
     U,
     W,
 )
-from wallkit.kernels.batches.wave_pairs import fill_up, list_cell, pair_all
+from wallkit.kernels.batches.wave_pairs import LONG, SHORT, fill_up, list_cell, list_short, pair_all
 from wallkit.kernels.index.grid import clearing_at, is_divided, leaf, moves_to_next, top_number
 from wallkit.kernels.intrinsics import AT_ONCE, look_up, lowest, prefetch, prefetch_far
 from wallkit.kernels.jit import kernel, rare_kernel
@@ -148,14 +148,20 @@ def _open(cells, q, i, cell):
 
 
 @rare_kernel
-def cross(model, radius, s, q, pairs, far):
+def cross(model, lists, radius, s, q, pairs, far):
     """Let balls cross into clearings and cells, and pair them with what these list; from ``far`` that is done later."""
     entering = _cross_clearings(model, s, q)
-    _prefetch_ids(model, q, entering, far)
+    short = model.arcs is None and len(lists) > 0
+    if not short:
+        _prefetch_ids(model, q, entering, far)
     asking, listed = int(q[ASKING]), (0, 0, 0)
     while entering > 0:
         i = lowest(entering)
         entering &= entering - 1
+        if short:
+            if lists[SHORT * q[TOP + i]] != LONG:
+                listed = list_short(radius, lists, q[TOP + i], i, pairs, listed)
+                continue
         cell = _enter(model, s, q, i)
         record = model.cells[cell]
         if far or record.first + PER_TURN < record.end:
@@ -189,11 +195,14 @@ def pair_rest(model, radius, q, pairs, listed):
 
 
 @kernel
-def prefetch_cells(model, q, far):
+def prefetch_cells(model, lists, q, far):
     """Prefetch what balls need when they cross, while others turn."""
     for i in range(LANES):
         _prefetch_one(model.clearings, q[AT + i], far)
-    if model.grid.packed == 0:
+    if len(lists) > 0:
+        for i in range(LANES):
+            prefetch(lists, SHORT * q[TOP + i])
+    elif model.grid.packed == 0:
         for i in range(LANES):
             _prefetch_one(model.cells, q[TOP + i], far)
 
