@@ -11,6 +11,11 @@ from hypothesis import strategies as st
 from wallkit import Balls, Ending, Material, Scene, Walls, survey
 from wallkit.kernels.batches.wave import NEAR_EDGES
 from wallkit.kernels.batches.wave_columns import PER_TURN
+from wallkit.kernels.batches.wave_pairs import LONG, LONGEST, SHORT, note_short_lists
+from wallkit.kernels.intrinsics import AT_ONCE
+from wallkit.kernels.jit import compiled
+from wallkit.kernels.records import in_lists
+from wallkit.simulation import survey_backends
 from wallkit.simulation.prepared import prepare
 from wallkit.simulation.survey_backends import WORTH_A_WAVE, suits_wave
 
@@ -154,6 +159,40 @@ def test_cells_that_list_more_than_a_ball_asks_in_a_turn(bulge, radius):
     counts = np.where(cells["end"] > cells["first"], cells["end"].astype(int) - cells["first"], 0)
     assert counts.max() > 4 * PER_TURN
     assert _assert_same(scene, until=30.0).bounces.sum() > 1000
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.5])
+def test_short_lists_say_what_cells_list(radius):
+    random = np.random.default_rng(11)
+    walls = _maze(random, count=2000)  # some cells list nothing, some are divided
+    model = prepare(Scene(walls, Balls([[1.0, 1.0]], [[1.0, 0.0]], radius)), check=False).modelled.model
+    cells = model.cells[: model.grid.columns * model.grid.rows]
+    listed = [model.ids[first:end].tolist() for first, end in zip(cells["first"], cells["end"], strict=True)]
+    lists = np.empty(SHORT * len(cells) + AT_ONCE, dtype=np.uint32)
+    compiled(note_short_lists)(model.cells, model.ids, lists)
+    interpreted = [0] * len(lists)
+    note_short_lists(*in_lists((model.cells, model.ids)), interpreted)
+    for row in (lists.tolist(), interpreted):
+        for c, ids in enumerate(listed):
+            count, *found = row[SHORT * c : SHORT * (c + 1)]
+            if len(ids) > LONGEST or cells[c]["end"] < cells[c]["first"]:
+                assert count == LONG
+            else:
+                assert (count % 2**SHORT, count >> SHORT) == (
+                    cells[c]["arcs"] - cells[c]["first"],
+                    len(ids) - count % 2**SHORT,
+                )
+                assert found[: len(ids)] == ids
+    assert {len(ids) for ids in listed} >= {0, 1, LONGEST, LONGEST + 1}
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.5])
+def test_cells_that_are_too_many_for_short_lists(radius, monkeypatch):
+    monkeypatch.setattr(survey_backends, "NEAR_LISTS", 0)
+    random = np.random.default_rng(12)
+    position = random.uniform([1.0, 1.0], [199.0, 149.0], (COUNT, 2))
+    scene = Scene(_maze(random), Balls(position, _ways(random, COUNT), radius))
+    assert _assert_same(scene, until=20.0).bounces.sum() > 1000
 
 
 def test_flights_straight_along_the_axes():

@@ -53,14 +53,21 @@ def pair_up(ids: Any, at: int, who: int, pairs: Any, to: int, to_who: int) -> No
         pairs[to_who + k] = who
 
 
-def fetch(records: Any, ids: Any, first: int, columns: Any, to: int, step: int) -> None:
+def fetch(
+    records: Any, ids: Any, first: int, columns: Any, to: int, wanted: tuple[tuple[int, int], ...]
+) -> None:  # fmt: skip
     """Turn some records into columns, as many at once as a record has floats (a power of two).
 
-    The record of the id ``ids[first + j]`` fills place j of the columns that begin at ``to``, each ``step`` behind the
-    one before: first the id, then the numbers of the record.
+    The record of the id ``ids[first + j]`` fills place ``to + j`` of columns: for each (k, begin) that is ``wanted``
+    the one that begins there gets its k-th number, counted from 1, or for k = 0 the id.
     """
     for j in range(len(records[0])):
         number = ids[first + j]
-        columns[to + j] = float(number)
-        for k, value in enumerate(records[number], 1):
-            columns[to + k * step + j] = value
+        numbers = (float(number), *records[number])
+        for k, begin in wanted:
+            columns[begin + to + j] = numbers[k]
+
+
+def numbers_of(record: Any, **columns: int) -> tuple[tuple[int, int], ...]:
+    """Say which numbers of a record :func:`fetch` writes into which columns: by name, where each column begins."""
+    return tuple((1 + record._fields.index(name), begin) for name, begin in columns.items())

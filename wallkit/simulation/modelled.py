@@ -78,6 +78,7 @@ class Modelled:
         self.model = self._made(scene, around, index, machine_code, limits)
         self._lists: Model | None = None
         self._told: tuple[Told, Told] | None = None
+        self.short_lists: NDArray[np.uint32] | None = None  # what waves have noted of the cells, once they flew
 
     def _made(
         self,

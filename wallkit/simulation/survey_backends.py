@@ -16,15 +16,18 @@ from wallkit.kernels.batches.ball_queue import Queue
 from wallkit.kernels.batches.falling_wave import fly_falling_wave
 from wallkit.kernels.batches.lockstep import MOST_EDGES, fly_in_step
 from wallkit.kernels.batches.lockstep_lanes import LANES, ROW_SIZE, SCRATCH, Outcome, Scratch, Start
-from wallkit.kernels.batches.wave import MET, WAVES, WaveScratch, fly_wave
+from wallkit.kernels.batches.wave import MET, NEAR_EDGES, WAVES, WaveScratch, fly_wave
 from wallkit.kernels.batches.wave_columns import COUNTS, FLOATS, INTEGERS, LISTED, MOVER
 from wallkit.kernels.batches.wave_columns import LANES as WAVE
+from wallkit.kernels.batches.wave_pairs import SHORT, note_short_lists
 from wallkit.kernels.flight.ball_state import begin_all, end_all
 from wallkit.kernels.flight.flight import fly_all
 from wallkit.kernels.flight.sensors import fly_sensed
+from wallkit.kernels.intrinsics import AT_ONCE as AT_ONCE_IDS
 from wallkit.kernels.jit import compiled
 from wallkit.kernels.records import LOG_STRIDE, STATE_SIZE, Model
 from wallkit.simulation.aligned_arrays import on_cache_lines
+from wallkit.simulation.modelled import Modelled
 from wallkit.simulation.prepared import PreparedScene
 from wallkit.simulation.simulate import START, initial_states
 
@@ -32,6 +35,8 @@ WORTH_A_WAVE = 2 * WAVE
 """Balls from which on a wave pays: it must stay full for a while."""
 WORTH_LOCKSTEP = 100
 """Balls from which on lockstep pays: a pass over all lanes takes as long as some hundred bounces one by one."""
+NEAR_LISTS = 1 << 16
+"""So many cells have their short lists, of a cache line for two, near the processor."""
 LOGGED = 256
 """Contacts of a ball that are kept at a time where sensors are asked for each flight."""
 LEAST, MOST = 128, 8192
@@ -69,6 +74,7 @@ def _fly_as_waves(ready: PreparedScene, until: float, limit: int, outcome: Outco
     """Give what a thread does to fly balls as a wave through the grid, until none is left: counts of bounces."""
     told, start, radius = ready.modelled.told, _start(ready), _radius(ready)
     order = np.arange(len(ready.modelled.radii)) if ready.order is None else ready.order
+    lists = _short_lists(ready.modelled)
 
     def batches(queue: Queue, hits: NDArray[np.int64]) -> Batch:
         scratch = WaveScratch(
@@ -76,15 +82,28 @@ def _fly_as_waves(ready: PreparedScene, until: float, limit: int, outcome: Outco
             on_cache_lines(WAVES * FLOATS, np.float64).reshape(WAVES, FLOATS),
             on_cache_lines(WAVES * INTEGERS, np.int64).reshape(WAVES, INTEGERS),
             on_cache_lines(WAVES * COUNTS, np.uint32).reshape(WAVES, COUNTS),
-            on_cache_lines(LISTED, np.uint32),
+            on_cache_lines(WAVES * LISTED, np.uint32).reshape(WAVES, LISTED),
             np.empty(MET, dtype=np.int64),
         )
         return lambda stop: compiled(fly_wave)(
-            told[0], radius, start, order, queue, stop, until, limit, hits, outcome, scratch
+            told[0], lists, radius, start, order, queue, stop, until, limit, hits, outcome, scratch
         )
 
     with _from_one_counter(ready, batches) as work:
         yield work
+
+
+def _short_lists(modelled: Modelled) -> NDArray[np.uint32]:
+    """What cells list where that is short, see ``note_short_lists``; nothing where that does not pay."""
+    if modelled.short_lists is None:
+        model, grid = modelled.model, modelled.model.grid
+        cells = 0 if grid.packed or model.arcs is not None else grid.columns * grid.rows
+        pays = 0 < cells <= NEAR_LISTS and len(model.lines) <= NEAR_EDGES
+        lists = on_cache_lines(SHORT * cells + AT_ONCE_IDS if pays else 0, np.uint32)
+        if pays:
+            compiled(note_short_lists)(model.cells, model.ids, lists)
+        modelled.short_lists = lists
+    return modelled.short_lists
 
 
 @contextmanager

@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wallkit.kernels.batches.wave_columns import LANES, PAIRS, PER_TURN
-from wallkit.kernels.intrinsics import AT_ONCE
+from wallkit.kernels.intrinsics import AT_ONCE, numbers_of
+from wallkit.kernels.records import Line
 
 
 class Faller(NamedTuple):
@@ -43,12 +44,16 @@ and velocity now, whether they go back, its column and row; the rectangle, in un
 side."""
 FLOATS = 28 * LANES
 (
-    WHO, FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE, LAST, SKIPPED, _BACK,
-    ID, AX, AY, _BX, _BY, NX, NY, LENGTH, _TWICE, T, LATER_T,
-) = (FLOATS + PAIRS * number for number in range(20))  # fmt: skip
-"""By pair: which ball it is and its ``Faller``; the line that it asks, its ID and record; when it meets the near side,
-and when, after that, the far one."""
-FLOATS += 20 * PAIRS
+    FROM_X, FROM_Y, FROM_VX, FROM_VY, TOLERANCE, LAST, SKIPPED, ID, AX, AY, NX, NY, LENGTH, T, LATER_T,
+) = (FLOATS + PAIRS * number for number in range(15))  # fmt: skip
+"""By pair: what the ball's ``Faller`` and the line that it asks have, and its ID; when it meets the near side, and
+when, after that, the far one."""
+FLOATS += 15 * PAIRS
+ASKS_LINE = numbers_of(
+    Faller, x=FROM_X, y=FROM_Y, vx=FROM_VX, vy=FROM_VY, tolerance=TOLERANCE, last=LAST, skipped=SKIPPED
+)
+LINE_NUMBERS = ((0, ID), *numbers_of(Line, ax=AX, ay=AY, nx=NX, ny=NY, length=LENGTH))
+"""What is fetched for a pair."""
 NEXT, ARCS, CORNERS, END, OCTANT, AT, CLEARING = (LANES * number for number in range(7))
 COUNTS = 7 * LANES
 """By ball, unsigned: what its cell lists, NEXT the first of it (see ``Cell``); where the clearings of its octant begin,

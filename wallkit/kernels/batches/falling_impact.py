@@ -10,6 +10,7 @@ import math
 
 from wallkit.kernels.batches.falling_columns import (
     ARCS,
+    ASKS_LINE,
     AX,
     AY,
     BEST,
@@ -26,6 +27,7 @@ from wallkit.kernels.batches.falling_columns import (
     LAST,
     LATER_T,
     LENGTH,
+    LINE_NUMBERS,
     NEXT,
     NOW,
     NX,
@@ -34,7 +36,6 @@ from wallkit.kernels.batches.falling_columns import (
     THEN,
     TOLERANCE,
     TOUCHED,
-    WHO,
     T,
 )
 from wallkit.kernels.batches.wave_columns import NONE, PAIRS, PER_TURN
@@ -67,8 +68,8 @@ def meet_falling(model, gravity, radius, scratch, listed):
     for first in range(0, lines, PAIRS):
         padded, real = part(lines - first)
         for i in range(0, padded, AT_ONCE):
-            fetch(f, pairs, FALLERS + first + i, s, WHO + i, PAIRS)
-            fetch(model.lines, pairs, IDS + first + i, s, ID + i, PAIRS)
+            fetch(f, pairs, FALLERS + first + i, s, i, ASKS_LINE)
+            fetch(model.lines, pairs, IDS + first + i, s, i, LINE_NUMBERS)
         met, beside, touched, asked = _meet_lines(gravity, radius, s, padded)
         _touch(s, pairs, FALLERS + first, touched & real)
         alone = one_way(model, model.one_sided, pairs, IDS + first, asked & real)

@@ -55,7 +55,7 @@ from wallkit.kernels.batches.wave_columns import (
     W,
 )
 from wallkit.kernels.batches.wave_impact import meet
-from wallkit.kernels.batches.wave_walk import cross, decide, prefetch_cells, prefetch_listed
+from wallkit.kernels.batches.wave_walk import cross, decide, pair_rest, prefetch_cells, prefetch_listed
 from wallkit.kernels.flight.ball_state import tolerance_of
 from wallkit.kernels.flight.damping import free_time, slowed
 from wallkit.kernels.flight.flight import (
@@ -118,17 +118,18 @@ class WaveScratch(NamedTuple):
     counts: Any
     """(WAVES, COUNTS) unsigned integers, see ``wave_columns``, which need no look whether they count from the end."""
     pairs: Any
-    """LISTED unsigned integers."""
+    """(WAVES, LISTED) unsigned integers."""
     met: Any
     """MET integers."""
 
 
 @kernel
-def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outcome, scratch):
+def fly_wave(model, lists, radius, start, order, queue, stop, until, limit, hits, outcome, scratch):
     """Fly balls of one radius until none is left; as ``flight.fly`` does.
 
     Args:
         model: the scene; with a grid, without gravity.
+        lists: what cells list, see ``note_short_lists``; of length 0 where that does not pay.
         radius: of all balls; None for points.
         start: the balls, see ``Start``.
         order: of the balls, best neighbours one after the other.
@@ -149,19 +150,22 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
         _clear(b, s, q)
         for i in range(LANES):
             flying += _board(model, radius, b, s, n, q, i, start, order, queue, stop, until, limit, outcome)
-        cross(model, s, q, far)
-    # A turn: pairs of balls and edges, times of impact, way through the cells, bounces, and lanes that end their ball.
+        cross(model, lists, radius, s, q, scratch.pairs[wave], far)
+    if far:
+        pair_rest(model, radius, scratch.counts[0], scratch.pairs[0], (0, 0, 0))
+    # A turn: times of impact of pairs, way through the cells, bounces, lanes that end their ball, and the next pairs.
     wave, met = 0, 0
     while flying > 0:
         b, s = scratch.movers[wave], scratch.floats[wave]
-        n, q = scratch.integers[wave], scratch.counts[wave]
+        n, q, pairs = scratch.integers[wave], scratch.counts[wave], scratch.pairs[wave]
         wave = wave + 1 if wave + 1 < waves else 0
-        meet(model, radius, b, s, q, scratch.pairs)
+        meet(model, radius, b, s, q, pairs)
         turning, ending = decide(s, q, model.grid)
         if len(model.cells) > NEAR_CELLS:
-            prefetch_cells(model, q, far)
+            prefetch_cells(model, lists, q, far)
         if far:
-            prefetch_listed(model, radius, scratch.counts[wave])
+            pair_rest(model, radius, scratch.counts[wave], scratch.pairs[wave], (0, 0, 0))
+            prefetch_listed(model, scratch.counts[wave], scratch.pairs[wave])
         ended, met = _turn_all(model, radius, b, s, n, q, turning, until, limit, scratch.met, met)
         ending |= ended
         while ending > 0:
@@ -172,7 +176,7 @@ def fly_wave(model, radius, start, order, queue, stop, until, limit, hits, outco
             flying += _board(model, radius, b, s, n, q, i, start, order, queue, stop, until, limit, outcome) - 1
         if met >= LANES:
             met = _count(model, scratch.met, met, hits)
-        cross(model, s, q, far)
+        cross(model, lists, radius, s, q, pairs, far)
     _count(model, scratch.met, met, hits)
 
 

@@ -13,10 +13,14 @@ from wallkit.kernels.batches.wave_columns import (
     ALONG,
     ARC_IDS,
     ARC_MOVERS,
+    ASKS_ARC,
+    ASKS_CORNER,
+    ASKS_LINE,
     BEST,
     CHORD,
     CORNER_IDS,
     CORNER_MOVERS,
+    CORNER_PLACE,
     E0,
     E1,
     E2,
@@ -32,11 +36,14 @@ from wallkit.kernels.batches.wave_columns import (
     ID,
     INSIDE,
     LAST,
+    LINE_FOR_DISC,
+    LINE_FOR_POINT,
     LINE_IDS,
     LINE_MOVERS,
     NEITHER,
     NONE,
     OUTSIDE,
+    PAIRED,
     PAIRS,
     POWER,
     SPEED,
@@ -45,12 +52,12 @@ from wallkit.kernels.batches.wave_columns import (
     TOUCHED,
     VX,
     VY,
-    WHO,
+    WHOLE_ARC,
     T,
     X,
     Y,
 )
-from wallkit.kernels.batches.wave_pairs import one_way, pair_all, part
+from wallkit.kernels.batches.wave_pairs import one_way, part
 from wallkit.kernels.impact.arc_impact import (
     WELL_KNOWN,
     aside_of,
@@ -73,14 +80,17 @@ DULL = 2.0**-800
 
 @kernel
 def meet(model, radius, movers, s, q, pairs):
-    """Let every ball ask what its cell lists, as much as a turn allows."""
-    lines, arcs, corners = pair_all(model, radius, q, pairs)
+    """Let every ball ask what it is paired with."""
+    lines, arcs, corners = int(q[PAIRED]), int(q[PAIRED + 1]), int(q[PAIRED + 2])
     for first in range(0, lines, PAIRS):
         # Whole vectors: the last one is made up with other pairs, whose bits are not among the `real` ones.
         padded, real = part(lines - first)
         for i in range(0, padded, AT_ONCE):
-            fetch(movers, pairs, LINE_MOVERS + first + i, s, WHO + i, PAIRS)
-            fetch(model.lines, pairs, LINE_IDS + first + i, s, ID + i, PAIRS)
+            fetch(movers, pairs, LINE_MOVERS + first + i, s, i, ASKS_LINE)
+            if radius is None:
+                fetch(model.lines, pairs, LINE_IDS + first + i, s, i, LINE_FOR_POINT)
+            else:
+                fetch(model.lines, pairs, LINE_IDS + first + i, s, i, LINE_FOR_DISC)
         if radius is None:
             met, near, behind = _meet_lines_point(s, padded)
             _touch(s, pairs, LINE_MOVERS + first, near & real)
@@ -88,18 +98,18 @@ def meet(model, radius, movers, s, q, pairs):
             met, behind = _meet_lines_disc(s, radius, padded)
         met &= real
         through = one_way(model, model.one_sided, pairs, LINE_IDS + first, met & behind)
-        _keep(s, pairs, LINE_MOVERS + first, met & ~through)
+        _keep(s, pairs, LINE_MOVERS + first, met & ~through, False)
     _meet_arcs(model, model.arcs, radius, movers, s, pairs, arcs)
     if radius is not None:
         for first in range(0, corners, PAIRS):
             padded, real = part(corners - first)
             for i in range(0, padded, AT_ONCE):
-                fetch(movers, pairs, CORNER_MOVERS + first + i, s, WHO + i, PAIRS)
+                fetch(movers, pairs, CORNER_MOVERS + first + i, s, i, ASKS_CORNER)
                 for j in range(i, i + AT_ONCE, CORNER_FLOATS):
-                    fetch(model.corners, pairs, CORNER_IDS + first + j, s, ID + j, PAIRS)
+                    fetch(model.corners, pairs, CORNER_IDS + first + j, s, j, CORNER_PLACE)
             met = _meet_corners(s, radius, padded) & real
             met = _solid_corners(model, model.one_sided, radius, s, pairs, CORNER_IDS + first, met)
-            _keep(s, pairs, CORNER_MOVERS + first, met)
+            _keep(s, pairs, CORNER_MOVERS + first, met, True)
 
 
 @kernel
@@ -125,17 +135,17 @@ def _solid_corners(model, one_sided, radius, s, pairs, first, met):
 
 
 @kernel
-def _keep(s, pairs, first, met):
-    """Let balls keep the soonest of the contacts found: at equal times as ``line_impact.precedes`` says."""
+def _keep(s, pairs, first, met, corners):
+    """Let balls keep the soonest of contacts, all with edges or all with corners; see ``line_impact.precedes``."""
     while met > 0:
         j = lowest(met)
         met &= met - 1
         i = pairs[first + j]
         t, number, best, feature = s[T + j], s[ID + j], s[BEST + i], s[FEATURE + i]
-        # ``precedes`` without branches: edges by number, then corners, which are -2 - j.
-        edge_first = (number >= 0.0) & ((feature < 0.0) | (number < feature))
-        corner_first = (feature < NONE) & (number < 0.0) & (number > feature)
-        sooner = (t < best) | ((t == best) & (feature != NONE) & (edge_first | corner_first))
+        # At equal times, without branches: edges by number, then corners, which are -2 - j; nothing precedes NONE, -1.
+        after_edges = feature < NONE
+        precedes = (after_edges & (number > feature)) if corners else (after_edges | (number < feature))
+        sooner = (t < best) | ((t == best) & precedes)
         s[BEST + i] = t if sooner else best
         s[FEATURE + i] = number if sooner else feature
 
@@ -156,12 +166,12 @@ def _meet_arcs(model, arcs, radius, movers, s, pairs, listed):
     for first in range(0, listed, PAIRS):
         padded, real = part(listed - first)
         for i in range(0, padded, AT_ONCE):
-            fetch(movers, pairs, ARC_MOVERS + first + i, s, WHO + i, PAIRS)
-            fetch(arcs, pairs, ARC_IDS + first + i, s, ID + i, PAIRS)
+            fetch(movers, pairs, ARC_MOVERS + first + i, s, i, ASKS_ARC)
+            fetch(arcs, pairs, ARC_IDS + first + i, s, i, WHOLE_ARC)
         met, again = _meet_arcs_point(s, padded) if radius is None else _meet_arcs_disc(s, radius, padded)
         # Which of its sides stops a ball, and whether it has to leave it first, the scalar kernel knows.
         alone = one_way(model, model.one_sided, pairs, ARC_IDS + first, met & real)
-        _keep(s, pairs, ARC_MOVERS + first, met & real & ~alone)
+        _keep(s, pairs, ARC_MOVERS + first, met & real & ~alone, False)
         again = (again & real) | alone
         while again > 0:
             j = lowest(again)

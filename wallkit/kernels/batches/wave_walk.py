@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from wallkit.kernels.batches.wave_columns import (
+    ARC_IDS,
     ARCS,
     ASKING,
     AT,
@@ -13,17 +14,21 @@ from wallkit.kernels.batches.wave_columns import (
     BORDER_Y,
     CLEARING,
     COLUMN,
+    CORNER_IDS,
     CORNERS,
     CROSSES,
     END,
     FEATURE,
     FLIES,
     LANES,
+    LINE_IDS,
     NEXT,
     NEXT_ARC,
     NEXT_CORNER,
     NONE,
     OCTANT,
+    PAIRED,
+    PER_TURN,
     PER_U,
     PER_W,
     PX,
@@ -34,7 +39,8 @@ from wallkit.kernels.batches.wave_columns import (
     U,
     W,
 )
-from wallkit.kernels.index.grid import clearing_at, is_divided, leaf, moves_to_next, top_at
+from wallkit.kernels.batches.wave_pairs import LONG, SHORT, fill_up, list_cell, list_short, pair_all
+from wallkit.kernels.index.grid import clearing_at, is_divided, leaf, moves_to_next, top_number
 from wallkit.kernels.intrinsics import AT_ONCE, look_up, lowest, prefetch, prefetch_far
 from wallkit.kernels.jit import kernel, rare_kernel
 from wallkit.kernels.records import HALF, WIDEST
@@ -76,11 +82,10 @@ def decide(s, q, grid):
         # A contact before the border is final, and beyond the grid there is nothing more to find.
         turns = outside | (s[BEST + i] <= time)
         goes = (s[FLIES + i] == 1.0) & ((asking >> i) & 1 == 0)
-        column, row = int(0.0 if outside else x), int(0.0 if outside else y)
-        s[COLUMN + i], s[ROW + i] = float(column), float(row)
-        top = top_at(grid, column, row)
-        q[TOP + i] = top << grid.packed
-        q[AT + i] = clearing_at(grid, q[OCTANT + i], top)
+        column, row = np.floor(0.0 if outside else x), np.floor(0.0 if outside else y)
+        s[COLUMN + i], s[ROW + i] = column, row
+        q[TOP + i] = top_number(grid, column, row) * float(1 << grid.packed)
+        q[AT + i] = clearing_at(grid, q[OCTANT + i], q[TOP + i] >> grid.packed)
         q[CROSSES + i] = int(goes & (not turns))
         # Nothing met and nothing touched: its flight ends free.
         free = (s[FEATURE + i] == NONE) & (s[TOUCHED + i] == 0.0)
@@ -114,56 +119,90 @@ def _cross_clearings(model, s, q):
 
 @kernel
 def _enter(model, s, q, i):
-    """Enter the cell at the column and row of a ball."""
+    """Enter the cell at the column and row of a ball: its number."""
     if is_divided(model.cells[q[TOP + i]]):
         _enter_part(model, s, q, i)
-    else:
-        _open(model.cells, q, i, q[TOP + i])
+    return q[TOP + i]
 
 
 @rare_kernel
 def _enter_part(model, s, q, i):
-    """Enter a part of a divided cell, with the borders ahead as in ``grid.ahead``."""
+    """Enter a part of a divided cell, which takes the place of that, with the borders ahead as in ``grid.ahead``."""
     column, row = int(s[COLUMN + i]), int(s[ROW + i])
     cell, shift = leaf(model.cells, model.grid, column, row)
-    _open(model.cells, q, i, cell)
     far = moves_to_next(model.cells[cell]) << shift
     # The empty square is as wide to the left: from the cell's right border, or its upper one, back by `far`.
     near = (1 << shift) - far
     column, row = (column >> shift) << shift, (row >> shift) << shift
     s[BORDER_X + i] = float(column + (far if s[PER_U + i] > 0.0 else near))
     s[BORDER_Y + i] = float(row + (far if s[PER_W + i] > 0.0 else near))
+    q[TOP + i] = cell
 
 
 @kernel
 def _open(cells, q, i, cell):
-    """Look at what a cell lists."""
+    """Note what a cell lists, to be paired later."""
     first, arcs, corners = cells[cell].first, cells[cell].arcs, cells[cell].corners
     q[NEXT + i], q[ARCS + i], q[NEXT_ARC + i], q[CORNERS + i] = first, arcs, arcs, corners
     q[NEXT_CORNER + i], q[END + i] = corners, cells[cell].end
 
 
-@kernel
-def cross(model, s, q, far):
-    """Let balls cross into clearings and cells."""
+@rare_kernel
+def cross(model, lists, radius, s, q, pairs, far):
+    """Let balls cross into clearings and cells, and pair them with what these list; from ``far`` that is done later."""
     entering = _cross_clearings(model, s, q)
-    q[ASKING] |= entering
+    short = model.arcs is None and len(lists) > 0
+    if not short:
+        _prefetch_ids(model, q, entering, far)
+    asking, listed = int(q[ASKING]), (0, 0, 0)
     while entering > 0:
         i = lowest(entering)
         entering &= entering - 1
-        _enter(model, s, q, i)
-        if far:
-            # The ids that the next turn pairs up.
-            prefetch_far(model.ids, q[NEXT + i])
-            prefetch_far(model.ids, q[NEXT + i] + (AT_ONCE - 1))  # so many are read at once, often from two lines
+        if short:
+            if lists[SHORT * q[TOP + i]] != LONG:
+                listed = list_short(radius, lists, q[TOP + i], i, pairs, listed)
+                continue
+        cell = _enter(model, s, q, i)
+        record = model.cells[cell]
+        if far or record.first + PER_TURN < record.end:
+            _open(model.cells, q, i, cell)
+            asking |= 1 << i
+        else:
+            listed = list_cell(model, radius, record, i, pairs, listed)
+    q[ASKING] = asking
+    if not far:
+        pair_rest(model, radius, q, pairs, listed)
 
 
 @kernel
-def prefetch_cells(model, q, far):
+def _prefetch_ids(model, q, entering, far):
+    """Prefetch the ids that cells list, of all balls that enter one, before the first is paired with them."""
+    while entering > 0:
+        i = lowest(entering)
+        entering &= entering - 1
+        first = model.cells[q[TOP + i]].first
+        _prefetch_one(model.ids, first, far)
+        _prefetch_one(model.ids, first + (AT_ONCE - 1), far)  # so many are read at once, often from two lines
+
+
+@kernel
+def pair_rest(model, radius, q, pairs, listed):
+    """Pair balls with what they have still to ask, behind the pairs that are listed, and note how many there are."""
+    if q[ASKING] > 0:
+        listed = pair_all(model, radius, q, pairs, listed)
+    fill_up(model.ids, pairs, listed)
+    q[PAIRED], q[PAIRED + 1], q[PAIRED + 2] = listed
+
+
+@kernel
+def prefetch_cells(model, lists, q, far):
     """Prefetch what balls need when they cross, while others turn."""
     for i in range(LANES):
         _prefetch_one(model.clearings, q[AT + i], far)
-    if model.grid.packed == 0:
+    if len(lists) > 0:
+        for i in range(LANES):
+            prefetch(lists, SHORT * q[TOP + i])
+    elif model.grid.packed == 0:
         for i in range(LANES):
             _prefetch_one(model.cells, q[TOP + i], far)
 
@@ -177,20 +216,15 @@ def _prefetch_one(records, place, far):
 
 
 @kernel
-def prefetch_listed(model, radius, q):
-    """Prefetch the records that are listed in the cells which the balls of another wave have entered."""
-    asking = int(q[ASKING])
-    while asking > 0:
-        i = lowest(asking)
-        asking &= asking - 1
-        _prefetch_records(model.lines, model.ids, q[NEXT + i], q[ARCS + i])
-        _prefetch_records(model.arcs, model.ids, q[NEXT_ARC + i], q[CORNERS + i])
-        if radius is not None:
-            _prefetch_records(model.corners, model.ids, q[NEXT_CORNER + i], q[END + i])
+def prefetch_listed(model, q, pairs):
+    """Prefetch the records that the balls of another wave are paired with."""
+    _prefetch_records(model.lines, pairs, LINE_IDS, q[PAIRED])
+    _prefetch_records(model.arcs, pairs, ARC_IDS, q[PAIRED + 1])
+    _prefetch_records(model.corners, pairs, CORNER_IDS, q[PAIRED + 2])
 
 
 @kernel
-def _prefetch_records(records, ids, first, end):
+def _prefetch_records(records, pairs, first, count):
     if records is not None:
-        for at in range(first, end):
-            prefetch_far(records, ids[at])
+        for k in range(count):
+            prefetch_far(records, pairs[first + k])

@@ -78,23 +78,27 @@ def _pair_up(to: Emitter, ids: Value, at: Maybe, who: Maybe, pairs: Value, where
     return NOTHING
 
 
-def _fetch(to: Emitter, records: Value, ids: Value, first: Maybe, columns: Value, where: Maybe, step: Maybe) -> Value:
+def _fetch(
+    to: Emitter, records: Value, ids: Value, first: Maybe, columns: Value, where: Maybe,
+    wanted: tuple[tuple[int, int], ...],
+) -> Value:  # fmt: skip
     """One load for each record, and one store for each column."""
     size = records.type.dtype.itemsize // 8
     floats, words = f"<{size} x double>", f"<{size} x i32>"
-    found, rows = "poison", []
     if ids.type.dtype.itemsize != 4:
         raise UnknownError("ids of another size")
     # A record is one cache line: whole rows are loaded, and turned into columns in registers.
-    for j in range(size):
-        _kind, number = _read(to, ids, _index(to, first, j))
-        found = to.emit(f"insertelement {words} {found}, i32 {number}, i32 {j}")
-        row = unchecked_place(to, records, to.emit(f"zext i32 {number} to i64"))
-        rows.append(to.emit(f"load {floats}, ptr {row}, align 8"))
-    at, apart = _index(to, where), _index(to, step)
-    for k, column in enumerate([to.emit(f"uitofp {words} {found} to {floats}"), *_transposed(to, floats, rows)]):
-        place = to.emit(f"add i64 {at}, {to.emit(f'mul i64 {apart}, {k}')}")
-        to.do(f"store {floats} {column}, ptr {unchecked_place(to, columns, place)}, align 8")
+    found = to.emit(f"load {words}, ptr {unchecked_place(to, ids, _index(to, first))}, align 4")
+    rows = [
+        to.emit(
+            f"load {floats}, ptr {unchecked_place(to, records, _read_index(to, ids, _index(to, first, j)))}, align 8"
+        )
+        for j in range(size)
+    ]
+    numbers = [to.emit(f"uitofp {words} {found} to {floats}"), *_transposed(to, floats, rows)]
+    for k, begin in wanted:  # LLVM leaves out what nobody wants
+        place = unchecked_place(to, columns, _index(to, where, begin))
+        to.do(f"store {floats} {numbers[k]}, ptr {place}, align 8")
     return NOTHING
 
 

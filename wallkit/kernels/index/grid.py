@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from wallkit.kernels.impact.arc_impact import scan_arcs_disc, scan_arcs_point
 from wallkit.kernels.impact.line_impact import scan_corners, scan_disc, scan_point
 from wallkit.kernels.jit import kernel
@@ -131,6 +133,14 @@ def clearing(clearings, grid, octant, column, row):
 def top_at(grid, column, row):
     """Number of the cell, not part of another one, at a place in units."""
     return (row >> grid.shift) * grid.columns + (column >> grid.shift)
+
+
+@kernel
+def top_number(grid, column, row):
+    """As ``top_at`` for whole units that are floats: a float, exactly; vectors of integers of 64 bits are slow."""
+    # A side is a power of two, and there are less than 2^32 cells.
+    per_size = 1.0 / (1 << grid.shift)
+    return np.floor(row * per_size) * float(grid.columns) + np.floor(column * per_size)
 
 
 @kernel
