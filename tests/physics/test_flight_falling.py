@@ -13,6 +13,7 @@ from wallkit.kernels.impact.gravity_impact import fall_corners
 from wallkit.kernels.impact.polynomial_roots import NEVER
 from wallkit.kernels.records import NO_HIT, Corner, in_lists
 from wallkit.simulation.edge_records import arcs_of, lines_of
+from wallkit.simulation.run import ContactKind
 
 ROOM = [[0, 0], [0, 280], [400, 280], [400, 0]]
 
@@ -158,3 +159,23 @@ def test_a_point_that_runs_along_an_overhang_off_its_end_meets_no_face_that_look
         run = simulate(Scene(walls, Balls([start], [velocity]), gravity=(0.0, -30.0)), until=30.0)
         assert run.ending[0] != Ending.LEFT_SCENE, back
         assert run.contacts["x"].min() > 0.0, back
+
+
+@pytest.mark.parametrize("mode", ["interpreted", "compiled"])
+@pytest.mark.parametrize("arms", [0, 80])  # few edges, and so many that there is an index
+def test_a_point_meets_no_corner_though_the_discs_of_its_scene_do(mode, arms):
+    # It falls down a side into the corner below, where it hops on the floor: by sqrt(2 h / g), and then by 2 e^k of it.
+    x = 50.0 + 2.0 * np.arange(arms)
+    lines = [ROOM, *np.stack([np.stack([x, x + 1.0], axis=1), np.full((arms, 2), 20.0)], axis=2)]
+    walls = Walls.from_polylines(lines, closed=[True] + [False] * arms, material=Material(0.8, 0.9))
+    balls = Balls([[0.0, 280.0], [200.0, 140.0]], [[0.0, 0.0], [3.0, 1.0]], radius=[0.0, 0.5])
+    scene = Scene(walls, balls, gravity=(0.0, -100.0))
+    run = simulate(scene, bounces=9, mode=mode)
+    hops = run.contacts_of(0)
+    hops = hops[hops["kind"] == ContactKind.EDGE]
+    first = math.sqrt(2 * 280 / 100)
+    expected = first * (1 + 2 * np.cumsum([0.0, *0.8 ** np.arange(1, 9)]))
+    np.testing.assert_allclose(hops["time"], expected, rtol=1e-14)
+    assert (hops["edge"] == 3).all()
+    assert not (run.contacts_of(0)["kind"] == ContactKind.VERTEX).any()
+    assert survey(scene, bounces=9).position[0].tolist() == run.position(float(hops["time"][-1]))[0].tolist()

@@ -78,6 +78,15 @@ def test_corners_stay_however_short_their_sides():
     assert (cover[distances(shapely.MultiPoint(steps)) < 0.3] > 0).all()
 
 
+@pytest.mark.parametrize("times", [(1, 2, 1), (1, 3, 2), (2, 2, 2)])
+def test_corners_stay_whose_point_is_there_several_times(times):
+    # So a path is given of a ball that meets two walls of a corner at one time.
+    corner = np.array([(20.0, 30.0), (220.5, 30.0), (220.5, 180.0)])
+    line = np.repeat(corner, times, axis=0)
+    cover = whole(stroke([line, line[::-1]], 2.6, SIZE))  # the second line begins where the first one ends
+    assert np.abs(cover - shares(shapely.LineString(corner).buffer(1.3, quad_segs=64))).max() < 0.3
+
+
 def test_a_stroke_far_beyond_the_picture_is_clipped():
     cover = whole(stroke([np.array([(150.0, 100.0), (1e7, 100.0)])], 2.0, SIZE))
     assert (cover[99:101, 152:] == 1).all()

@@ -31,7 +31,8 @@ class PreparedScene:
     """A scene made ready by :func:`prepare`: checked, in local coordinates, indexed.
 
     Attributes:
-        scene: what it was made of; what is changed in it later is not seen.
+        scene: what it was made of; what is changed in its walls later is not seen. The arrays of its balls are read by
+            each survey as they are then: other balls need another call.
         modelled: what the kernels see of it.
         order: (n,) in which the balls are flown, None for as they come.
         sensors: what the kernels see of the sensors, None where there are none.

@@ -105,7 +105,8 @@ def _telling(points: FloatArray) -> NDArray[np.bool_]:
 
     A corner that turns by a, with sides of length s, is s a / 2 from the line beside it; of a curve of such corners one
     in n is n^2 s a / 8 from its chord. So sqrt(s a / (2 OFF)) is added up, and points are kept where that passes a
-    whole number: what is left is nowhere more than OFF away.
+    whole number: what is left is nowhere more than OFF away. From a point to the same one there is no direction, and
+    so no turn: of such a corner the first alone is asked.
     """
     kept = np.ones(len(points), dtype=np.bool_)
     if len(points) < 3:
@@ -113,6 +114,10 @@ def _telling(points: FloatArray) -> NDArray[np.bool_]:
     with np.errstate(invalid="ignore", over="ignore"):  # what has no place is left out later
         x, y = np.diff(points, axis=0).T
         length = np.hypot(x, y)
+        if not length.all():
+            kept[1:] = length != 0.0
+            kept[kept] = _telling(points[kept])
+            return kept
         turn = np.abs(np.arctan2(x[:-1] * y[1:] - y[:-1] * x[1:], x[:-1] * x[1:] + y[:-1] * y[1:]))
     passed = np.floor(np.cumsum(np.sqrt(turn * np.maximum(length[1:], length[:-1]) / (2 * _OFF))))
     kept[1:-1] = np.diff(passed, prepend=0.0) != 0.0

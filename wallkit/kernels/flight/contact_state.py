@@ -205,9 +205,10 @@ def _met(model, grid, radius, held, side, last, rho, ex, ey, tx, ty, x, y, start
         model, model.arcs, cell.arcs, cell.corners, radius, held, side, last, rho, ex, ey, tx, ty, x, y, start_of,
         tolerance, best, feature,
     )  # fmt: skip
-    best, feature = meet_corners(
-        model, cell.corners, cell.end, radius, held, rho, ex, ey, tx, ty, x, y, tolerance, best, feature
-    )
+    if radius > 0.0:  # corners are listed for the discs of a scene; a point meets none
+        best, feature = meet_corners(
+            model, cell.corners, cell.end, radius, held, rho, ex, ey, tx, ty, x, y, tolerance, best, feature
+        )
     return (best, feature) if feature != NO_HIT else (way, event)
 
 

@@ -93,7 +93,7 @@ def _fall_scan(
             model.arcs, model.ids, cell.arcs, cell.corners, model.one_sided, model.edge_wall, radius,
             x, y, vx, vy, gx, gy, drag, far, last, skipped, tolerance, reference, now, until, best, feature,
         )  # fmt: skip
-    if cell.corners < cell.end:
+    if cell.corners < cell.end and radius > 0.0:  # listed for the discs of a scene; a point meets no corner
         best, feature = fall_corners(
             model.corners, model.ids, cell.corners, cell.end, model.one_sided, model.corner_wall, model.fans,
             radius, x, y, vx, vy, gx, gy, drag, far, last, tolerance, now, until, best, feature,
