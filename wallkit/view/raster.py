@@ -21,6 +21,8 @@ from wallkit.view.theme import RAMP_STEPS, STYLES, Theme, colour, ramp
 
 _TOGETHER = 100
 """Points of strokes that are looked for at once, about: those of many points take their time alone as well."""
+_DASHES = 20_000
+"""Dashes of a line, at most."""
 _ANCHORS = {"start": "ls", "middle": "ms", "end": "rs"}
 
 
@@ -173,7 +175,7 @@ def _font(size: float) -> ImageFont.FreeTypeFont:
 def _dashes(line: FloatArray, dash: float, gap: float) -> list[FloatArray]:
     """Cut a polyline into dashes."""
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
-    cuts = np.arange(0.0, length[-1], dash + gap)[:20_000]
+    cuts = np.arange(math.ceil(min(length[-1] / (dash + gap), _DASHES))) * (dash + gap)
 
     def at(places: FloatArray) -> FloatArray:
         return np.stack([np.interp(places, length, line[:, 0]), np.interp(places, length, line[:, 1])], axis=1)
