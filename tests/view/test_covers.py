@@ -10,7 +10,7 @@ from PIL import Image
 from wallkit.view import pixels as picture
 from wallkit.view.areas import fill, ring
 from wallkit.view.pixels import Pixels
-from wallkit.view.strokes import stroke, strokes
+from wallkit.view.strokes import strokes
 
 SIZE = (300, 200)
 
@@ -18,6 +18,12 @@ SIZE = (300, 200)
 def star(points, x=150.0, y=100.0):
     angle = np.arange(points) * 4 * np.pi / points + 0.1
     return np.stack([x + 90 * np.cos(angle), y + 90 * np.sin(angle)], axis=1)
+
+
+def stroke(lines, width, size, round_ends=True):
+    """What one group of lines covers; None for nothing."""
+    spots = strokes([lines], width, size, round_ends=round_ends)[0]
+    return spots if len(spots.place) else None
 
 
 def whole(cover):

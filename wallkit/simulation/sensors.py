@@ -148,11 +148,11 @@ class Sensors:
         return np.concatenate(parts)
 
     def _compiles(self, flights: int, pulled: bool) -> bool:
-        if flights > WORTH_COMPILING:
-            return True
+        if not WORTH_LOADING < flights <= WORTH_COMPILING:
+            return flights > WORTH_COMPILING
         pull = np.empty(2) if pulled else None
         kinds = kinds_of((self._modelled.model, pull, np.empty(6), pull, 0, np.empty(9)))
-        return flights > WORTH_LOADING and at_hand(compile_for, note_crossings, *kinds)
+        return at_hand(compile_for, note_crossings, *kinds)
 
     def _contacts(self, rows: FloatArray, ball: IntArray) -> NDArray[Any]:
         """Make ``CONTACT`` of rows of ``Crossing``, and their balls."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from wallkit.geometry.arrays import FloatArray, IntArray
+from wallkit.geometry.ragged import numbered
 from wallkit.view.cover import Mask, Runs, box_at, box_of
 
 _ROWS = 4  # rows of samples a pixel of a fill
@@ -62,8 +63,8 @@ def _crossings(a: FloatArray, b: FloatArray, rows: int) -> tuple[IntArray, Float
     low, high = np.where(down, a, b), np.where(down, b, a)
     first = np.clip(np.ceil(low[:, 1] * _ROWS - 0.5), 0, rows).astype(np.int64)
     count = np.maximum(0, np.clip(np.ceil(high[:, 1] * _ROWS - 0.5), 0, rows).astype(np.int64) - first)
-    edge = np.repeat(np.arange(len(a)), count)
-    row = first[edge] + np.arange(len(edge)) - np.repeat(np.cumsum(count) - count, count)
+    edge, rank = numbered(count)
+    row = first[edge] + rank
     with np.errstate(divide="ignore", invalid="ignore"):
         lean = (high[:, 0] - low[:, 0]) / (high[:, 1] - low[:, 1])
     return row, low[edge, 0] + ((row + 0.5) / _ROWS - low[edge, 1]) * lean[edge]

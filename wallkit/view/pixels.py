@@ -98,10 +98,10 @@ class Pixels:
 
     def rgb(self) -> NDArray[np.uint8]:
         """Give the pixels as (height, width, 3)."""
-        channels = np.empty((*self.values.shape, 3), dtype=np.uint8)
-        for channel in range(3):  # one by one, which is five times as fast as all in one step
-            channels[:, :, channel] = self.values.view(np.uint8)[:, channel::4]
-        return channels
+        height, width = self.values.shape
+        channels = np.empty((height, 3 * width), dtype=np.uint8)
+        _spread_channels(self.values, channels)
+        return channels.reshape(height, width, 3)
 
     def image(self) -> Image:
         """Give the pixels as an image of Pillow's."""
@@ -118,9 +118,8 @@ class Pixels:
         pack, packed = zlib.compressobj(_LEVEL), list[bytes]()
         rows = np.zeros((_BAND, 3 * width + 1), dtype=np.uint8)  # each begins with its filter: none
         for band in slices(height, _BAND):
-            pixels = self.values.view(np.uint8)[band]
-            for channel in range(3):  # one by one, which is five times as fast as all in one step
-                rows[: len(pixels), channel + 1 :: 3] = pixels[:, channel::4]
+            pixels = self.values[band]
+            _spread_channels(pixels, rows[: len(pixels), 1:])
             packed.append(pack.compress(rows[: len(pixels)].data))
         head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)  # eight bits of red, green and blue
         parts = ((b"IHDR", head), (b"IDAT", b"".join([*packed, pack.flush()])), (b"IEND", b""))
@@ -128,6 +127,12 @@ class Pixels:
             struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
             for name, data in parts
         )
+
+
+def _spread_channels(pixels: NDArray[np.uint32], into: NDArray[np.uint8]) -> None:
+    """Write the three channels of pixels (h, w) side by side (h, 3 w)."""
+    for channel in range(3):  # one by one, which is five times as fast as all in one step
+        into[:, channel::3] = pixels.view(np.uint8)[:, channel::4]
 
 
 def number_of(colour: str) -> int:

@@ -25,12 +25,6 @@ _COVERS = np.rint(np.arange(_SHADES + 1) * (255 / _SHADES)).astype(np.uint8)
 Narrow = NDArray[np.float32]
 
 
-def stroke(lines: list[FloatArray], width: float, size: tuple[int, int], *, round_ends: bool = True) -> Spots | None:
-    """Draw polylines (n, 2) with round joints, all together as one area: see :func:`strokes`; None covers nothing."""
-    spots = strokes([lines], width, size, round_ends=round_ends)[0]
-    return spots if len(spots.place) else None
-
-
 def strokes(
     groups: list[list[FloatArray]], width: float, size: tuple[int, int], *, round_ends: bool = True
 ) -> list[Spots]:
@@ -50,18 +44,19 @@ def strokes(
     segments = _segments(groups, round_ends)
     lines, of, rank = _lines(segments, width, size)
     step = np.arange(math.floor(2.0 * lines.reach.max(initial=0.0)) + 1.0)
-    near, group = list[Spots](), list[NDArray[np.uint16]]()
+    near, groups_of = list[Spots](), list[NDArray[np.uint16]]()
     for some in slices(len(of), _AT_ONCE // len(step)):
         columns = _columns(lines, segments.cut, of[some], rank[some])
         found, spots = _near(columns, step, width)
         near.append(spots)
         if len(groups) > 1:
-            group.append(segments.group[of[some]][found % len(columns.top)])
+            groups_of.append(segments.group[of[some]][found % len(columns.top)])
     place, cover = map(np.concatenate, zip(*near, strict=True))
     if len(groups) == 1:
         return [Spots(place, cover)]
-    order = np.argsort(np.concatenate(group), kind="stable")
-    stops = np.cumsum(np.bincount(np.concatenate(group), minlength=len(groups)))
+    group = np.concatenate(groups_of)
+    order = np.argsort(group, kind="stable")
+    stops = np.cumsum(np.bincount(group, minlength=len(groups)))
     return [Spots(place[some], cover[some]) for some in np.split(order, stops[:-1])]
 
 

@@ -104,8 +104,7 @@ def _number_chains(edge_wall, along, octant, chain):
     first, latest, before = 0, 0, 0
     for e in range(len(edge_wall)):
         bits = int(along[e])
-        # Along the octant, or against it, or neither.
-        side = ((bits >> octant) & 1) + 2 * ((bits >> (octant ^ 3)) & 1)
+        side = _side(bits, octant)
         if edge_wall[e] != edge_wall[first]:
             first = e
         if bits & JOINED == 0 or side != before:
@@ -114,9 +113,14 @@ def _number_chains(edge_wall, along, octant, chain):
         ends = e + 1 == len(edge_wall) or edge_wall[e + 1] != edge_wall[first]
         if ends and bits & ROUND != 0 and chain[first] != MANY:
             # The last chain of a closed wall goes on in its first one, if both are on the same side.
-            begins = int(along[first])
-            if ((begins >> octant) & 1) + 2 * ((begins >> (octant ^ 3)) & 1) == side:
+            if _side(int(along[first]), octant) == side:
                 k = e
                 while chain[k] == latest and k > first:
                     chain[k] = chain[first]
                     k -= 1
+
+
+@kernel
+def _side(bits, octant):
+    """Tell whether all normals of an edge are along an octant, 1, or against it, 2, or neither, 0."""
+    return ((bits >> octant) & 1) + 2 * ((bits >> (octant ^ 3)) & 1)
